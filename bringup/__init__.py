@@ -1,0 +1,1 @@
+"""Two robots in a MuJoCo world: launch files, parameters, worlds and nodes to copy."""

@@ -1,0 +1,1 @@
+"""Launches, checks and supervises systems of ROS 2 nodes."""
