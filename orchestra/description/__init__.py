@@ -1,0 +1,1 @@
+"""What a user may write, as frozen models without behaviour."""

@@ -1,0 +1,191 @@
+"""What can be wrong, and how it is told.
+
+A fault in what the user wrote is a `Problem`, reported to the `Problems` collector that every stage is handed.
+Everything else stops by raising:
+
+    OrchestraError
+    ├── DescriptionError    the collected problems; raised once, by the pipeline   exit status 2
+    ├── UsageError          the command line makes no sense                        exit status 2
+    └── RunError            a run could not be carried out                         exit status 1
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import TYPE_CHECKING
+
+from orchestra.location import Location, Span
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+
+class Severity(StrEnum):
+    """How much a problem weighs: an error keeps everything from starting."""
+
+    ERROR = "error"
+    WARNING = "warning"
+
+
+class Code(StrEnum):
+    """The stable code of each kind of problem."""
+
+    UNREADABLE_FILE = "ORC001"
+    SYNTAX = "ORC002"
+    DUPLICATE_KEY = "ORC003"
+    UNKNOWN_KEY = "ORC004"
+    WRONG_TYPE = "ORC005"
+    MISSING_KEY = "ORC006"
+    UNKNOWN_ACTION = "ORC007"
+    UNKNOWN_SUBSTITUTION = "ORC008"
+    SUBSTITUTION_SYNTAX = "ORC009"
+    BAD_VALUE = "ORC010"
+    CONFLICTING_KEYS = "ORC011"
+    UNKNOWN_FORMAT = "ORC012"
+    SURPRISING_SCALAR = "ORC013"
+
+    UNDEFINED_VARIABLE = "ORC020"
+    UNSET_ENVIRONMENT = "ORC021"
+    MISSING_ARGUMENT = "ORC022"
+    NOT_A_CHOICE = "ORC023"
+    UNKNOWN_ARGUMENT = "ORC024"
+    UNREAD_ARGUMENT = "ORC025"
+    LEAKED_VALUE = "ORC026"
+    BAD_CONDITION = "ORC027"
+    INCLUDE_CYCLE = "ORC028"
+    MISSING_FILE = "ORC029"
+    MISSING_PACKAGE = "ORC030"
+    MISSING_EXECUTABLE = "ORC031"
+    BAD_EXPRESSION = "ORC032"
+    COMMAND_FAILED = "ORC033"
+    BAD_NAME = "ORC034"
+    NO_CURRENT_FILE = "ORC035"
+
+    PARAMETER_SYNTAX = "ORC040"
+    PARAMETER_TYPE = "ORC041"
+    DUPLICATE_PARAMETER = "ORC042"
+    UNMATCHED_SECTION = "ORC043"
+    OVERRULED_PARAMETER = "ORC044"
+    DEAD_REMAP = "ORC045"
+
+    DUPLICATE_NODE = "ORC050"
+    DEPENDENCY_CYCLE = "ORC051"
+    UNKNOWN_DEPENDENCY = "ORC052"
+    NEVER_READY = "ORC053"
+    MIDDLEWARE = "ORC054"
+
+
+@dataclass(frozen=True, slots=True)
+class Problem:
+    """One thing that is wrong.
+
+    `suggestion` is the text that should stand in place of the span, where one is known. `included_from` lists the
+    include actions that led to the file, innermost first.
+    """
+
+    code: Code
+    severity: Severity
+    message: str
+    span: Span | None = None
+    included_from: tuple[Span, ...] = ()
+    suggestion: str | None = None
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(slots=True)
+class Problems:
+    """Collects the problems of one pass; the same problem at the same place is kept once."""
+
+    _found: dict[tuple[object, ...], Problem] = field(default_factory=dict)
+
+    def report(self, problem: Problem) -> None:
+        """Keep a problem unless the same one stands already at this place."""
+        key = (problem.code, problem.span, problem.message, problem.included_from)
+        self._found.setdefault(key, problem)
+
+    def error(
+        self,
+        code: Code,
+        message: str,
+        at: Location | Span | None = None,
+        *,
+        suggestion: str | None = None,
+        notes: Iterable[str] = (),
+    ) -> None:
+        """Report an error at a place."""
+        self.report(_problem(Severity.ERROR, code, message, at, suggestion, notes))
+
+    def warning(
+        self,
+        code: Code,
+        message: str,
+        at: Location | Span | None = None,
+        *,
+        suggestion: str | None = None,
+        notes: Iterable[str] = (),
+    ) -> None:
+        """Report a warning at a place."""
+        self.report(_problem(Severity.WARNING, code, message, at, suggestion, notes))
+
+    def extend(self, problems: Iterable[Problem]) -> None:
+        """Take over problems that another collector found."""
+        for problem in problems:
+            self.report(problem)
+
+    def __iter__(self) -> Iterator[Problem]:
+        return iter(self._found.values())
+
+    def __len__(self) -> int:
+        return len(self._found)
+
+    @property
+    def errors(self) -> tuple[Problem, ...]:
+        """The problems that keep everything from starting, in the order in which they were found."""
+        return tuple(problem for problem in self if problem.severity is Severity.ERROR)
+
+    @property
+    def ordered(self) -> tuple[Problem, ...]:
+        """All problems: by file in the order of first mention, then by place."""
+        files: dict[str, int] = {}
+        for problem in self:
+            files.setdefault(problem.span.file if problem.span else "", len(files))
+
+        def key(problem: Problem) -> tuple[int, int, int]:
+            span = problem.span
+            return (files[span.file], span.line, span.column) if span else (files[""], 0, 0)
+
+        return tuple(sorted(self, key=key))
+
+
+class OrchestraError(Exception):
+    """The root of what Orchestra raises on purpose."""
+
+
+class DescriptionError(OrchestraError):
+    """What the user wrote cannot be run; `problems` says why."""
+
+    def __init__(self, problems: tuple[Problem, ...]) -> None:
+        super().__init__(f"{len(problems)} problems")
+        self.problems = problems
+
+
+class UsageError(OrchestraError):
+    """The command line makes no sense."""
+
+
+class RunError(OrchestraError):
+    """A run could not be carried out."""
+
+
+def _problem(
+    severity: Severity,
+    code: Code,
+    message: str,
+    at: Location | Span | None,
+    suggestion: str | None,
+    notes: Iterable[str],
+) -> Problem:
+    span = at.span if isinstance(at, Location) else at
+    included_from = at.included_from if isinstance(at, Location) else ()
+    return Problem(code, severity, message, span, included_from, suggestion, tuple(notes))

@@ -1,0 +1,1 @@
+"""From files to descriptions: one module per format, positions kept from the parser."""

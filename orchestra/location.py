@@ -1,0 +1,43 @@
+"""Where a value was written: spans in files, and the includes on the way to them."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True, order=True)
+class Span:
+    """A range of text. Lines and columns are 1-based, columns count code points, the end is exclusive."""
+
+    file: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}"
+
+
+@dataclass(frozen=True, slots=True)
+class Location:
+    """A span, and the include actions that led to its file, innermost first."""
+
+    span: Span
+    included_from: tuple[Span, ...] = ()
+
+    def __str__(self) -> str:
+        return str(self.span)
+
+
+def point(file: str, line: int = 1, column: int = 1) -> Span:
+    """Return the empty span at one place."""
+    return Span(file, line, column, line, column)
+
+
+def displayed(path: str) -> str:
+    """Return the path as it is shown to people: relative where it is below the working directory."""
+    absolute = os.path.realpath(path)
+    prefix = os.path.join(os.path.realpath(os.getcwd()), "")  # noqa: PTH118, PTH109 - pathlib is slow to import
+    return absolute.removeprefix(prefix)

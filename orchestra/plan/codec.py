@@ -1,0 +1,138 @@
+"""Plans as JSON and back, with the standard library alone."""
+
+from __future__ import annotations
+
+import dataclasses
+import json
+import types
+import typing
+from enum import Enum
+from functools import cache
+from typing import Any
+
+from orchestra.errors import Problem
+from orchestra.location import Location, Span
+from orchestra.plan import model
+
+
+def dumps(plan: model.Plan, *, indent: int | None = None) -> str:
+    """Return the plan as JSON: the same plan always gives the same text."""
+    return json.dumps(encode(plan), indent=indent, ensure_ascii=False)
+
+
+def loads(text: str | bytes) -> model.Plan:
+    """Read a plan that `dumps` wrote. Raises `ValueError` where it is not one of this version."""
+    document = json.loads(text)
+    if not isinstance(document, dict) or document.get("version") != model.VERSION:
+        raise ValueError(f"not a plan of version {model.VERSION}")
+    plan: model.Plan = decode(model.Plan, document)
+    return plan
+
+
+def encode(value: Any) -> Any:  # noqa: ANN401 - JSON
+    """Return JSON data for a value made of the plan's dataclasses."""
+    if isinstance(value, Location):
+        return {**_plain_span(value.span), "included_from": [_start(span) for span in value.included_from]}
+    if isinstance(value, Problem):
+        return encode_problem(value)
+    if isinstance(value, Enum):
+        return value.value
+    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+        return {entry.name: encode(getattr(value, entry.name)) for entry in dataclasses.fields(value)}
+    if isinstance(value, dict):
+        return {key: encode(item) for key, item in value.items()}
+    if isinstance(value, tuple | list):
+        return [encode(item) for item in value]
+    return value
+
+
+def encode_problem(problem: Problem) -> dict[str, Any]:
+    """Return the flat JSON form of a problem; the places are null where it has none."""
+    span = problem.span
+    place = _plain_span(span) if span else dict.fromkeys(("file", "line", "column", "end_line", "end_column"))
+    return {
+        "code": problem.code.value,
+        "severity": problem.severity.value,
+        "message": problem.message,
+        **place,
+        "suggestion": problem.suggestion,
+        "notes": list(problem.notes),
+        "included_from": [_start(at) for at in problem.included_from],
+    }
+
+
+def decode(kind: Any, data: Any) -> Any:  # noqa: ANN401 - JSON
+    """Build a value of a type of the plan from JSON data."""
+    if kind is Location:
+        return Location(_span(data), tuple(_span(at) for at in data["included_from"]))
+    if kind is Problem:
+        return _problem(data)
+    origin = typing.get_origin(kind)
+    if origin in (types.UnionType, typing.Union):
+        return _decode_union(kind, data)
+    if origin is tuple:
+        return tuple(decode(typing.get_args(kind)[0], item) for item in data)
+    if origin is dict:
+        return {key: decode(typing.get_args(kind)[1], item) for key, item in data.items()}
+    if _is_record(kind):
+        return kind(**{name: decode(hint, data[name]) for name, hint in _hints(kind).items()})
+    return data
+
+
+def _is_record(kind: Any) -> bool:  # noqa: ANN401 - a type of any form
+    return dataclasses.is_dataclass(kind)
+
+
+@cache
+def _hints(kind: type) -> dict[str, Any]:
+    return typing.get_type_hints(kind)
+
+
+def _decode_union(kind: Any, data: Any) -> Any:  # noqa: ANN401 - JSON
+    """Choose the alternative: actions by their `action`, lists become tuples, scalars stay."""
+    if data is None:
+        return None
+    alternatives = [item for item in typing.get_args(kind) if item is not type(None)]
+    if isinstance(data, dict):
+        records = [item for item in alternatives if _is_record(item)]
+        if len(records) > 1:
+            records = [
+                item for item in records if typing.get_args(_hints(item)["action"])[0] == data["action"]
+            ]
+        return decode(records[0] if records else alternatives[0], data)
+    if isinstance(data, list):
+        pairs = [item for item in alternatives if typing.get_origin(item) is tuple]
+        return decode(pairs[0], data) if len(pairs) == 1 else tuple(data)
+    return data
+
+
+def _plain_span(span: Span) -> dict[str, Any]:
+    return {
+        "file": span.file,
+        "line": span.line,
+        "column": span.column,
+        "end_line": span.end_line,
+        "end_column": span.end_column,
+    }
+
+
+def _start(span: Span) -> dict[str, Any]:
+    return {"file": span.file, "line": span.line, "column": span.column}
+
+
+def _span(data: dict[str, Any]) -> Span:
+    line, column = data["line"], data["column"]
+    return Span(data["file"], line, column, data.get("end_line", line), data.get("end_column", column))
+
+
+def _problem(data: dict[str, Any]) -> Problem:
+    hints = _hints(Problem)
+    return Problem(
+        code=hints["code"](data["code"]),
+        severity=hints["severity"](data["severity"]),
+        message=data["message"],
+        span=_span(data) if data["file"] is not None else None,
+        included_from=tuple(_span(at) for at in data["included_from"]),
+        suggestion=data["suggestion"],
+        notes=tuple(data["notes"]),
+    )

@@ -1,0 +1,242 @@
+"""The plan: everything a run needs to know, as frozen data.
+
+The supervisor reads it as JSON (`orchestra.plan.codec`), so this module needs the standard library alone. Lists are
+tuples, mappings are plain dicts that nobody changes. `${run}` in a path stands for the run directory.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import Literal, TypeAlias
+
+from orchestra.errors import Problem
+from orchestra.location import Location
+
+VERSION = 1
+
+Kind: TypeAlias = Literal["process", "node", "lifecycle_node", "container"]
+Scalar: TypeAlias = bool | int | float | str
+ParameterValue: TypeAlias = Scalar | tuple[bool, ...] | tuple[int, ...] | tuple[float, ...] | tuple[str, ...]
+Condition: TypeAlias = Literal["started", "ready", "completed", "exited"]
+SkipReason: TypeAlias = Literal["if", "unless"]
+
+
+@dataclass(frozen=True, slots=True)
+class Argument:
+    """A launch argument that the description declares. `value` is None where the run needs one and has none."""
+
+    name: str
+    default: str | None
+    value: str | None
+    description: str | None
+    choices: tuple[str, ...] | None
+    location: Location
+
+
+@dataclass(frozen=True, slots=True)
+class Dependency:
+    """The process starts only when `process` (a plan id) has reached `condition`; `timeout` in seconds."""
+
+    process: str
+    condition: Condition
+    timeout: float | None
+    location: Location
+
+
+@dataclass(frozen=True, slots=True)
+class Ready:
+    """When a running process counts as ready: one of `log` (a regular expression on its lines) and `message`.
+
+    `message` is a fully qualified topic whose first message is awaited. `timeout` in seconds, None for ever.
+    """
+
+    log: str | None
+    message: str | None
+    timeout: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Restart:
+    """When an ended process starts again. Delays in seconds; `budget` None is without end.
+
+    Upstream's `respawn` is `always`; the delay is the least one and doubles up to `max_delay` while runs stay
+    shorter than `min_uptime`.
+    """
+
+    policy: Literal["no", "on-failure", "always"]
+    delay: float = 0.0
+    max_delay: float = 30.0
+    min_uptime: float = 10.0
+    budget: int | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """How the process is ended: `signal`, after `timeout` s SIGTERM, after another `kill_timeout` s SIGKILL."""
+
+    signal: str = "SIGINT"
+    timeout: float = 2.0
+    kill_timeout: float = 1.5
+
+
+@dataclass(frozen=True, slots=True)
+class ParameterFile:
+    """Parameter sections passed on unchanged for other nodes in the process."""
+
+    path: str
+    content: str
+
+
+@dataclass(frozen=True, slots=True)
+class Candidate:
+    """A value somebody wrote for a setting, and whether it is the one that counts."""
+
+    value: ParameterValue | None
+    location: Location
+    won: bool
+    rule: str
+
+
+@dataclass(frozen=True, slots=True)
+class Provenance:
+    """Where the values of a process were written."""
+
+    name: Location | None = None
+    namespace: Location | None = None
+    parameters: dict[str, tuple[Candidate, ...]] = field(default_factory=dict)
+    remappings: tuple[Location, ...] = ()
+    environment: dict[str, tuple[Candidate, ...]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class Process:
+    """One process to run.
+
+    `id` is the full node name, else namespace and name or executable, with `#2` for repeats in plan order.
+    `command` is the exact argv; with `shell` it is joined with spaces and given to the shell. `environment` holds
+    what the description adds (text) or removes (None). `parameters` are the node's effective values; the file that
+    carries them is `${run}/params/NAME.yaml` and stands in `command`.
+    """
+
+    id: str
+    kind: Kind
+    package: str | None
+    executable: str
+    name: str | None
+    namespace: str | None
+    command: tuple[str, ...]
+    shell: bool
+    prefix: tuple[str, ...]
+    environment: dict[str, str | None]
+    cwd: str | None
+    parameters: dict[str, ParameterValue]
+    parameter_files: tuple[ParameterFile, ...]
+    remappings: tuple[tuple[str, str], ...]
+    arguments: tuple[str, ...]
+    output: str | None
+    emulate_tty: bool | None
+    stdin: bool | None
+    restart: Restart | None
+    required: bool
+    success_exit_codes: tuple[int, ...] | None
+    ready: Ready | None
+    alive: None
+    lifecycle: None
+    depends_on: tuple[Dependency, ...]
+    stop: Stop | None
+    limits: None
+    warm: None
+    machine: None
+    digest: str
+    location: Location
+    provenance: Provenance
+
+
+@dataclass(frozen=True, slots=True)
+class TriggerEvent:
+    """What sets a trigger off: the start of the run, or every end of one process."""
+
+    event: Literal["run_started", "process_exited"]
+    target: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class LogAction:
+    """Tell the user something."""
+
+    message: str
+    location: Location
+    action: Literal["log"] = "log"
+
+
+@dataclass(frozen=True, slots=True)
+class StartAction:
+    """Start a process of the plan, which then does not start with the run."""
+
+    process: str
+    location: Location
+    action: Literal["start"] = "start"
+
+
+@dataclass(frozen=True, slots=True)
+class ShutdownAction:
+    """End the run."""
+
+    reason: str
+    location: Location
+    action: Literal["shutdown"] = "shutdown"
+
+
+TriggeredAction: TypeAlias = LogAction | StartAction | ShutdownAction
+
+
+@dataclass(frozen=True, slots=True)
+class Trigger:
+    """Actions to carry out `delay` seconds after an event."""
+
+    on: TriggerEvent
+    do: tuple[TriggeredAction, ...]
+    delay: float | None
+    deferred: bool
+    location: Location
+
+
+@dataclass(frozen=True, slots=True)
+class Skipped:
+    """An action that its condition left out; `expression` is the condition as written, `value` what it came to."""
+
+    action: str
+    name: str | None
+    condition: SkipReason
+    expression: str
+    value: str
+    location: Location
+
+
+@dataclass(frozen=True, slots=True)
+class Component:
+    """A component to load into a container."""
+
+    name: str | None
+    namespace: str | None
+    package: str
+    plugin: str
+    container: str
+    parameters: dict[str, ParameterValue]
+    remappings: tuple[tuple[str, str], ...]
+    location: Location
+    provenance: Provenance
+
+
+@dataclass(frozen=True, slots=True)
+class Plan:
+    """What a run will do."""
+
+    version: int
+    file: str
+    arguments: tuple[Argument, ...]
+    processes: tuple[Process, ...]
+    components: tuple[Component, ...]
+    triggers: tuple[Trigger, ...]
+    skipped: tuple[Skipped, ...]
+    problems: tuple[Problem, ...]

@@ -1,0 +1,99 @@
+"""What an evaluation sees: variables, environment, the current file, packages, and the collector of problems."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from typing import Final, Protocol, TypeAlias
+
+from orchestra.errors import Problems
+from orchestra.location import Location, Span
+
+
+@dataclass(frozen=True, slots=True)
+class Value:
+    """A text that evaluation gave, and where it was written."""
+
+    text: str
+    location: Location
+
+
+class Poison:
+    """What a faulty value evaluates to: its fault is reported, so nothing that uses it reports again."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        return "POISON"
+
+
+POISON: Final = Poison()
+
+Evaluated: TypeAlias = Value | Poison
+
+
+class Variables(Protocol):
+    """The launch configurations of the current scope."""
+
+    def get(self, name: str, reader: Location) -> Evaluated | None:
+        """Return the value, None where it is unset; `reader` is the place that asks."""
+
+    def names(self) -> tuple[str, ...]:
+        """Return the names that are set, for suggestions."""
+
+
+class Packages(Protocol):
+    """Where packages are on this machine."""
+
+    def prefix(self, package: str) -> str | None:
+        """Return the install prefix, None for an unknown package."""
+
+    def share(self, package: str) -> str | None:
+        """Return the share folder, None for an unknown package."""
+
+    def executable(self, package: str, executable: str) -> tuple[str, ...] | None:
+        """Return the words of the command that starts it, None where the package has no such executable."""
+
+    def names(self) -> tuple[str, ...]:
+        """Return the names of all packages, for suggestions."""
+
+    def executables(self, package: str) -> tuple[str, ...]:
+        """Return the names of the package's executables, for suggestions."""
+
+
+@dataclass(frozen=True, slots=True)
+class CommandResult:
+    """What a finished command left behind; `failure` says why where it could not run or ran too long."""
+
+    status: int
+    stdout: str
+    stderr: str
+    failure: str | None = None
+
+
+CommandRunner: TypeAlias = Callable[[tuple[str, ...], Mapping[str, str]], CommandResult]
+
+
+@dataclass(slots=True)
+class Context:
+    """The state in which a text is evaluated.
+
+    `file` is the absolute path of the launch file that is being read, `included_from` the chain of includes to it,
+    innermost first. `anonymous` remembers the names that `$(anon)` made. `parameters` are the values that
+    `set_parameter` put in scope, for `$(param)`.
+    """
+
+    problems: Problems
+    variables: Variables
+    environment: Mapping[str, str]
+    packages: Packages
+    run_command: CommandRunner
+    file: str | None = None
+    included_from: tuple[Span, ...] = ()
+    log_folder: str = "${run}/logs"
+    anonymous: dict[str, str] = field(default_factory=dict)
+    parameters: Mapping[str, str] = field(default_factory=dict)
+
+    def at(self, span: Span) -> Location:
+        """Return the location of a span of the current file."""
+        return Location(span, self.included_from)

@@ -1,0 +1,46 @@
+"""What the caller hands to a resolution besides the description."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+from orchestra.location import Span
+
+
+@dataclass(frozen=True, slots=True)
+class GivenArgument:
+    """A launch argument `name:=value`; the span is in the pseudo-file `command line`."""
+
+    name: str
+    value: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class GivenParameter:
+    """A parameter `NODE:NAME:=VALUE`; `node` is a full node name or one relative to the root."""
+
+    node: str
+    name: str
+    value: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class GivenFile:
+    """A parameter file of the command line, for every node."""
+
+    path: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Inputs:
+    """The command line and the environment of one resolution."""
+
+    environment: Mapping[str, str]
+    arguments: tuple[GivenArgument, ...] = ()
+    parameters: tuple[GivenParameter, ...] = ()
+    parameter_files: tuple[GivenFile, ...] = ()
+    required: bool = field(default=True)  # whether a required argument without a value is an error
