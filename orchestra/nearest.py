@@ -1,0 +1,37 @@
+"""What was probably meant: the nearest of the words that would have been right."""
+
+from __future__ import annotations
+
+from difflib import SequenceMatcher
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+_LEAST_LIKENESS = 0.6
+
+
+def nearest(word: str, candidates: Iterable[str]) -> str | None:
+    """Return the candidate most like the word, None where none is near. Case, `-` and `_` weigh nothing."""
+    folded = _folded(word)
+    best, best_likeness = None, _LEAST_LIKENESS
+    for candidate in sorted(set(candidates)):
+        if candidate == word:
+            continue
+        likeness = _likeness(folded, _folded(candidate))
+        if likeness > best_likeness:
+            best, best_likeness = candidate, likeness
+    return best
+
+
+def _folded(word: str) -> str:
+    return word.lower().replace("-", "_")
+
+
+def _likeness(word: str, candidate: str) -> float:
+    if not word or not candidate:
+        return 0.0
+    matcher = SequenceMatcher(None, word, candidate, autojunk=False)
+    if matcher.real_quick_ratio() <= _LEAST_LIKENESS or matcher.quick_ratio() <= _LEAST_LIKENESS:
+        return 0.0
+    return matcher.ratio()
