@@ -1,0 +1,77 @@
+"""One line of a source file with marks under a part of it, as a terminal shows it."""
+
+from __future__ import annotations
+
+import unicodedata
+from dataclasses import dataclass
+from itertools import accumulate
+
+_TAB = 4
+_WIDEST = 140
+_BEFORE = 40  # cells kept before the mark where a line is cut
+_REPLACEMENT = "\ufffd"
+_CUT = "…"
+
+
+@dataclass(frozen=True, slots=True)
+class Snippet:
+    """A source line as shown, and the line of marks under it."""
+
+    source: str
+    marks: str
+
+
+def snippet(line: str, column: int, end_column: int | None) -> Snippet:
+    """Mark the columns of a line (1-based, the end exclusive, None for the rest of the line).
+
+    Tabs become spaces, characters that would move the cursor become U+FFFD, wide characters take two cells, and a
+    line that is too long for any terminal is cut around the mark.
+    """
+    shown = _shown(line)
+    cells = list(accumulate((_width(piece) for piece in shown), initial=0))
+    first = min(column - 1, len(shown))
+    last = len(shown) if end_column is None else min(end_column - 1, len(shown))
+    left, right = _window(cells, first, last)
+    source = _CUT * (left > 0) + "".join(shown[left:right]) + _CUT * (right < len(shown))
+    before = cells[first] - cells[left] + (left > 0)
+    marked = cells[min(last, right)] - cells[first] if last > first else 0
+    return Snippet(source.rstrip(), " " * before + "^" * max(marked, 1))
+
+
+def _shown(line: str) -> list[str]:
+    """Return what to print for each character."""
+    shown: list[str] = []
+    cell = 0
+    for character in line:
+        shown.append(_printable(character, cell))
+        cell += _width(shown[-1])
+    return shown
+
+
+def _printable(character: str, cell: int) -> str:
+    if character == "\t":
+        return " " * (_TAB - cell % _TAB)
+    return _REPLACEMENT if unicodedata.category(character) in ("Cc", "Cf", "Cs", "Zl", "Zp") else character
+
+
+def _width(text: str) -> int:
+    return sum(_cells(character) for character in text)
+
+
+def _cells(character: str) -> int:
+    """Return how many cells of a terminal a character takes (Unicode annex 11)."""
+    if unicodedata.combining(character) or unicodedata.category(character) in ("Mn", "Me"):
+        return 0
+    return 2 if unicodedata.east_asian_width(character) in ("W", "F") else 1
+
+
+def _window(cells: list[int], first: int, last: int) -> tuple[int, int]:
+    """Return the range of characters to show so that the mark's beginning is in sight."""
+    end = len(cells) - 1
+    if cells[end] <= _WIDEST:
+        return 0, end
+    left = next(index for index in range(end + 1) if cells[index] >= cells[first] - _BEFORE)
+    right = (
+        next((index for index in range(left, end + 1) if cells[index] > cells[left] + _WIDEST), end + 1) - 1
+    )
+    return left, max(right, min(first + 1, last, end))

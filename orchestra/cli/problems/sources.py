@@ -1,0 +1,38 @@
+"""The lines of the files that problems point into."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import TypeAlias
+
+Sources: TypeAlias = Callable[[str, int], str | None]
+
+
+def from_files(given: dict[str, str] | None = None) -> Sources:
+    """Return a function from a file and a 1-based line to its text, None where there is no such line.
+
+    `given` holds the text of files that exist only in the caller's mind, such as the command line. Each file is read
+    once; one that cannot be read has no lines, for the problem that names it says so.
+    """
+    read = {file: _lines(text) for file, text in (given or {}).items()}
+
+    def line(file: str, number: int) -> str | None:
+        if file not in read:
+            read[file] = _lines(_text(Path(file)))
+        lines = read[file]
+        return lines[number - 1] if 0 < number <= len(lines) else None
+
+    return line
+
+
+def _text(path: Path) -> str:
+    try:
+        return path.read_text("utf-8-sig", errors="replace")
+    except (OSError, ValueError):
+        return ""
+
+
+def _lines(text: str) -> list[str]:
+    """Split at the line breaks of YAML 1.2 and XML; reading in text mode has made them all one character."""
+    return text.split("\n")

@@ -1,0 +1,56 @@
+"""Problems for people: place, what is wrong, the line with a mark under it, what would be right, the includes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.cli.problems.snippet import snippet
+from orchestra.errors import Problem, Severity
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from orchestra.cli.colour import Paint
+    from orchestra.cli.problems.sources import Sources
+    from orchestra.location import Span
+
+
+def render(problems: Sequence[Problem], sources: Sources, paint: Paint) -> str:
+    """Return the problems as text, an empty line between two, with a line of counts at the end."""
+    if not problems:
+        return ""
+    blocks = ["".join(f"{line}\n" for line in _block(problem, sources, paint)) for problem in problems]
+    return "\n".join([*blocks, f"{counts(problems)}\n"])
+
+
+def counts(problems: Sequence[Problem]) -> str:
+    """Return how many there are of each severity: `2 errors, 1 warning`."""
+    numbers = [(sum(problem.severity is severity for problem in problems), severity) for severity in Severity]
+    return ", ".join(f"{number} {severity}{'s' * (number != 1)}" for number, severity in numbers if number)
+
+
+def _block(problem: Problem, sources: Sources, paint: Paint) -> Iterator[str]:
+    severity = paint(problem.severity.value, f"{problem.severity}:")
+    place = paint("strong", f"{problem.span}: ") if problem.span else ""
+    yield f"{place}{severity} {paint('strong', problem.message)} [{problem.code}]"
+    if problem.span:
+        yield from _source(problem.span, problem.severity, sources, paint)
+    if problem.suggestion is not None:
+        yield f"{paint('help', 'help:')} did you mean '{problem.suggestion}'?"
+    for note in problem.notes:
+        yield f"{paint('strong', 'note:')} {note}"
+    for include in problem.included_from:
+        yield paint("faint", f"included from {include}")
+
+
+def _source(span: Span, severity: Severity, sources: Sources, paint: Paint) -> Iterator[str]:
+    """Yield the first line of the span with marks; a span of several lines is marked to the end of its first."""
+    line = sources(span.file, span.line)
+    if line is None:
+        return
+    end_column = span.end_column if span.end_line == span.line else None
+    shown = snippet(line, span.column, end_column)
+    number = f"{span.line:>5}"
+    yield f"{paint('faint', number + ' |')} {shown.source}"
+    more = " ..." if span.end_line > span.line else ""
+    yield f"{paint('faint', ' ' * len(number) + ' |')} {paint(severity.value, shown.marks + more)}"
