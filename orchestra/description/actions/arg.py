@@ -1,0 +1,26 @@
+"""`arg`: declares a launch argument."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from orchestra.description.entity import Action, Entity
+from orchestra.description.fields import Literal, Text
+
+
+class Choice(Entity):
+    """One of the values that an argument may have."""
+
+    value: Literal
+
+
+class Arg(Action):
+    """A launch argument, from here on visible as `$(var NAME)`."""
+
+    name: Literal
+    default: Text | None = Field(default=None, description="Value where the caller gives none.")
+    description: Literal | None = None
+    choice: tuple[Choice, ...] | None = Field(default=None, min_length=1)
+    choices: tuple[Literal, ...] | None = Field(
+        default=None, min_length=1, description="The values it may have."
+    )

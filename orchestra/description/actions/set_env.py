@@ -1,0 +1,13 @@
+"""`set_env`: sets an environment variable."""
+
+from __future__ import annotations
+
+from orchestra.description.entity import Action
+from orchestra.description.fields import Text
+
+
+class SetEnv(Action):
+    """Set an environment variable for every process that follows in this scope."""
+
+    name: Text
+    value: Text

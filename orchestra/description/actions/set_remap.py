@@ -1,0 +1,15 @@
+"""`set_remap`: adds a remapping to every node."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from orchestra.description.entity import Action
+from orchestra.description.fields import Text
+
+
+class SetRemap(Action):
+    """Add a remapping rule to every node that follows in this scope, before the node's own rules."""
+
+    from_: Text = Field(alias="from")
+    to: Text

@@ -1,0 +1,19 @@
+"""`timer`: actions after a while."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from orchestra.description.entity import Action
+from orchestra.description.fields import Flag, Seconds
+from orchestra.description.nested import Children
+
+
+class Timer(Action):
+    """Actions to carry out some seconds after the run has started."""
+
+    period: Seconds = Field(description="Seconds from the start of the run.")
+    cancel_on_shutdown: Flag | None = Field(
+        default=None, description="Whether a shutdown cancels it (default)."
+    )
+    children: Children = Field(description="The actions.")

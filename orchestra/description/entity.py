@@ -1,0 +1,115 @@
+"""The root of the models, and how it reads what a loader hands over.
+
+A faulty key does not hide the rest of an entity: it is reported and left out, and the entity is marked `faulty`, so
+that later stages report nothing that only follows from it. Reporting itself is the loader's business (`Reader`).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any, Protocol, Self
+
+from pydantic import (
+    BaseModel,
+    ConfigDict,
+    Field,
+    ModelWrapValidatorHandler,
+    PrivateAttr,
+    ValidationError,
+    ValidationInfo,
+    model_validator,
+)
+from pydantic_core import ErrorDetails, PydanticCustomError
+
+from orchestra.description.fields import Flag
+from orchestra.description.source import Keyed
+from orchestra.location import Span
+
+REPORTED = "reported"
+
+
+class FaultReader(Protocol):
+    """The part of a loader that entities talk to."""
+
+    def unknown_key(self, known: frozenset[str], mapping: Keyed, key: str) -> None:
+        """Report a key that the entity does not have."""
+
+    def faults(self, mapping: Keyed, errors: Sequence[ErrorDetails]) -> set[str]:
+        """Report what is wrong with the values, return the keys that are concerned."""
+
+
+class Entity(BaseModel):
+    """Something a user writes: an action, or a part of one."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True)
+
+    _span: Span = PrivateAttr()
+    _faulty: bool = PrivateAttr(default=False)
+
+    @property
+    def span(self) -> Span:
+        """Where the entity stands."""
+        return self._span
+
+    @property
+    def faulty(self) -> bool:
+        """Whether a part of the entity was wrong and has been left out."""
+        return self._faulty
+
+    @classmethod
+    def known_keys(cls) -> frozenset[str]:
+        """Return the keys that a user may write."""
+        return frozenset(entry.alias or name for name, entry in cls.model_fields.items())
+
+    @model_validator(mode="wrap")
+    @classmethod
+    def _read(cls, data: Any, handler: ModelWrapValidatorHandler[Self], info: ValidationInfo) -> Self:  # noqa: ANN401 - whatever stands in the file
+        if not isinstance(data, Keyed):
+            return handler(data)
+        reader: FaultReader | None = info.context
+        if reader is None:
+            raise TypeError("mappings are read with a loader as the validation context")
+        known = cls.known_keys()
+        values = {key: value for key, value in data.items() if key in known}
+        for key in data:
+            if key not in known:
+                reader.unknown_key(known, data, key)
+        faulty = len(values) < len(data)
+        try:
+            entity = handler(values)
+        except ValidationError as error:
+            faulty = True
+            entity = _without_faults(data, values, handler, reader, error)
+        entity._span = data.head  # noqa: SLF001 - its own class
+        entity._faulty = faulty  # noqa: SLF001 - its own class
+        return entity
+
+
+class Action(Entity):
+    """What a launch description is made of."""
+
+    if_: Flag | None = Field(
+        default=None, alias="if", description="Carry the action out only if this is true."
+    )
+    unless: Flag | None = Field(default=None, description="Carry the action out only if this is false.")
+
+    @model_validator(mode="after")
+    def _one_condition(self) -> Self:
+        if self.if_ is not None and self.unless is not None:
+            raise PydanticCustomError("conflict", "`if` and `unless` cannot stand on one action")
+        return self
+
+
+def _without_faults(
+    data: Keyed,
+    values: dict[str, Any],
+    handler: ModelWrapValidatorHandler[Any],
+    reader: FaultReader,
+    error: ValidationError,
+) -> Any:  # noqa: ANN401 - the entity
+    """Report the faults and read the entity again without the keys they concern."""
+    wrong = reader.faults(data, error.errors(include_url=False))
+    try:
+        return handler({key: value for key, value in values.items() if key not in wrong})
+    except ValidationError:
+        raise PydanticCustomError(REPORTED, "reported") from None

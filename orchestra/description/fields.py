@@ -1,0 +1,148 @@
+"""The types of the models' fields: texts with substitutions, and texts that must come to something narrower.
+
+A value may always be written as a substitution, so each field holds a `Template`; what can be checked without
+evaluating (a constant) is checked when the file is read.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from typing import Annotated, Protocol, TypeAlias
+
+from pydantic import PlainValidator, ValidationInfo, WithJsonSchema
+from pydantic_core import PydanticCustomError
+
+from orchestra.description.source import Written, kind_of
+from orchestra.description.text import Template, Words
+
+TRUE_WORDS = frozenset({"true", "1", "yes", "on"})
+FALSE_WORDS = frozenset({"false", "0", "no", "off"})
+
+_SUBSTITUTION = {"type": "string", "pattern": r"\$\("}
+_TEXT = {"type": ["string", "number", "boolean"]}
+
+
+class TextReader(Protocol):
+    """The part of a loader that knows the substitution grammar."""
+
+    def template(self, written: Written) -> Template:
+        """Read a text with substitutions."""
+
+    def literal(self, written: Written) -> str:
+        """Read a text without substitutions: escapes are taken away."""
+
+
+def _text(value: object, info: ValidationInfo) -> Template:
+    if isinstance(value, Template):
+        return value
+    return _reader(info).template(_scalar(value, "text"))
+
+
+def _literal(value: object, info: ValidationInfo) -> Template:
+    if isinstance(value, Template):
+        return value
+    written = _scalar(value, "text")
+    words = Words(_reader(info).literal(written), written.span)
+    return Template((words,), written.text, written.span, quoted=written.quoted)
+
+
+def _reader(info: ValidationInfo) -> TextReader:
+    reader: TextReader | None = info.context
+    if reader is None:
+        raise TypeError("texts are read with a loader as the validation context")
+    return reader
+
+
+def _scalar(value: object, wanted: str) -> Written:
+    if not isinstance(value, Written) or value.null:
+        raise PydanticCustomError(
+            "wrong_type", "expected {wanted}, found {found}", {"wanted": wanted, "found": kind_of(value)}
+        )
+    return value
+
+
+def _constant_of(wanted: str, accepts: Callable[[str], bool]) -> Callable[[object, ValidationInfo], Template]:
+    """Return a validator of texts that checks constants."""
+
+    def validate(value: object, info: ValidationInfo) -> Template:
+        if not isinstance(value, Template):
+            _scalar(value, wanted)
+        template = _text(value, info)
+        constant = template.constant
+        if constant is not None and not accepts(constant):
+            raise PydanticCustomError(
+                "wrong_type", "expected {wanted}, found {found}", {"wanted": wanted, "found": f"`{constant}`"}
+            )
+        return template
+
+    return validate
+
+
+def _is_flag(text: str) -> bool:
+    return text.strip().lower() in TRUE_WORDS | FALSE_WORDS
+
+
+def _is_duration(text: str) -> bool:
+    try:
+        number = float(text)
+    except ValueError:
+        return False
+    return math.isfinite(number) and number >= 0
+
+
+def _is_integer(text: str) -> bool:
+    try:
+        int(text)
+    except ValueError:
+        return False
+    return True
+
+
+def any_value(value: object, info: ValidationInfo) -> Template | tuple[Template, ...]:
+    """Read a scalar or a list of scalars."""
+    if isinstance(value, tuple):
+        return value
+    if isinstance(value, list):
+        return tuple(_text(item, info) for item in value)
+    return _text(value, info)
+
+
+Text: TypeAlias = Annotated[Template, PlainValidator(_text), WithJsonSchema(_TEXT)]
+Literal: TypeAlias = Annotated[Template, PlainValidator(_literal), WithJsonSchema(_TEXT)]
+Flag: TypeAlias = Annotated[
+    Template,
+    PlainValidator(_constant_of("true or false", _is_flag)),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                {"type": "boolean"},
+                {"enum": [0, 1]},
+                {"enum": sorted(TRUE_WORDS | FALSE_WORDS)},
+                _SUBSTITUTION,
+            ]
+        }
+    ),
+]
+Seconds: TypeAlias = Annotated[
+    Template,
+    PlainValidator(_constant_of("a number of seconds", _is_duration)),
+    WithJsonSchema(
+        {"anyOf": [{"type": "number", "minimum": 0}, {"type": "string", "pattern": r"\$\(|^[0-9.eE+-]+$"}]}
+    ),
+]
+Integer: TypeAlias = Annotated[
+    Template,
+    PlainValidator(_constant_of("a whole number", _is_integer)),
+    WithJsonSchema({"anyOf": [{"type": "integer"}, {"type": "string", "pattern": r"\$\(|^[+-]?[0-9]+$"}]}),
+]
+AnyValue: TypeAlias = Annotated[
+    Template | tuple[Template, ...],
+    PlainValidator(any_value),
+    WithJsonSchema({"anyOf": [_TEXT, {"type": "array", "items": _TEXT}]}),
+]
+
+
+def word(*words: str) -> Callable[[object, ValidationInfo], Template]:
+    """Return a validator for one of a few words."""
+    return _constant_of("one of " + ", ".join(words), lambda text: text in words)

@@ -1,0 +1,132 @@
+"""Parts that several actions share."""
+
+from __future__ import annotations
+
+from typing import Annotated, Self
+
+from pydantic import Field, PlainValidator, WithJsonSchema, model_validator
+from pydantic_core import PydanticCustomError
+
+from orchestra.description.entity import Entity
+from orchestra.description.fields import AnyValue, Flag, Integer, Seconds, Text, word
+from orchestra.description.text import Template
+
+CONDITIONS = ("started", "ready", "completed", "exited")
+POLICIES = ("no", "on-failure", "always")
+VALUE_TYPES = (
+    "str",
+    "bool",
+    "int",
+    "float",
+    "list_of_str",
+    "list_of_bool",
+    "list_of_int",
+    "list_of_float",
+    "yaml",
+)
+
+
+class Pair(Entity):
+    """A name and a value."""
+
+    name: Text
+    value: Text
+
+
+class Remap(Entity):
+    """One remapping rule of a topic, a service or an action."""
+
+    from_: Text = Field(alias="from", description="The name that the node uses.")
+    to: Text = Field(description="The name that it shall use instead.")
+
+
+class Param(Entity):
+    """A parameter: a name with a value, a name with nested parameters, or a file (`from`)."""
+
+    name: Text | None = Field(
+        default=None, description="Name of the parameter, or of the level above `param`."
+    )
+    value: AnyValue | None = Field(default=None, description="A scalar or a list of scalars of one type.")
+    type: (
+        Annotated[Template, PlainValidator(word(*VALUE_TYPES)), WithJsonSchema({"enum": list(VALUE_TYPES)})]
+        | None
+    ) = Field(default=None, description="Read the value as this type instead of by its looks.")
+    param: tuple[Param, ...] | None = Field(default=None, description="Nested parameters.")
+    from_: Text | None = Field(default=None, alias="from", description="A parameter file.")
+    allow_substs: Flag | None = Field(default=None, description="Whether `$(...)` in the file is evaluated.")
+
+    @model_validator(mode="after")
+    def _one_form(self) -> Self:
+        forms = [self.value is not None, self.param is not None, self.from_ is not None]
+        if sum(forms) != 1:
+            raise PydanticCustomError("conflict", "a param has one of `value`, `param` and `from`")
+        if (self.name is None) != (self.from_ is not None):
+            raise PydanticCustomError("conflict", "a param has either a `name` or a file (`from`)")
+        if self.allow_substs is not None and self.from_ is None:
+            raise PydanticCustomError("conflict", "`allow_substs` goes with `from`")
+        if self.type is not None and self.value is None:
+            raise PydanticCustomError("conflict", "`type` goes with `value`")
+        return self
+
+
+class DependsOn(Entity):
+    """Something that must have come about before this process starts."""
+
+    node: Text | None = Field(
+        default=None, description="A node, by its name seen from this node's namespace."
+    )
+    process: Text | None = Field(default=None, description="A process, by its name.")
+    label: Text | None = Field(default=None, description="Every process of the include with this label.")
+    condition: (
+        Annotated[Template, PlainValidator(word(*CONDITIONS)), WithJsonSchema({"enum": list(CONDITIONS)})]
+        | None
+    ) = Field(default=None, description="What is waited for; `started` where nothing is said.")
+    timeout: Seconds | None = Field(default=None, description="How long to wait, in seconds.")
+
+    @model_validator(mode="after")
+    def _one_target(self) -> Self:
+        if sum(target is not None for target in (self.node, self.process, self.label)) != 1:
+            raise PydanticCustomError("conflict", "a dependency names one of `node`, `process` and `label`")
+        return self
+
+
+class Ready(Entity):
+    """When a process counts as ready."""
+
+    message: Text | None = Field(default=None, description="The first message on this topic has come.")
+    log: Text | None = Field(
+        default=None, description="A line of its output matches this regular expression."
+    )
+    timeout: Seconds | None = Field(default=None, description="After so many seconds the run has failed.")
+
+    @model_validator(mode="after")
+    def _one_fact(self) -> Self:
+        if (self.message is None) == (self.log is None):
+            raise PydanticCustomError("conflict", "`ready` has one of `message` and `log`")
+        return self
+
+
+class Restart(Entity):
+    """When an ended process is started again."""
+
+    policy: Annotated[Template, PlainValidator(word(*POLICIES)), WithJsonSchema({"enum": list(POLICIES)})]
+    delay: Seconds | None = Field(default=None, description="Least delay before a new start, in seconds.")
+    max_delay: Seconds | None = Field(
+        default=None, description="What the growing delay stops at, in seconds."
+    )
+    min_uptime: Seconds | None = Field(
+        default=None, description="A run this long resets the delay, in seconds."
+    )
+    budget: Integer | None = Field(
+        default=None, description="How often it may start again; for ever where absent."
+    )
+
+
+class Stop(Entity):
+    """How a process is ended."""
+
+    signal: Text | None = Field(default=None, description="First signal; SIGINT where absent.")
+    timeout: Seconds | None = Field(default=None, description="Seconds until SIGTERM follows.")
+    kill_timeout: Seconds | None = Field(
+        default=None, description="Seconds from SIGTERM until SIGKILL follows."
+    )

@@ -1,0 +1,54 @@
+"""What `node` and `executable` have in common: how a process is run."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field, PlainValidator, WithJsonSchema
+
+from orchestra.description.entity import Action
+from orchestra.description.fields import Flag, Integer, Seconds, Text, word
+from orchestra.description.parts import DependsOn, Pair, Ready, Restart, Stop
+from orchestra.description.text import Template
+
+OUTPUTS = ("screen", "log", "both", "own_log", "full")
+_OUTPUT = {"anyOf": [{"enum": list(OUTPUTS)}, {"type": "string", "pattern": r"\$\("}]}
+
+
+class Running(Action):
+    """An action that starts a process."""
+
+    name: Text | None = Field(default=None, description="Name of the node, or label of the process.")
+    cwd: Text | None = Field(default=None, description="Working directory.")
+    env: tuple[Pair, ...] = Field(default=(), description="Environment variables of this process.")
+    launch_prefix: Text | None = Field(
+        default=None, description="Command that the process is started with, as gdb."
+    )
+    shell: Flag | None = Field(default=None, description="Whether a shell reads the command.")
+    emulate_tty: Flag | None = Field(default=None, description="Whether its output is a terminal.")
+    output: Annotated[Template, PlainValidator(word(*OUTPUTS)), WithJsonSchema(_OUTPUT)] | None = Field(
+        default=None, description="Where its output goes; `both` (screen and log) where absent."
+    )
+    on_exit: (
+        Annotated[Template, PlainValidator(word("shutdown")), WithJsonSchema({"enum": ["shutdown"]})] | None
+    ) = Field(default=None, description="End the run when the process ends.")
+    respawn: Flag | None = Field(default=None, description="Start it again whenever it ends.")
+    respawn_delay: Seconds | None = Field(
+        default=None, description="Least delay before a respawn, in seconds."
+    )
+    respawn_max_retries: Integer | None = Field(
+        default=None, description="Number of respawns; negative: for ever."
+    )
+    sigterm_timeout: Seconds | None = Field(default=None, description="Seconds from SIGINT to SIGTERM.")
+    sigkill_timeout: Seconds | None = Field(default=None, description="Seconds from SIGTERM to SIGKILL.")
+
+    depends_on: tuple[DependsOn, ...] = Field(
+        default=(), description="What must come about before it starts."
+    )
+    ready: Ready | None = Field(default=None, description="When it counts as ready.")
+    restart: Restart | None = Field(default=None, description="When it is started again.")
+    required: Flag | None = Field(default=None, description="Whether its end ends the run, with its status.")
+    stop: Stop | None = Field(default=None, description="How it is ended.")
+    success_exit_codes: tuple[Integer, ...] | None = Field(
+        default=None, description="Statuses that are no failure."
+    )
