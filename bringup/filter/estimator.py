@@ -1,0 +1,128 @@
+"""The state estimate: how single measurements are taken in and how time passes between them."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bringup.filter import kalman
+from bringup.filter.control import controlled
+from bringup.filter.measurement import Measurement
+from bringup.filter.settings import NANOSECONDS, Control, Estimation
+from bringup.filter.state import POSE, TWIST, Array, Indices
+
+_NO_COMMAND = (0.0,) * 6
+_PLACED_VARIANCE = 1e-6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Snapshot:
+    """An estimate at one moment; arrays are never changed in place, so they can be kept."""
+
+    stamp: int
+    state: Array
+    covariance: Array
+    command: tuple[float, ...] | None = None
+    commanded_at: int = 0
+
+
+class Estimator:
+    """State, covariance and the time (ns) they belong to.
+
+    The estimator is not initialised before its first measurement, which it takes over as it is.
+    """
+
+    def __init__(self, estimation: Estimation, control: Control | None = None) -> None:
+        self._estimation = estimation
+        self._control = control
+        self.reset()
+
+    def reset(self) -> None:
+        """Go back to the start: not initialised, with the configured initial state and covariance."""
+        self.initialised = False
+        self.stamp = 0
+        self.state: Array = self._estimation.initial_state.copy()
+        self.covariance: Array = self._estimation.initial_covariance.copy()
+        self.command: tuple[float, ...] | None = None
+        self.commanded_at = 0
+
+    def snapshot(self) -> Snapshot:
+        """Take down the present estimate."""
+        return Snapshot(self.stamp, self.state, self.covariance, self.command, self.commanded_at)
+
+    def restore(self, snapshot: Snapshot) -> None:
+        """Go back to an earlier estimate."""
+        self.stamp = snapshot.stamp
+        self.state = snapshot.state
+        self.covariance = snapshot.covariance
+        self.command = snapshot.command
+        self.commanded_at = snapshot.commanded_at
+
+    def process(self, measurement: Measurement) -> bool:
+        """Take in a measurement; tells whether the gate let it pass.
+
+        A measurement older than the estimate is applied to the present state. Entries that are not finite are
+        left out.
+        """
+        indices, values, noise = _finite(measurement)
+        if not self.initialised:
+            self._take_over(measurement.stamp, indices, values, noise)
+            return True
+        if measurement.stamp > self.stamp:
+            self.predict_to(measurement.stamp)
+        if len(indices) == 0:
+            return True
+        corrected = kalman.correct(
+            self.state, self.covariance, indices, values, noise, measurement.threshold
+        )
+        if corrected is None:
+            return False
+        self.state, self.covariance = corrected
+        return True
+
+    def predict_to(self, stamp: int) -> None:
+        """Move the estimate on to a time; a time that has passed already changes nothing."""
+        dt = (stamp - self.stamp) / NANOSECONDS
+        if dt <= 0.0:
+            return
+        noise = self._process_noise()
+        state = self._controlled(stamp, dt)
+        self.state, self.covariance = kalman.predict(state, self.covariance, noise, dt)
+        self.stamp = stamp
+
+    def place(self, stamp: int, pose: Array, covariance: Array) -> None:
+        """Put the robot at rest at a pose (x y z roll pitch yaw) with a 6x6 covariance."""
+        self.state = np.zeros_like(self.state)
+        self.state[POSE] = pose
+        self.covariance = np.eye(len(self.state)) * _PLACED_VARIANCE
+        self.covariance[POSE, POSE] = covariance
+        self.stamp = stamp
+
+    def _take_over(self, stamp: int, indices: Indices, values: Array, noise: Array) -> None:
+        self.state = self.state.copy()
+        self.state[indices] = values
+        self.covariance = self.covariance.copy()
+        self.covariance[np.ix_(indices, indices)] = noise
+        self.stamp = stamp
+        self.initialised = True
+
+    def _process_noise(self) -> Array:
+        noise = self._estimation.process_noise
+        if not self._estimation.dynamic_process_noise:
+            return noise
+        speed = self.state[TWIST]
+        scaled = noise.copy()
+        scaled[POSE, POSE] *= float(speed @ speed)
+        return scaled
+
+    def _controlled(self, stamp: int, dt: float) -> Array:
+        if self._control is None or self.command is None:
+            return self.state
+        late = stamp - self.commanded_at >= self._control.timeout
+        return controlled(self.state, self._control, _NO_COMMAND if late else self.command, dt)
+
+
+def _finite(measurement: Measurement) -> tuple[Indices, Array, Array]:
+    finite = np.isfinite(measurement.values)
+    if finite.all():
+        return measurement.indices, measurement.values, measurement.noise
+    return measurement.indices[finite], measurement.values[finite], measurement.noise[np.ix_(finite, finite)]

@@ -1,0 +1,66 @@
+"""Where a sensor's frame stands for a measurement: at its stamp, else at the newest time, else not at all."""
+
+from bringup.filter.rigid import IDENTITY, Transform
+from bringup.filter.transforms import TransformBuffer, TransformUnavailableError
+
+
+class FrameResolver:
+    """Looks transforms up as robot_localization does, and remembers those that cannot change."""
+
+    def __init__(self, buffer: TransformBuffer) -> None:
+        self._buffer = buffer
+        self._fixed: dict[tuple[str, str], Transform] = {}
+        self._asked: set[tuple[str, str]] = set()
+
+    @property
+    def buffer(self) -> TransformBuffer:
+        """The transforms that are known."""
+        return self._buffer
+
+    def forget(self) -> None:
+        """Look everything up anew: static transforms have changed."""
+        self._asked.update(self._fixed)
+        self._fixed.clear()
+
+    def between(self, target: str, source: str, stamp: int) -> Transform | None:
+        """Find the transform from source to target for a measurement of `stamp` (ns).
+
+        An empty source is the target itself. None means that the frames are not connected.
+        """
+        if source in {target, ""}:
+            return IDENTITY
+        fixed = self._fixed.get((target, source))
+        return fixed if fixed is not None else self._looked_up(target, source, stamp)
+
+    def needs_moving_transforms(self) -> bool:
+        """Whether any lookup so far found no way over static transforms alone."""
+        return bool(self._asked)
+
+    def known_at(self, target: str, source: str, stamp: int) -> bool:
+        """Whether the transform at exactly this time is known, or need not be."""
+        if source in {target, ""} or (target, source) in self._fixed:
+            return True
+        try:
+            self._buffer.lookup(target, source, stamp)
+        except TransformUnavailableError:
+            return False
+        return True
+
+    def _looked_up(self, target: str, source: str, stamp: int) -> Transform | None:
+        for time in (stamp, None):
+            try:
+                found = self._buffer.lookup(target, source, time)
+            except TransformUnavailableError:
+                continue
+            self._sort_in(target, source, found)
+            return found
+        self._asked.add((target, source))
+        return None
+
+    def _sort_in(self, target: str, source: str, found: Transform) -> None:
+        pair = (target, source)
+        if self._buffer.is_static(target, source):
+            self._fixed[pair] = found
+            self._asked.discard(pair)
+        else:
+            self._asked.add(pair)

@@ -1,0 +1,86 @@
+"""Measurements of state variables, and how a part's flags select them once the sensor's mounting is known."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from bringup.filter.settings import Flags
+from bringup.filter.state import OUT_OF_PLANE, Array, Indices
+
+# A turned flag counts from this share of an axis on.
+_NO_SHARE = 1e-6
+_PINNED_VARIANCE = 1e-6
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Measurement:
+    """Direct readings of the state variables `indices`, taken at `stamp` (ns).
+
+    `command` is the velocity command that was in force when the reading came in, if there was one.
+    """
+
+    stamp: int
+    part: str
+    indices: Indices
+    values: Array
+    noise: Array
+    threshold: float
+    command: tuple[float, ...] | None = None
+    commanded_at: int = 0
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Selection:
+    """Which entries of a part's own vector are fused, and as which state variables.
+
+    With `two_d_mode` the variables that leave the plane follow, as zeros with a variance of 1e-6 that are
+    independent of what is measured (upstream leaves the message's correlations in place, which can make the
+    covariance indefinite).
+    """
+
+    indices: Indices
+    entries: Indices
+    source: Indices
+    target: Indices
+    noise: Array
+
+    def values(self, vector: Array) -> Array:
+        """Select from the part's vector."""
+        count = len(self.entries)
+        chosen = np.zeros(len(self.indices))
+        chosen[:count] = vector[self.entries]
+        return chosen
+
+    def covariance(self, covariance: Array) -> Array:
+        """Select from the part's covariance."""
+        chosen = self.noise.copy()
+        chosen.put(self.target, covariance.take(self.source))
+        return chosen
+
+
+def select(flags: Flags, offset: int, *, two_d_mode: bool) -> Selection:
+    """Select the flagged entries of a part whose vector starts at state variable `offset`."""
+    flagged = [entry for entry, on in enumerate(flags) if on]
+    pinned = OUT_OF_PLANE if two_d_mode else ()
+    entries = [entry for entry in flagged if entry + offset not in pinned]
+    indices = [entry + offset for entry in entries] + list(pinned)
+    size, count = len(indices), len(entries)
+    width = len(flags)
+    noise = np.zeros((size, size))
+    noise[range(count, size), range(count, size)] = _PINNED_VARIANCE
+    return Selection(
+        indices=np.array(indices, dtype=np.intp),
+        entries=np.array(entries, dtype=np.intp),
+        source=np.array([row * width + column for row in entries for column in entries], dtype=np.intp),
+        target=np.array([row * size + column for row in range(count) for column in range(count)], dtype=np.intp),
+        noise=noise,
+    )
+
+
+def turned(flags: Flags, rotation: Array) -> Flags:
+    """Tell which axes see anything of the flagged ones after a rotation; three axes at a time."""
+    return tuple(
+        bool(np.linalg.norm(row * flags[start : start + 3]) >= _NO_SHARE)
+        for start in range(0, len(flags), 3)
+        for row in rotation
+    )

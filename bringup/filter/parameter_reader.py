@@ -1,0 +1,128 @@
+"""Takes single values out of a node's parameters, with their types checked and their defaults noted."""
+
+import math
+from collections.abc import Mapping, Sequence
+from typing import Protocol, TypeVar
+
+import numpy as np
+
+
+_Value = TypeVar("_Value")
+
+
+class ParameterError(Exception):
+    """A parameter makes it impossible to start; the text names it and says what is allowed."""
+
+
+class Report(Protocol):
+    """Where faults in parameters are told; an rclpy logger is one."""
+
+    def warning(self, message: str) -> object:
+        """Tell what is questionable but used."""
+
+    def error(self, message: str) -> object:
+        """Tell what is wrong and not used."""
+
+
+class Reader:
+    """Reads parameters by name and remembers each name with the value that is in force.
+
+    A value of the wrong type is told to the report and replaced by the default. Whole numbers count as doubles,
+    and any sequence of numbers as a list of doubles.
+    """
+
+    def __init__(self, values: Mapping[str, object], report: Report) -> None:
+        self._values = values
+        self.report = report
+        self.in_force: dict[str, object] = {}
+
+    def has(self, name: str) -> bool:
+        """Whether the parameter is set."""
+        return name in self._values
+
+    def unread(self) -> list[str]:
+        """Names that are set and that nobody has asked for."""
+        return sorted(name for name in self._values if name not in self.in_force)
+
+    def boolean(self, name: str, *, default: bool = False) -> bool:
+        """Read a true or false."""
+        value = self._values.get(name, default)
+        if not isinstance(value, bool):
+            value = self._refused(name, value, "true or false", default)
+        self.in_force[name] = value
+        return value
+
+    def number(self, name: str, default: float) -> float:
+        """Read a finite number as a double."""
+        value = self._values.get(name, default)
+        number = _double(value)
+        if number is None:
+            number = self._refused(name, value, "a number", default)
+        self.in_force[name] = number
+        return number
+
+    def positive(self, name: str, default: float) -> float:
+        """Read a number greater than zero."""
+        number = self.number(name, default)
+        if number <= 0.0:
+            number = self._refused(name, number, "greater than zero", default)
+            self.in_force[name] = number
+        return number
+
+    def count(self, name: str, default: int) -> int:
+        """Read a whole number from 1 on."""
+        value = self._values.get(name, default)
+        if isinstance(value, bool) or not isinstance(value, int) or value < 1:
+            value = self._refused(name, value, "a whole number from 1 on", default)
+        self.in_force[name] = value
+        return value
+
+    def text(self, name: str, default: str) -> str:
+        """Read a string."""
+        value = self._values.get(name, default)
+        if not isinstance(value, str):
+            value = self._refused(name, value, "a string", default)
+        self.in_force[name] = value
+        return value
+
+    def numbers(self, name: str) -> tuple[float, ...] | None:
+        """Read a list of finite numbers; None if it is not set or not such a list."""
+        value = self._values.get(name)
+        if value is None:
+            return None
+        doubles = _doubles(value)
+        if doubles is None:
+            self.report.error(f"parameter {name} must be a list of numbers, not {value!r}; it is not used")
+            self.in_force[name] = []
+            return None
+        self.in_force[name] = list(doubles)
+        return doubles
+
+    def flags(self, name: str, size: int) -> tuple[bool, ...] | None:
+        """Read a list of `size` booleans; None, told as an error, if it is missing or not such a list."""
+        value = self._values.get(name)
+        items = list(value) if isinstance(value, Sequence) and not isinstance(value, str) else []
+        self.in_force[name] = items
+        if len(items) != size or not all(isinstance(item, bool) for item in items):
+            what = "is missing" if value is None else f"is {value!r}"
+            self.report.error(f"parameter {name} {what}; it must be a list of {size} booleans")
+            return None
+        return tuple(bool(item) for item in items)
+
+    def _refused(self, name: str, value: object, wanted: str, default: _Value) -> _Value:
+        self.report.error(f"parameter {name} must be {wanted}, not {value!r}; {default!r} is used instead")
+        return default
+
+
+def _double(value: object) -> float | None:
+    if isinstance(value, bool) or not isinstance(value, int | float | np.number):
+        return None
+    number = float(value)
+    return number if math.isfinite(number) else None
+
+
+def _doubles(value: object) -> tuple[float, ...] | None:
+    if isinstance(value, str) or not isinstance(value, Sequence):
+        return None
+    doubles = [number for number in map(_double, value) if number is not None]
+    return tuple(doubles) if len(doubles) == len(value) else None
