@@ -1,0 +1,35 @@
+"""How fast a velocity may change, and how fast one may drive to stop in time."""
+
+import math
+from typing import TYPE_CHECKING
+
+from bringup.control.command import Command
+
+if TYPE_CHECKING:
+    from bringup.control.settings import Settings
+
+
+def ramped(current: Command, wanted: Command, settings: "Settings", elapsed: float) -> Command:
+    """The velocity nearest to the wanted one that can be reached in `elapsed` seconds."""
+    rising = abs(wanted.linear) > abs(current.linear) and wanted.linear * current.linear >= 0.0
+    rate = settings.max_linear_acceleration if rising else settings.max_linear_deceleration
+    return Command(
+        _towards(current.linear, wanted.linear, rate * elapsed),
+        _towards(current.angular, wanted.angular, settings.max_angular_acceleration * elapsed),
+    )
+
+
+def stopping_distance(speed: float, deceleration: float, reaction: float) -> float:
+    """Way in m that a robot at this speed still makes: unchanged for `reaction` seconds, then braking."""
+    return speed * reaction + speed * speed / (2.0 * deceleration)
+
+
+def stoppable_speed(distance: float, deceleration: float, reaction: float) -> float:
+    """The greatest speed whose `stopping_distance` is no more than this distance; 0 without distance."""
+    if distance <= 0.0:
+        return 0.0
+    return deceleration * (math.sqrt(reaction * reaction + 2.0 * distance / deceleration) - reaction)
+
+
+def _towards(current: float, wanted: float, most: float) -> float:
+    return current + min(max(wanted - current, -most), most)

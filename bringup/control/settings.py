@@ -1,0 +1,91 @@
+"""The controller's parameters: values, bounds, descriptions, and what makes a set of them acceptable."""
+
+from dataclasses import dataclass, field, fields
+from typing import TYPE_CHECKING, Any
+
+from bringup.control.modes import Mode
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """How one parameter is described: its default, its range (both ends allowed), its meaning."""
+
+    name: str
+    default: float | int | str
+    description: str
+    minimum: float | int | None = None
+    maximum: float | int | None = None
+    constraints: str = ""
+
+
+def _number(default: float, low: float, high: float, description: str, constraints: str = "") -> Any:  # noqa: ANN401 - dataclass fields are
+    metadata = {"minimum": low, "maximum": high, "description": description, "constraints": constraints}
+    return field(default=default, metadata=metadata)
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """Values of all parameters at one moment; field names are parameter names."""
+
+    mode: str = field(
+        default=Mode.LINEAR.value,
+        metadata={
+            "description": "What the robot does: drive straight, turn on the spot, wander about, stand still",
+            "constraints": "one of linear, rotational, wander, hold",
+        },
+    )
+    max_linear_vel: float = _number(0.5, 0.0, 0.8, "Greatest speed ahead in m/s")
+    max_angular_vel: float = _number(1.0, 0.0, 1.5, "Greatest turning speed in rad/s")
+    max_linear_acceleration: float = _number(0.8, 0.1, 2.0, "Greatest gain of speed in m/s^2")
+    max_linear_deceleration: float = _number(
+        1.2, 0.3, 2.0, "Greatest loss of speed in m/s^2; stopping distances are computed from it"
+    )
+    max_angular_acceleration: float = _number(4.0, 0.5, 6.0, "Greatest change of turning speed in rad/s^2")
+    obstacle_distance: float = _number(
+        0.5,
+        0.1,
+        5.0,
+        "Distance in m from the middle of the axle at which the robot stands before an obstacle ahead",
+        "greater than robot_radius",
+    )
+    obstacle_hysteresis: float = _number(
+        0.1, 0.0, 1.0, "How much farther in m than obstacle_distance the way must be clear to drive on"
+    )
+    robot_radius: float = _number(
+        0.28, 0.05, 1.0, "Radius in m of the circle about the middle of the axle that holds the whole robot"
+    )
+    side_clearance: float = _number(0.12, 0.02, 1.0, "Distance in m kept beside the robot while it drives")
+    lidar_x: float = _number(0.10, -0.5, 0.5, "How far in m the lidar sits ahead of the middle of the axle")
+    scan_timeout: float = _number(0.5, 0.15, 5.0, "Seconds of ROS time without a scan before the robot stops")
+    odometry_timeout: float = _number(
+        0.5, 0.05, 5.0, "Seconds of ROS time without odometry before the robot stops"
+    )
+    seed: int = _number(0, 0, 2**31 - 1, "Start of the wandering's random choices; robots differ by their name")
+
+
+def table() -> "Iterator[Setting]":
+    """Every parameter as it is declared, in the order of `Settings`."""
+    for each in fields(Settings):
+        if isinstance(each.default, float | int | str):
+            yield Setting(name=each.name, default=each.default, **each.metadata)
+
+
+def objection(settings: Settings) -> str | None:
+    """Why this set of values cannot be used, or None. Single ranges are checked as well as relations."""
+    if settings.mode not in list(Mode):
+        return f"mode is {settings.mode!r}, must be one of {', '.join(Mode)}"
+    for each in table():
+        value = getattr(settings, each.name)
+        if each.minimum is None or each.maximum is None:
+            continue
+        if not each.minimum <= value <= each.maximum:
+            return f"{each.name} is {value}, must lie in {each.minimum} .. {each.maximum}"
+    if settings.obstacle_distance <= settings.robot_radius:
+        return (
+            f"obstacle_distance ({settings.obstacle_distance} m) must exceed robot_radius"
+            f" ({settings.robot_radius} m)"
+        )
+    return None
