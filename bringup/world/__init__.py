@@ -1,0 +1,1 @@
+"""The simulated world of the bringup: layout, physics, sensors and picture, without ROS but for `messages`."""

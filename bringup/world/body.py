@@ -1,0 +1,31 @@
+"""The measures of the robot: what the physics, the kinematics and the static transforms agree on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+WHEEL_RADIUS = 0.10
+WHEEL_SEPARATION = 0.40
+# Every part of the robot lies within this distance of the middle of its axle.
+FOOTPRINT_RADIUS = 0.25
+
+
+@dataclass(frozen=True, slots=True)
+class Mount:
+    """A frame that is fixed to another one without turn: its origin there, in metres."""
+
+    parent: str
+    child: str
+    x: float
+    y: float
+    z: float
+
+
+BASE = Mount("base_footprint", "base_link", 0.0, 0.0, WHEEL_RADIUS)
+IMU = Mount("base_link", "imu_link", 0.0, 0.0, 0.05)
+LASER = Mount("base_link", "laser", 0.0, 0.0, 0.20)
+LEFT_WHEEL = Mount("base_link", "left_wheel", 0.0, WHEEL_SEPARATION / 2, 0.0)
+RIGHT_WHEEL = Mount("base_link", "right_wheel", 0.0, -WHEEL_SEPARATION / 2, 0.0)
+CASTER = Mount("base_link", "caster", -0.18, 0.0, -0.06)
+# The root comes first, then everything that hangs on it.
+MOUNTS = (BASE, IMU, LASER, LEFT_WHEEL, RIGHT_WHEEL, CASTER)

@@ -1,0 +1,126 @@
+"""From a layout to MuJoCo's model: the template rendered and loaded, and where each robot's numbers are in it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import mujoco
+import numpy as np
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+
+from bringup.world.body import FOOTPRINT_RADIUS, MOUNTS, WHEEL_RADIUS
+from bringup.world.drive import Twist
+from bringup.world.geometry import Pose, yaw_of
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
+    from bringup.world.layout import Layout
+
+WORLDS = Path(__file__).parent.parent / "worlds"
+TEMPLATE = "world.xml.j2"
+# Physics steps in seconds, and how many of them make a tick: the grid on which every message lies.
+TIMESTEP = 0.002
+STEPS_PER_TICK = 5
+TICKS_PER_SECOND = 100
+# Owners of a geom that are no robot.
+FLOOR = -2
+THING = -1
+
+
+@dataclass(frozen=True, slots=True)
+class Robot:
+    """Where one robot is in the model: indices into MuJoCo's arrays."""
+
+    name: str
+    start: Pose
+    body: int
+    laser: int
+    position: int
+    velocity: int
+    wheels: tuple[int, int]
+    motors: tuple[int, int]
+    gyro: slice
+    accelerometer: slice
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """A loaded world. `owners` tells for each geom the number of its robot, or FLOOR or THING."""
+
+    layout: Layout
+    physics: Any
+    robots: tuple[Robot, ...]
+    owners: NDArray[np.int64]
+
+
+def render(layout: Layout) -> str:
+    """The world as MJCF."""
+    templates = Environment(loader=FileSystemLoader(WORLDS), undefined=StrictUndefined, autoescape=True)
+    return templates.get_template(TEMPLATE).render(
+        layout=layout,
+        timestep=TIMESTEP,
+        wheel_radius=WHEEL_RADIUS,
+        footprint_radius=FOOTPRINT_RADIUS,
+        mounts={mount.child: mount for mount in MOUNTS},
+    )
+
+
+def load(layout: Layout) -> Model:
+    """The world as MuJoCo's model, ready to be stepped."""
+    physics = mujoco.MjModel.from_xml_string(render(layout))
+    robots = tuple(_robot(physics, start.robot, start.pose) for start in layout.starts)
+    return Model(layout, physics, robots, _owners(physics, [robot.name for robot in robots]))
+
+
+def pose(data: Any, robot: Robot) -> Pose:  # noqa: ANN401 - MjData has no type
+    """Where the robot is now, in world coordinates."""
+    x, y, _, *quaternion = data.qpos[robot.position : robot.position + 7].tolist()
+    return Pose(x, y, yaw_of(*quaternion))
+
+
+def twist(data: Any, robot: Robot, heading: float) -> tuple[Twist, float]:
+    """How the robot moves now, in its own frame, and its velocity to the left in m/s."""
+    vx, vy, _, _, _, turn = data.qvel[robot.velocity : robot.velocity + 6].tolist()
+    cos, sin = np.cos(heading), np.sin(heading)
+    return Twist(float(cos * vx + sin * vy), turn), float(cos * vy - sin * vx)
+
+
+def wheel_angles(data: Any, robot: Robot) -> tuple[float, float]:  # noqa: ANN401 - MjData has no type
+    """How far the left and the right wheel have turned since the start, in radians."""
+    return float(data.qpos[robot.wheels[0]]), float(data.qpos[robot.wheels[1]])
+
+
+def _robot(physics: Any, name: str, start: Pose) -> Robot:  # noqa: ANN401 - MjModel has no type
+    base = physics.joint(f"{name}/base")
+    wheels = [physics.joint(f"{name}/{side}_wheel") for side in ("left", "right")]
+    motors = [physics.actuator(f"{name}/{side}_wheel") for side in ("left", "right")]
+    return Robot(
+        name=name,
+        start=start,
+        body=physics.body(f"{name}/base_link").id,
+        laser=physics.site(f"{name}/laser").id,
+        position=int(base.qposadr[0]),
+        velocity=int(base.dofadr[0]),
+        wheels=(int(wheels[0].qposadr[0]), int(wheels[1].qposadr[0])),
+        motors=(motors[0].id, motors[1].id),
+        gyro=_sensor(physics, f"{name}/gyro"),
+        accelerometer=_sensor(physics, f"{name}/accelerometer"),
+    )
+
+
+def _sensor(physics: Any, name: str) -> slice:  # noqa: ANN401 - MjModel has no type
+    first = int(physics.sensor(name).adr[0])
+    return slice(first, first + 3)
+
+
+def _owners(physics: Any, robots: list[str]) -> NDArray[np.int64]:  # noqa: ANN401 - MjModel has no type
+    owners = np.full(physics.ngeom, THING)
+    owners[physics.geom("floor").id] = FLOOR
+    for geom in range(physics.ngeom):
+        name = physics.geom(geom).name.rpartition("/")[0]
+        if name in robots:
+            owners[geom] = robots.index(name)
+    return owners
