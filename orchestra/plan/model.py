@@ -11,13 +11,11 @@ from typing import Literal, TypeAlias
 
 from orchestra.errors import Problem
 from orchestra.location import Location
+from orchestra.values import Condition, ParameterValue, Restart, Stop
 
 VERSION = 1
 
 Kind: TypeAlias = Literal["process", "node", "lifecycle_node", "container"]
-Scalar: TypeAlias = bool | int | float | str
-ParameterValue: TypeAlias = Scalar | tuple[bool, ...] | tuple[int, ...] | tuple[float, ...] | tuple[str, ...]
-Condition: TypeAlias = Literal["started", "ready", "completed", "exited"]
 SkipReason: TypeAlias = Literal["if", "unless"]
 
 
@@ -53,30 +51,6 @@ class Ready:
     log: str | None
     message: str | None
     timeout: float | None
-
-
-@dataclass(frozen=True, slots=True)
-class Restart:
-    """When an ended process starts again. Delays in seconds; `budget` None is without end.
-
-    Upstream's `respawn` is `always`; the delay is the least one and doubles up to `max_delay` while runs stay
-    shorter than `min_uptime`.
-    """
-
-    policy: Literal["no", "on-failure", "always"]
-    delay: float = 0.0
-    max_delay: float = 30.0
-    min_uptime: float = 10.0
-    budget: int | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Stop:
-    """How the process is ended: `signal`, after `timeout` s SIGTERM, after another `kill_timeout` s SIGKILL."""
-
-    signal: str = "SIGINT"
-    timeout: float = 2.0
-    kill_timeout: float = 1.5
 
 
 @dataclass(frozen=True, slots=True)

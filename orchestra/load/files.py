@@ -1,0 +1,60 @@
+"""Launch files by path: one loader per format behind one table; no format is ever tried for another."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code, Problems
+from orchestra.load.entities import describe
+from orchestra.load.reader import Reader
+from orchestra.location import Location, Span, displayed, point
+
+if TYPE_CHECKING:
+    from orchestra.description.launch import Description
+
+FORMATS: dict[str, str] = {".yaml": "yaml_file", ".yml": "yaml_file"}
+
+_LARGEST = 64 * 1024 * 1024
+
+
+def load(path: str, problems: Problems, included_from: tuple[Span, ...] = ()) -> Description | None:
+    """Read a launch file. What is wrong in it is reported; None where there is nothing to go on with."""
+    file = displayed(path)
+    reader = Reader(problems, included_from)
+    at = included_from[0] if included_from else point(file)
+    location = Location(at, included_from[1:])
+    module = FORMATS.get(Path(path).suffix.lower())
+    if module is None:
+        problems.error(Code.UNKNOWN_FORMAT, _unknown_format(file), location)
+        return None
+    text = _text(path, file, problems, location)
+    if text is None:
+        return None
+    tree = import_module(f"orchestra.load.{module}").read(text, file, reader)
+    return None if tree is None else describe(tree, path, file, reader)
+
+
+def _text(path: str, file: str, problems: Problems, location: Location) -> str | None:
+    try:
+        with Path(path).open("rb") as stream:
+            content = stream.read(_LARGEST + 1)
+    except OSError as error:
+        problems.error(Code.UNREADABLE_FILE, f"cannot read {file}: {error.strerror}", location)
+        return None
+    if len(content) > _LARGEST:
+        problems.error(Code.UNREADABLE_FILE, f"{file} is larger than 64 MiB", location)
+        return None
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        before = content[: error.start].decode("utf-8-sig", errors="replace")
+        line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
+        at = Location(point(file, line, column), location.included_from)
+        problems.error(Code.SYNTAX, f"this is not UTF-8: byte 0x{content[error.start]:02x}", at)
+        return None
+
+
+def _unknown_format(file: str) -> str:
+    return f"cannot tell the format of {file}: launch files end in " + ", ".join(sorted(FORMATS))

@@ -1,0 +1,276 @@
+"""Reads a text with substitutions: `literal $(name argument "quoted $(nested)") literal`.
+
+The rules are those of the ROS 2 Jazzy front ends, with spaces at the edges and in runs allowed. Two of them surprise:
+only U+0020 separates arguments (a tab or a line break is an ordinary character), and inside a quoted argument the
+arguments of a nested substitution cannot be quoted again: the other quote is an ordinary character there.
+
+A fault is reported and reading goes on behind it, so that one pass finds them all. What can still be evaluated in a
+faulty template stays among its parts, because evaluating it finds further faults and marks variables as read.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from orchestra.description.substitutions import ELSEWHERE, SIGNATURES, usage
+from orchestra.description.text import Call, Template, Words
+from orchestra.errors import Code
+from orchestra.nearest import nearest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from orchestra.description.text import Part
+    from orchestra.errors import Problems
+    from orchestra.location import Span
+
+DEEPEST: Final = 50  # levels of nesting; keeps reading and evaluating far from the interpreter's recursion limit
+
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*(?=[ )]|\Z)")
+_ESCAPE = re.compile(r"\\(.)", re.DOTALL)
+_QUOTES = ("'", '"')
+
+
+def parse_template(
+    text: str, spans: Callable[[int, int], Span], problems: Problems, *, quoted: bool = False
+) -> Template:
+    """Read a text as written; `spans` maps code point offsets of the text to places in the file.
+
+    Faults go to `problems` and make the template faulty; nothing is raised.
+    """
+    reader = _Reader(text, spans, problems)
+    return Template(reader.parts("", "", 0), text, spans(0, len(text)), quoted, reader.faults > 0)
+
+
+def unescaped(text: str) -> str:
+    """Return the text of a value that takes no substitutions: a backslash before a character goes away."""
+    return _ESCAPE.sub(r"\1", text)
+
+
+def escaped(text: str) -> str:
+    """Return how a text is written so that it is read back unchanged, alone or beside other text."""
+    return re.sub(r"([\\$])", r"\\\1", text)
+
+
+@dataclass(slots=True)
+class _Reader:
+    """A place in the text; every method reads on from there."""
+
+    text: str
+    spans: Callable[[int, int], Span]
+    problems: Problems
+    at: int = 0
+    faults: int = 0
+    lost: bool = False  # an unterminated quote or too deep a nesting took the rest of the text
+
+    def parts(self, stop: str, within: str, depth: int) -> tuple[Part, ...]:
+        """Read literal text and substitutions up to the stop character, which stays unread, or to the end."""
+        found = _Parts(self)
+        while self.at < len(self.text) and self.here != stop:
+            if self.opens:
+                found.extend(self.call(within, depth))
+            else:
+                found.character()
+        return found.finished()
+
+    def call(self, within: str, depth: int) -> tuple[Part, ...]:
+        """Read a substitution; `within` is the quote of the argument around it, if any.
+
+        A faulty one gives what its arguments hold instead of itself.
+        """
+        start, before = self.at, self.faults
+        if depth >= DEEPEST:
+            self.fault(start, start + 2, f"substitutions are nested more than {DEEPEST} deep")
+            self.at, self.lost = len(self.text), True
+            return ()
+        self.at += 2
+        name, name_span = self.name(start)
+        arguments: list[Template] = []
+        first = last = self.at
+        while self.separated(within):
+            first = first if arguments else self.at
+            arguments.append(self.argument(within, depth + 1))
+            last = self.at
+        if self.here == ")":
+            self.at += 1
+        elif not self.lost:
+            self.fault(start, start + 2, "this substitution is not closed: a ')' is missing")
+        call = Call(name, tuple(arguments), self.spans(start, self.at))
+        if name_span and self.known(name, name_span) and self.faults == before:
+            self.counted(call, first, last)
+        if self.faults == before:
+            return (call,)
+        return tuple(part for argument in arguments for part in argument.parts)
+
+    def name(self, start: int) -> tuple[str, Span | None]:
+        """Read the name of a substitution; the span is None where it is malformed."""
+        self.skip_spaces()
+        begin = self.at
+        if match := _NAME.match(self.text, begin):
+            self.at = match.end()
+            return match[0], self.spans(begin, self.at)
+        brackets = 0
+        while self.here and (brackets or self.here not in " )"):
+            brackets += (self.here == "(") - (self.here == ")")
+            self.at += 1
+        if self.at == begin:
+            self.fault(start, min(begin + 1, len(self.text)), "a substitution begins with its name")
+        else:
+            told = f"{self.text[begin : self.at]!r} is not the name of a substitution"
+            self.fault(begin, self.at, told)
+        return "", None
+
+    def separated(self, within: str) -> bool:
+        """Skip spaces and tell whether an argument begins here."""
+        before = self.at
+        self.skip_spaces()
+        if self.here in ("", ")"):
+            return False
+        return self.at > before or self.here != within
+
+    def argument(self, within: str, depth: int) -> Template:
+        """Read one argument, quoted as a whole or made of adjoining pieces."""
+        start, before = self.at, self.faults
+        parts: tuple[Part, ...] = ()
+        glued = False
+        if self.here == within or (self.here in _QUOTES and not within):
+            inner = self.quoted(depth)
+            if self.here in ("", " ", ")"):
+                if within and not self.lost:
+                    self.fault(start, self.at, f"inside an argument in {within} no other one can be in {within}")
+                return inner if not within else self.template(inner.parts, start, self.at, before)
+            parts, glued = inner.parts, True
+        elif within and self.here in _QUOTES:
+            self.warn_about_kept_quotes(start)
+        parts += self.pieces(start, within, depth, glued=glued)
+        return self.template(parts, start, self.at, before)
+
+    def quoted(self, depth: int) -> Template:
+        """Read an argument in quotes; its span leaves the quotes out."""
+        quote, start, before = self.here, self.at, self.faults
+        self.at += 1
+        parts = self.parts(quote, quote, depth)
+        end = self.at
+        if self.here == quote:
+            self.at += 1
+        elif not self.lost:
+            self.fault(start, start + 1, f"this {quote} is not closed")
+            self.lost = True
+        return self.template(parts, start + 1, end, before, quoted=True)
+
+    def pieces(self, start: int, within: str, depth: int, *, glued: bool) -> tuple[Part, ...]:
+        """Read the adjoining pieces of an unquoted argument that began at `start`."""
+        wrong = "an argument is quoted as a whole or not at all" if glued else ""
+        found = _Parts(self)
+        brackets = 0
+        while self.here and self.here != within and (brackets or self.here not in " )"):
+            if self.opens:
+                found.extend(self.call(within, depth))
+                continue
+            if self.here in "()":
+                brackets += 1 if self.here == "(" else -1
+                wrong = wrong or "a parenthesis in an argument needs quotes or a backslash"
+            elif self.here in _QUOTES and not within:
+                wrong = wrong or "an argument is quoted as a whole or not at all"
+            elif self.text.startswith("\\ ", self.at):
+                wrong = wrong or "a backslash does not join words: quote the argument"
+            found.character()
+        if wrong and not self.lost:
+            self.fault(start, self.at, wrong, suggestion=None if within or glued else self.in_quotes(start, self.at))
+        return found.finished()
+
+    def template(
+        self, parts: tuple[Part, ...], start: int, end: int, before: int, *, quoted: bool = False
+    ) -> Template:
+        """Return the template of a stretch of text; `before` is the number of faults found ahead of it."""
+        return Template(parts, self.text[start:end], self.spans(start, end), quoted, self.faults > before)
+
+    def known(self, name: str, span: Span) -> bool:
+        """Tell whether a substitution has this name, and report it where none has."""
+        if name in SIGNATURES:
+            return True
+        self.faults += 1
+        meant = ELSEWHERE.get(name) or nearest(name, SIGNATURES)
+        self.problems.error(
+            Code.UNKNOWN_SUBSTITUTION, f"there is no substitution $({name})", span, suggestion=meant
+        )
+        return False
+
+    def counted(self, call: Call, first: int, last: int) -> None:
+        """Report too few or too many arguments; those that there are stand between two offsets."""
+        signature, count = SIGNATURES[call.name], len(call.arguments)
+        notes = (f"it is written {usage(call.name)}",)
+        if count < signature.minimum:
+            self.faults += 1
+            told = f"$({call.name}) lacks its {signature.arguments[count]}"
+            self.problems.error(Code.SUBSTITUTION_SYNTAX, told, call.span, notes=notes)
+        elif signature.maximum is not None and count > signature.maximum:
+            told = f"$({call.name}) takes {_number(signature.maximum)}, here are {count}"
+            suggestion = self.in_quotes(first, last) if signature.phrase else None
+            self.fault(first, last, told, suggestion=suggestion, notes=notes)
+
+    def in_quotes(self, start: int, end: int) -> str | None:
+        """Return the stretch in quotes that it does not hold itself, None where it holds both."""
+        raw = self.text[start:end]
+        return next((f"{quote}{raw}{quote}" for quote in _QUOTES if quote not in raw), None)
+
+    def warn_about_kept_quotes(self, start: int) -> None:
+        """Say that quotes do not quote here; with backslashes the text says so itself."""
+        match = re.compile(r"""(['"])([^'" ()$\\]*)\1(?=[ )])""").match(self.text, start)
+        end = match.end() if match else start + 1
+        suggestion = rf"\{match[1]}{match[2]}\{match[1]}" if match else None
+        told = "inside a quoted argument these quotes do not quote: they are part of the text"
+        span = self.spans(start, end)
+        self.problems.warning(Code.SUBSTITUTION_SYNTAX, told, span, suggestion=suggestion)
+
+    def fault(
+        self, start: int, end: int, told: str, *, suggestion: str | None = None, notes: Iterable[str] = ()
+    ) -> None:
+        """Report what keeps a stretch of the text from being read."""
+        self.faults += 1
+        span = self.spans(start, end)
+        self.problems.error(Code.SUBSTITUTION_SYNTAX, told, span, suggestion=suggestion, notes=notes)
+
+    def skip_spaces(self) -> None:
+        while self.here == " ":
+            self.at += 1
+
+    @property
+    def here(self) -> str:
+        """The character to be read next, empty at the end."""
+        return self.text[self.at : self.at + 1]
+
+    @property
+    def opens(self) -> bool:
+        return self.text.startswith("$(", self.at)
+
+
+class _Parts:
+    """Gathers parts, adjoining characters into one."""
+
+    __slots__ = ("_begin", "_characters", "_parts", "_reader")
+
+    def __init__(self, reader: _Reader) -> None:
+        self._reader = reader
+        self._parts: list[Part] = []
+        self._characters: list[str] = []
+        self._begin = reader.at
+
+    def character(self) -> None:
+        """Take the next character, or the one behind a backslash; a backslash at the very end is itself."""
+        reader = self._reader
+        if reader.here == "\\" and reader.at + 1 < len(reader.text):
+            reader.at += 1
+        self._characters.append(reader.here)
+        reader.at += 1
+
+    def extend(self, parts: tuple[Part, ...]) -> None:
+        """Take what a substitution gave, whose text has just been read."""
+        raise NotImplementedError
+
+    def finished(self) -> tuple[Part, ...]:
+        """Return all parts."""
+        self._flush()
+        return tuple(self._parts)

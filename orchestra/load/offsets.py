@@ -1,0 +1,88 @@
+"""Where the characters of a YAML scalar's value stand in the file: through quotes, escapes, folding and indentation."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from orchestra.location import Span
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_BREAKS = "\n\r\x85\u2028\u2029"
+_HEXADECIMAL = {"x": 2, "u": 4, "U": 8}
+
+
+@dataclass(frozen=True, slots=True)
+class Source:
+    """The text of a file and the offsets at which its lines begin."""
+
+    file: str
+    text: str
+    lines: tuple[int, ...]
+
+    def place(self, offset: int) -> tuple[int, int]:
+        """Return the 1-based line and column of an offset in code points."""
+        line = bisect_right(self.lines, offset)
+        return line, offset - self.lines[line - 1] + 1
+
+    def span(self, start: int, end: int) -> Span:
+        """Return the span between two offsets."""
+        return Span(self.file, *self.place(start), *self.place(end))
+
+
+def source(file: str, text: str) -> Source:
+    """Return the text of a file with its lines."""
+    starts = [0]
+    for offset, character in enumerate(text):
+        if character in _BREAKS and not (character == "\r" and text[offset + 1 : offset + 2] == "\n"):
+            starts.append(offset + 1)
+    return Source(file, text, tuple(starts))
+
+
+def spans_of(
+    whole: Source, start: int, end: int, value: str, style: str | None
+) -> Callable[[int, int], Span]:
+    """Return a function from offsets in the value to spans in the file. The alignment is made when first asked."""
+    aligned: list[int] = []
+
+    def spans(first: int, last: int) -> Span:
+        if not aligned:
+            aligned.extend(_aligned(whole.text, start, end, value, style))
+        begin = aligned[min(first, len(aligned) - 1)]
+        stop = aligned[last - 1] + 1 if last > first else begin
+        return whole.span(begin, max(begin, stop))
+
+    return spans
+
+
+def _aligned(text: str, start: int, end: int, value: str, style: str | None) -> list[int]:
+    """Return for each character of the value, and for its end, the offset in the text."""
+    if style in ('"', "'"):
+        start, end = start + 1, end - 1
+    elif style in ("|", ">"):
+        start = next((at + 1 for at in range(start, end) if text[at] in _BREAKS), end)
+    offsets, at = [], start
+    for character in value:
+        at, width = _next(text, at, end, character, style)
+        offsets.append(min(at, max(end - 1, start)))
+        at += width
+    return [*offsets, min(at, end)]
+
+
+def _next(text: str, at: int, end: int, character: str, style: str | None) -> tuple[int, int]:
+    """Return where the next character of the value stands at or after an offset, and how wide it is written."""
+    while at < end:
+        if style == '"' and text[at] == "\\":
+            width = 2 + _HEXADECIMAL.get(text[at + 1], 0)
+            if text[at + 1] not in _BREAKS:
+                return at, width
+            at += 1
+        if style == "'" and text.startswith("''", at) and character == "'":
+            return at, 2
+        if text[at] == character or (text[at] in _BREAKS and character in " \n"):
+            return at, 1
+        at += 1
+    return at, 0

@@ -1,0 +1,120 @@
+"""What the models ask of a loader: reading texts by the substitution grammar, and reporting what is wrong."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from orchestra.description.entity import REPORTED
+from orchestra.description.source import Keyed, Listed, Written, kind_of
+from orchestra.errors import Code, Problem, Problems, Severity
+from orchestra.load.grammar import parse_template, unescaped
+from orchestra.location import Location, Span
+from orchestra.nearest import nearest
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from pydantic_core import ErrorDetails
+
+    from orchestra.description.text import Template
+
+_CODES = {"missing": Code.MISSING_KEY, "conflict": Code.CONFLICTING_KEYS, "extra_forbidden": Code.UNKNOWN_KEY}
+_WANTED = {
+    "model_type": "a mapping",
+    "dict_type": "a mapping",
+    "list_type": "a list",
+    "tuple_type": "a list",
+}
+
+
+@dataclass(slots=True)
+class Reader:
+    """Reads one file; everything it reports carries the includes on the way to that file."""
+
+    problems: Problems
+    included_from: tuple[Span, ...] = ()
+
+    def error(
+        self,
+        code: Code,
+        message: str,
+        span: Span,
+        *,
+        suggestion: str | None = None,
+        notes: Iterable[str] = (),
+    ) -> None:
+        """Report an error in this file."""
+        self.problems.error(
+            code, message, Location(span, self.included_from), suggestion=suggestion, notes=notes
+        )
+
+    def template(self, written: Written) -> Template:
+        """Read a text with substitutions."""
+        found = Problems()
+        template = parse_template(written.text, written.spans, found, quoted=written.quoted)
+        for problem in found:
+            self.problems.report(_located(problem, self.included_from))
+        return template
+
+    def literal(self, written: Written) -> str:
+        """Read a text without substitutions."""
+        return unescaped(written.text)
+
+    def unknown_key(self, known: frozenset[str], mapping: Keyed, key: str) -> None:
+        """Report a key that the entity does not have."""
+        what = f"unknown key `{key}`"
+        self.error(Code.UNKNOWN_KEY, what, mapping.keys_at[key], suggestion=nearest(key, known))
+
+    def faults(self, mapping: Keyed, errors: Sequence[ErrorDetails]) -> set[str]:
+        """Report what is wrong with the values of a mapping, return the keys that are concerned."""
+        for error in errors:
+            if error["type"] != REPORTED:
+                self._fault(mapping, error)
+        return {str(error["loc"][0]) for error in errors if error["loc"]}
+
+    def _fault(self, mapping: Keyed, error: ErrorDetails) -> None:
+        kind = error["type"]
+        place = error["loc"]
+        if kind == "missing":
+            self.error(Code.MISSING_KEY, f"the key `{place[-1]}` is missing", _at(mapping, place[:-1]))
+            return
+        if kind in _WANTED:
+            message = f"expected {_WANTED[kind]}, found {kind_of(error['input'])}"
+        elif kind == "too_short":
+            message = "expected at least one item"
+        else:
+            message = error["msg"]
+        span = mapping.head if kind == "conflict" and not place else _at(mapping, place)
+        self.error(_CODES.get(kind, Code.WRONG_TYPE), message, span)
+
+
+def _at(mapping: Keyed, place: tuple[int | str, ...]) -> Span:
+    """Return the place of a value inside a mapping; for an empty value that of its key."""
+    value: Any = mapping
+    span = mapping.head
+    for step in place:
+        if isinstance(value, Keyed) and step in value:
+            span = value.keys_at[str(step)]
+            value = value[str(step)]
+        elif isinstance(value, Listed) and isinstance(step, int) and step < len(value):
+            value = value[step]
+        else:
+            break
+        if isinstance(value, Written | Listed) and not (isinstance(value, Written) and value.null):
+            span = value.span
+        elif isinstance(value, Keyed):
+            span = value.head
+    return span
+
+
+def _located(problem: Problem, included_from: tuple[Span, ...]) -> Problem:
+    return Problem(
+        problem.code,
+        Severity(problem.severity),
+        problem.message,
+        problem.span,
+        included_from,
+        problem.suggestion,
+        problem.notes,
+    )

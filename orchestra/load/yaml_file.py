@@ -1,0 +1,129 @@
+"""YAML launch files as trees of scalars, mappings and lists that know their place.
+
+The structure is YAML 1.2 core: every scalar stays text until its meaning is known, only an empty value is null.
+PyYAML's C parser reads the file; nothing is constructed, so nothing can be executed. Duplicate keys are errors.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+import yaml
+
+from orchestra.description.source import Keyed, Listed, Written, shortened
+from orchestra.errors import Code
+from orchestra.load.offsets import Source, source, spans_of
+from orchestra.load.reader import Reader
+
+if TYPE_CHECKING:
+    from orchestra.location import Span
+
+_NULL = frozenset({"", "~", "null", "Null", "NULL"})
+_PLAIN_TAG = "tag:yaml.org,2002:str"
+_KNOWN_TAGS = frozenset({_PLAIN_TAG, "tag:yaml.org,2002:map", "tag:yaml.org,2002:seq"})
+_MOST_VALUES = 1_000_000
+_DEEPEST = 100
+_SCALAR_TYPES = ("bool", "int", "float", "null")
+
+_PARSER: type[Any] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
+
+
+def read(text: str, file: str, reader: Reader) -> Any | None:  # noqa: ANN401 - a tree
+    """Return the tree of a YAML text, None where it is no YAML (which has been reported)."""
+    whole = source(file, text)
+    try:
+        node = yaml.compose(text, Loader=_PARSER)
+    except yaml.MarkedYAMLError as error:
+        reader.error(Code.SYNTAX, _reason(error), _mark(whole, error.problem_mark or error.context_mark))
+        return None
+    except (yaml.YAMLError, RecursionError) as error:
+        offset = getattr(error, "position", 0)
+        reader.error(
+            Code.SYNTAX, f"this is not YAML: {shortened(str(error), 200)}", whole.span(offset, offset)
+        )
+        return None
+    if node is None:
+        reader.error(Code.SYNTAX, "the file is empty: a launch file has a `launch` key", whole.span(0, 0))
+        return None
+    return _Tree(whole, reader).of(node, None, ())
+
+
+@dataclass(slots=True)
+class _Tree:
+    """Builds the tree of one file; counts what it builds, so that aliases cannot expand without bound."""
+
+    whole: Source
+    reader: Reader
+    built: int = 0
+
+    def of(self, node: yaml.Node, head: Span | None, above: tuple[yaml.Node, ...]) -> Any:  # noqa: ANN401 - a tree
+        span = self.whole.span(node.start_mark.index, node.end_mark.index)
+        self.built += 1
+        if self.built > _MOST_VALUES or len(above) > _DEEPEST or node in above:
+            if self.built != _MOST_VALUES + 2:
+                self.reader.error(Code.SYNTAX, "the file nests too deeply or refers to itself", span)
+            self.built = _MOST_VALUES + 1
+            return Written("", span, lambda _first, _last: span, null=True)
+        if isinstance(node, yaml.ScalarNode):
+            return self._scalar(node, span)
+        if node.tag not in _KNOWN_TAGS:
+            self.reader.error(Code.SYNTAX, f"the tag {node.tag} means nothing here", span)
+        if isinstance(node, yaml.SequenceNode):
+            items = Listed(span)
+            items.extend(self.of(item, None, (*above, node)) for item in node.value)
+            return items
+        assert isinstance(node, yaml.MappingNode)  # noqa: S101 - the third and last kind of node
+        return self._mapping(node, span, head, above)
+
+    def _scalar(self, node: yaml.ScalarNode, span: Span) -> Written:
+        kind = node.tag.removeprefix("tag:yaml.org,2002:")
+        if node.tag != _PLAIN_TAG and kind not in _SCALAR_TYPES:
+            self.reader.error(Code.SYNTAX, f"the tag {node.tag} means nothing here", span)
+        plain = node.style is None and (node.tag == _PLAIN_TAG or kind in _SCALAR_TYPES)
+        tagged = plain and self.whole.text[node.start_mark.index : node.start_mark.index + 1] == "!"
+        quoted = not plain or (tagged and kind == "str")
+        spans = spans_of(self.whole, node.start_mark.index, node.end_mark.index, node.value, node.style)
+        return Written(node.value, span, spans, quoted=quoted, null=not quoted and node.value in _NULL)
+
+    def _mapping(
+        self, node: yaml.MappingNode, span: Span, head: Span | None, above: tuple[yaml.Node, ...]
+    ) -> Keyed:
+        mapping = Keyed(span, head or self.whole.span(node.start_mark.index, node.start_mark.index))
+        merged: list[Keyed] = []
+        for key, value in node.value:
+            at = self.whole.span(key.start_mark.index, key.end_mark.index)
+            if not isinstance(key, yaml.ScalarNode):
+                self.reader.error(Code.WRONG_TYPE, "a key is a word, not a mapping or a list", at)
+                continue
+            tree = self.of(value, at, (*above, node))
+            if key.value == "<<" and key.style is None:
+                merged.extend(
+                    item for item in (tree if isinstance(tree, list) else [tree]) if isinstance(item, Keyed)
+                )
+            elif (name := key.value.replace("-", "_")) in mapping:
+                first = mapping.keys_at[name]
+                self.reader.error(
+                    Code.DUPLICATE_KEY,
+                    f"the key `{key.value}` stands twice in one mapping",
+                    at,
+                    notes=(f"first at {first}",),
+                )
+            else:
+                mapping[name] = tree
+                mapping.keys_at[name] = at
+        for other in merged:
+            for name, tree in other.items():
+                if name not in mapping:
+                    mapping[name], mapping.keys_at[name] = tree, other.keys_at[name]
+        return mapping
+
+
+def _reason(error: yaml.MarkedYAMLError) -> str:
+    parts = [part for part in (error.context, error.problem) if part]
+    return "this is not YAML: " + ", ".join(parts)
+
+
+def _mark(whole: Source, mark: yaml.Mark | None) -> Span:
+    offset = min(mark.index, len(whole.text)) if mark else 0
+    return whole.span(offset, offset)
