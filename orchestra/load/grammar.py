@@ -11,24 +11,26 @@ faulty template stays among its parts, because evaluating it finds further fault
 from __future__ import annotations
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from orchestra.description.substitutions import ELSEWHERE, SIGNATURES, usage
 from orchestra.description.text import Call, Template, Words
-from orchestra.errors import Code
+from orchestra.errors import Code, Problems
+from orchestra.location import Span
 from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Iterable
 
     from orchestra.description.text import Part
-    from orchestra.errors import Problems
-    from orchestra.location import Span
 
-DEEPEST: Final = 50  # levels of nesting; keeps reading and evaluating far from the interpreter's recursion limit
+# How deep substitutions may nest: far more than anybody writes, far from the interpreter's recursion limit.
+DEEPEST: Final = 50
 
-_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*(?=[ )]|\Z)")
+_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
+_KEPT_QUOTES = re.compile(r"""(['"])([^'" ()$\\]*)\1(?=[ )])""")
 _ESCAPE = re.compile(r"\\(.)", re.DOTALL)
 _QUOTES = ("'", '"')
 
@@ -70,7 +72,7 @@ class _Reader:
         found = _Parts(self)
         while self.at < len(self.text) and self.here != stop:
             if self.opens:
-                found.extend(self.call(within, depth))
+                found.substitution(within, depth)
             else:
                 found.character()
         return found.finished()
@@ -78,7 +80,7 @@ class _Reader:
     def call(self, within: str, depth: int) -> tuple[Part, ...]:
         """Read a substitution; `within` is the quote of the argument around it, if any.
 
-        A faulty one gives what its arguments hold instead of itself.
+        A faulty one gives the substitutions among its arguments instead of itself.
         """
         start, before = self.at, self.faults
         if depth >= DEEPEST:
@@ -86,7 +88,7 @@ class _Reader:
             self.at, self.lost = len(self.text), True
             return ()
         self.at += 2
-        name, name_span = self.name(start)
+        name, name_span = self.name(start, within)
         arguments: list[Template] = []
         first = last = self.at
         while self.separated(within):
@@ -102,24 +104,24 @@ class _Reader:
             self.counted(call, first, last)
         if self.faults == before:
             return (call,)
-        return tuple(part for argument in arguments for part in argument.parts)
+        return tuple(part for argument in arguments for part in argument.parts if isinstance(part, Call))
 
-    def name(self, start: int) -> tuple[str, Span | None]:
+    def name(self, start: int, within: str) -> tuple[str, Span | None]:
         """Read the name of a substitution; the span is None where it is malformed."""
         self.skip_spaces()
         begin = self.at
-        if match := _NAME.match(self.text, begin):
+        match = _NAME.match(self.text, begin)
+        if match and self.text[match.end() : match.end() + 1] in ("", " ", ")", within):
             self.at = match.end()
             return match[0], self.spans(begin, self.at)
         brackets = 0
-        while self.here and (brackets or self.here not in " )"):
+        while self.here and self.here != within and (brackets or self.here not in " )"):
             brackets += (self.here == "(") - (self.here == ")")
             self.at += 1
         if self.at == begin:
             self.fault(start, min(begin + 1, len(self.text)), "a substitution begins with its name")
         else:
-            told = f"{self.text[begin : self.at]!r} is not the name of a substitution"
-            self.fault(begin, self.at, told)
+            self.fault(begin, self.at, f"{self.text[begin : self.at]!r} is not the name of a substitution")
         return "", None
 
     def separated(self, within: str) -> bool:
@@ -139,7 +141,9 @@ class _Reader:
             inner = self.quoted(depth)
             if self.here in ("", " ", ")"):
                 if within and not self.lost:
-                    self.fault(start, self.at, f"inside an argument in {within} no other one can be in {within}")
+                    self.fault(
+                        start, self.at, f"inside an argument in {within} no other one can be in {within}"
+                    )
                 return inner if not within else self.template(inner.parts, start, self.at, before)
             parts, glued = inner.parts, True
         elif within and self.here in _QUOTES:
@@ -167,7 +171,7 @@ class _Reader:
         brackets = 0
         while self.here and self.here != within and (brackets or self.here not in " )"):
             if self.opens:
-                found.extend(self.call(within, depth))
+                found.substitution(within, depth)
                 continue
             if self.here in "()":
                 brackets += 1 if self.here == "(" else -1
@@ -178,7 +182,9 @@ class _Reader:
                 wrong = wrong or "a backslash does not join words: quote the argument"
             found.character()
         if wrong and not self.lost:
-            self.fault(start, self.at, wrong, suggestion=None if within or glued else self.in_quotes(start, self.at))
+            self.fault(
+                start, self.at, wrong, suggestion=None if within or glued else self.in_quotes(start, self.at)
+            )
         return found.finished()
 
     def template(
@@ -218,7 +224,7 @@ class _Reader:
 
     def warn_about_kept_quotes(self, start: int) -> None:
         """Say that quotes do not quote here; with backslashes the text says so itself."""
-        match = re.compile(r"""(['"])([^'" ()$\\]*)\1(?=[ )])""").match(self.text, start)
+        match = _KEPT_QUOTES.match(self.text, start)
         end = match.end() if match else start + 1
         suggestion = rf"\{match[1]}{match[2]}\{match[1]}" if match else None
         told = "inside a quoted argument these quotes do not quote: they are part of the text"
@@ -266,11 +272,29 @@ class _Parts:
         self._characters.append(reader.here)
         reader.at += 1
 
-    def extend(self, parts: tuple[Part, ...]) -> None:
-        """Take what a substitution gave, whose text has just been read."""
-        raise NotImplementedError
+    def substitution(self, within: str, depth: int) -> None:
+        """Take the substitution that begins here."""
+        self._flush()
+        self._parts.extend(self._reader.call(within, depth))
+        self._begin = self._reader.at
 
     def finished(self) -> tuple[Part, ...]:
         """Return all parts."""
         self._flush()
         return tuple(self._parts)
+
+    def _flush(self) -> None:
+        if self._characters:
+            span = self._reader.spans(self._begin, self._reader.at)
+            self._parts.append(Words("".join(self._characters), span))
+            self._characters.clear()
+
+
+def _number(arguments: int) -> str:
+    match arguments:
+        case 0:
+            return "no argument"
+        case 1:
+            return "one argument"
+        case _:
+            return f"at most {arguments} arguments"

@@ -1,0 +1,87 @@
+"""The substitutions that may stand in XML and YAML: `$(name argument ...)`, with what each takes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+
+@dataclass(frozen=True, slots=True)
+class Signature:
+    """What a substitution takes: `maximum` is None where any number of arguments may follow.
+
+    `phrase` says that the first argument is usually several words, which then stand in quotes together.
+    """
+
+    arguments: tuple[str, ...]
+    minimum: int
+    maximum: int | None
+    summary: str
+    phrase: bool = False
+
+
+def _takes(*arguments: str, summary: str, phrase: bool = False) -> Signature:
+    """Return the signature whose optional arguments are written in brackets, a repeated one with dots."""
+    names = tuple(argument.strip("[.]") for argument in arguments)
+    required = sum(argument[0] != "[" for argument in arguments)
+    repeated = any(argument.endswith("...]") for argument in arguments)
+    return Signature(names, required, None if repeated else len(names), summary, phrase)
+
+
+SIGNATURES: Final[Mapping[str, Signature]] = MappingProxyType({
+    "all": _takes("[value...]", summary="true where every value is true"),
+    "and": _takes("left", "right", summary="true where both values are true"),
+    "anon": _takes("name", summary="the name made unique; the same name gives the same result again"),
+    "any": _takes("[value...]", summary="true where at least one value is true"),
+    "command": _takes(
+        "command",
+        "[on_stderr]",
+        summary="what a command prints; on_stderr is fail, ignore, warn or capture",
+        phrase=True,
+    ),
+    "dirname": _takes(summary="the folder of this launch file"),
+    "env": _takes("name", "[default]", summary="an environment variable"),
+    "equals": _takes("left", "right", summary="true where both are equal as booleans, numbers or text"),
+    "eval": _takes(
+        "expression", "[modules]", summary="the result of a Python expression, which may use math", phrase=True
+    ),
+    "exec-in-pkg": _takes("executable", "package", summary="the path of a package's executable"),
+    "file-content": _takes("path", summary="the text of a file"),
+    "filename": _takes(summary="the path of this launch file"),
+    "find-exec": _takes("name", summary="the path of a program on the PATH"),
+    "find-pkg-prefix": _takes("package", summary="the install prefix of a package"),
+    "find-pkg-share": _takes("package", summary="the share folder of a package"),
+    "if": _takes("condition", "value", "[else]", summary="the value where the condition is true, else the other"),
+    "launch_log_dir": _takes(summary="the log folder of this run"),
+    "log_dir": _takes(summary="the log folder of this run"),
+    "not": _takes("value", summary="true where the value is false"),
+    "not-equals": _takes("left", "right", summary="true where equals is false"),
+    "or": _takes("left", "right", summary="true where at least one of two values is true"),
+    "param": _takes("name", "[default]", summary="a parameter that set_parameter put in scope"),
+    "var": _takes("name", "[default]", summary="a launch argument or variable"),
+})  # fmt: skip
+
+# What people write who come from ROS 1 or from a later distribution.
+ELSEWHERE: Final[Mapping[str, str]] = MappingProxyType({
+    "arg": "var",
+    "find": "find-pkg-share",
+    "find-pkg": "find-pkg-prefix",
+    "if-else": "if",
+    "optenv": "env",
+})  # fmt: skip
+
+
+def usage(name: str) -> str:
+    """Return how the substitution is written, optional arguments in brackets."""
+    signature = SIGNATURES[name]
+    words = [
+        argument.upper() if index < signature.minimum else f"[{argument.upper()}]"
+        for index, argument in enumerate(signature.arguments)
+    ]
+    if signature.maximum is None:
+        words.append("...")
+    return f"$({' '.join([name, *words])})"
