@@ -1,7 +1,7 @@
 """Where a sensor's frame stands for a measurement: at its stamp, else at the newest time, else not at all."""
 
 from bringup.filter.rigid import IDENTITY, Transform
-from bringup.filter.transforms import TransformBuffer, TransformUnavailableError
+from bringup.filter.transforms import Sample, TransformBuffer, TransformUnavailableError
 
 
 class FrameResolver:
@@ -17,8 +17,9 @@ class FrameResolver:
         """The transforms that are known."""
         return self._buffer
 
-    def forget(self) -> None:
-        """Look everything up anew: static transforms have changed."""
+    def add_static(self, parent: str, child: str, sample: Sample) -> None:
+        """Note a transform that holds at all times, and look up anew what may depend on it."""
+        self._buffer.set_static(parent, child, sample)
         self._asked.update(self._fixed)
         self._fixed.clear()
 

@@ -24,7 +24,7 @@ class Fusion:
         self._updated: tuple[int, Array] | None = None
         self.angular_acceleration: Array = np.zeros(3)
         self.angular_acceleration_covariance: Array = np.zeros((3, 3))
-        self.rejected: list[str] = []
+        self._rejected: list[str] = []
 
     def add(self, measurement: Measurement) -> None:
         """Put a measurement in the queue."""
@@ -37,6 +37,11 @@ class Fusion:
         self._updated = None
         self.angular_acceleration = np.zeros(3)
         self.angular_acceleration_covariance = np.zeros((3, 3))
+
+    def take_rejected(self) -> list[str]:
+        """Name the parts whose measurements a gate has refused since the last call."""
+        taken, self._rejected = self._rejected, []
+        return taken
 
     def update(self, now: int) -> None:
         """Fuse every measurement that is due at `now` (ns), earliest first, and predict where none came.
@@ -67,7 +72,7 @@ class Fusion:
             if measurement.command is not None:
                 estimator.command, estimator.commanded_at = measurement.command, measurement.commanded_at
             if not estimator.process(measurement):
-                self.rejected.append(measurement.part)
+                self._rejected.append(measurement.part)
             if self._timing.smooth_lagged_data:
                 self._remember(measurement)
         estimator.command, estimator.commanded_at = command, commanded_at

@@ -42,20 +42,16 @@ class History:
     def go_back(self, stamp: int) -> tuple[Snapshot, list[Measurement]] | None:
         """Go back to before a time: the estimate to restore and the measurements to fuse again.
 
-        That is the newest estimate before `stamp`. A history that does not reach so far gives its oldest estimate
-        and the measurements from it on (the best that can be done); an empty one gives None.
+        That is the newest estimate before `stamp`, or the oldest one if none is so old (the best that can be done).
+        What the estimate contains already is not fused again; upstream does so in the second case. An empty
+        history gives None.
         """
         if not self._snapshots:
             return None
-        place = bisect_left(self._snapshots, stamp, key=_stamp)
-        if place > 0:
-            snapshot = self._snapshots[place - 1]
-            first = bisect_right(self._measurements, snapshot.stamp, key=_stamp)
-            del self._snapshots[place:]
-        else:
-            snapshot = self._snapshots[0]
-            first = bisect_left(self._measurements, snapshot.stamp, key=_stamp)
-            self._snapshots.clear()
+        place = max(bisect_left(self._snapshots, stamp, key=_stamp) - 1, 0)
+        snapshot = self._snapshots[place]
+        del self._snapshots[place + 1 :]
+        first = bisect_right(self._measurements, snapshot.stamp, key=_stamp)
         again = self._measurements[first:]
         del self._measurements[first:]
         return snapshot, again

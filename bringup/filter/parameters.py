@@ -137,6 +137,10 @@ def _timing(reader: Reader) -> Timing:
         history = -history
     if history > 0.0 and not smooth:
         reader.report.error("parameter history_length has no effect without smooth_lagged_data")
+    jumps = reader.boolean("reset_on_time_jump")
+    if not reader.boolean("use_sim_time") and jumps:
+        reader.report.warning("reset_on_time_jump has no effect without use_sim_time")
+        jumps = False
     return Timing(
         frequency=frequency,
         sensor_timeout=_nanoseconds(reader.number("sensor_timeout", 1.0 / frequency)),
@@ -144,7 +148,7 @@ def _timing(reader: Reader) -> Timing:
         history_length=_nanoseconds(history),
         predict_to_current_time=reader.boolean("predict_to_current_time"),
         smooth_lagged_data=smooth,
-        reset_on_time_jump=reader.boolean("reset_on_time_jump"),
+        reset_on_time_jump=jumps,
         disabled_at_startup=reader.boolean("disabled_at_startup"),
     )
 

@@ -1,0 +1,132 @@
+"""The whole filter: messages and the passing of time go in, estimates come out."""
+
+from dataclasses import dataclass
+
+from bringup.filter import readings
+from bringup.filter.estimator import Estimator
+from bringup.filter.frames import FrameResolver
+from bringup.filter.fusion import Fusion
+from bringup.filter.intake import ClockJumpError, Intake
+from bringup.filter.notices import Notices
+from bringup.filter.readings import Message
+from bringup.filter.rotation import rpy_from_matrix, six_dimensional
+from bringup.filter.rigid import transform
+from bringup.filter.settings import Settings
+from bringup.filter.state import Array
+from bringup.filter.streams import Surroundings
+from bringup.filter.transforms import TransformBuffer
+
+import numpy as np
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Estimate:
+    """What the filter believes at `stamp` (ns): the 15 state variables, their covariance, and how omega changes."""
+
+    stamp: int
+    state: Array
+    covariance: Array
+    angular_acceleration: Array
+    angular_acceleration_covariance: Array
+
+
+class Localization:
+    """A filter with its sensors and frames. All times are nanoseconds of one clock."""
+
+    def __init__(self, settings: Settings) -> None:
+        self.notices = Notices()
+        self.frames = FrameResolver(TransformBuffer())
+        self.enabled = not settings.timing.disabled_at_startup
+        self._timing = settings.timing
+        self._world = settings.frames.world
+        self._estimator = Estimator(settings.estimation, settings.control)
+        self._fusion = Fusion(self._estimator, settings.timing)
+        surroundings = Surroundings(settings, self._estimator, self._fusion, self.frames, self.notices)
+        self._intake = Intake(surroundings)
+        self._corrections = settings.publication.corrections
+        self._published: int | None = None
+        self._updated: int | None = None
+
+    def receive(self, sensor: str, message: Message, now: int) -> None:
+        """Take in a message of the sensor with this name, such as `odom0`; a disabled filter takes none."""
+        if not self.enabled:
+            return
+        try:
+            self._intake.receive(sensor, message, now)
+        except ClockJumpError:
+            self.reset()
+            self.notices.warn("time_jump", f"the stamps of {sensor} jumped back: the filter starts afresh")
+            self._intake.receive(sensor, message, now)
+
+    def command(self, velocities: tuple[float, ...], stamp: int) -> None:
+        """Note the velocities (vx vy vz vroll vpitch vyaw) that the robot is told to drive."""
+        self._estimator.command = velocities
+        self._estimator.commanded_at = stamp
+
+    def update(self, now: int) -> None:
+        """Fuse what is due; does nothing while disabled."""
+        if not self.enabled:
+            return
+        jumped = self._updated is not None and now < self._updated
+        if jumped and self._timing.reset_on_time_jump:
+            self.reset()
+            self.notices.warn("time_jump", "the clock jumped back: the filter starts afresh")
+        self._updated = now
+        self._intake.release(now)
+        self._fusion.update(now)
+        for part in self._fusion.take_rejected():
+            self.notices.warn(f"{part}_rejected", f"{part}: a measurement was beyond its rejection threshold")
+
+    def estimate(self) -> Estimate | None:
+        """Give the present estimate; None before the first measurement."""
+        estimator, fusion = self._estimator, self._fusion
+        if not estimator.initialised:
+            return None
+        return Estimate(
+            estimator.stamp,
+            estimator.state,
+            estimator.covariance,
+            fusion.angular_acceleration,
+            fusion.angular_acceleration_covariance,
+        )
+
+    def estimate_to_publish(self) -> Estimate | None:
+        """Give the present estimate if it is newer than the last one given here.
+
+        With `permit_corrected_publication` one of the same or an earlier time is given as well.
+        """
+        estimate = self.estimate()
+        if estimate is None or not self.enabled:
+            return None
+        if self._published is not None and estimate.stamp <= self._published and not self._corrections:
+            return None
+        self._published = estimate.stamp
+        return estimate
+
+    def set_pose(self, message: Message, now: int) -> bool:
+        """Put the robot at rest at a pose (geometry_msgs/PoseWithCovarianceStamped).
+
+        Messages stamped up to the pose's own stamp are ignored from then on. Tells whether the pose could be
+        taken into the world frame; otherwise nothing changes.
+        """
+        reading = readings.pose(message)
+        frame = self.frames.between(self._world, reading.frame, reading.stamp)
+        if frame is None:
+            return False
+        pose = frame @ transform(reading.position, reading.orientation)
+        turn = six_dimensional(frame.rotation)
+        vector = np.concatenate((pose.translation, rpy_from_matrix(pose.rotation)))
+        self._fusion.clear()
+        self._intake.reset(ignored_up_to=reading.stamp)
+        self._estimator.place(now, vector, turn @ reading.covariance @ turn.T)
+        self._published = None
+        return True
+
+    def reset(self) -> None:
+        """Start afresh, as if nothing had been received; static transforms stay known."""
+        self._estimator.reset()
+        self._fusion.clear()
+        self._intake.reset()
+        self.frames.buffer.clear()
+        self._published = None
+        self._updated = None

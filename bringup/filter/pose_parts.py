@@ -1,0 +1,126 @@
+"""Measurements from poses and from IMU orientations, plain, relative to the first or as differences."""
+
+import numpy as np
+
+from bringup.filter.measurement import Measurement
+from bringup.filter.mounting import Mountings
+from bringup.filter.readings import OrientationReading, PoseReading
+from bringup.filter.rigid import IDENTITY, Transform, transform
+from bringup.filter.rotation import cross_matrix, matrix_from_quaternion, matrix_from_rpy, rpy_from_matrix
+from bringup.filter.settings import NANOSECONDS, Part
+from bringup.filter.state import POSE, TWIST, Array, wrap
+
+_NO_TRANSLATION = np.zeros(3)
+
+
+class PoseTrack:
+    """The earlier poses of one part: its first for `relative`, its previous for `differential`."""
+
+    def __init__(self, part: Part) -> None:
+        self._part = part
+        self.forget()
+
+    def forget(self) -> None:
+        """Start afresh: the next pose is the first one."""
+        self._first: Transform | None = None
+        self._previous: tuple[int, Transform, Array] | None = None
+
+    def relative(self, pose: Transform) -> Transform:
+        """Give a pose as seen from the first one, if the part is relative."""
+        if not self._part.relative:
+            return pose
+        if self._first is None:
+            self._first = pose
+        return self._first.inverse() @ pose
+
+    def velocity(self, stamp: int, pose: Transform, covariance: Array) -> tuple[Array, Array] | None:
+        """Give the mean velocity since the previous pose, and its covariance, as upstream weighs it.
+
+        None for the first pose, and for one that follows within no time.
+        """
+        previous = self._previous
+        self._previous = stamp, pose, covariance
+        if previous is None or stamp <= previous[0]:
+            return None
+        dt = (stamp - previous[0]) / NANOSECONDS
+        return _vector(previous[1].inverse() @ pose) / dt, (covariance + previous[2]) * dt
+
+
+class PoseMeasuring:
+    """Turns the poses of one part into measurements."""
+
+    def __init__(self, part: Part, *, two_d_mode: bool) -> None:
+        self._differential = part.differential
+        self._mountings = Mountings(part, _offset(part), two_d_mode=two_d_mode)
+        self.track = PoseTrack(part)
+
+    def measure(self, reading: PoseReading, frame: Transform, to_base: Transform) -> Measurement | None:
+        """Measure from a reading, unless it is the first of a differential part.
+
+        `frame` takes the reading's frame to the world frame; `to_base` is where the base stands in the frame
+        whose pose is read. A difference is in the base's axes already and takes no `frame`.
+        """
+        pose = transform(reading.position, reading.orientation)
+        covariance = reading.covariance
+        if to_base is not IDENTITY:
+            covariance = _over_lever_arm(covariance, pose.rotation @ to_base.translation)
+            pose = pose @ to_base
+        if self._differential:
+            moved = self.track.velocity(reading.stamp, pose, covariance)
+            return None if moved is None else self._mountings.of(IDENTITY).measurement(reading.stamp, *moved)
+        mounting = self._mountings.of(frame)
+        vector = _vector(frame @ self.track.relative(pose))
+        return mounting.measurement(reading.stamp, vector, mounting.turned_covariance(covariance))
+
+
+class OrientationMeasuring:
+    """Turns the orientations of one IMU into measurements of the base's orientation or, as differences, its turning.
+
+    The mounting's angles are taken off one by one, and what is left is turned by the mounting's yaw (upstream's
+    way; exact for a mounting that is turned about the vertical alone).
+    """
+
+    def __init__(self, part: Part, *, two_d_mode: bool) -> None:
+        self._part = part
+        self._mountings = Mountings(part, _offset(part), two_d_mode=two_d_mode)
+        self.track = PoseTrack(part)
+
+    def measure(self, reading: OrientationReading, sensor: Transform) -> Measurement | None:
+        """Measure from a reading; `sensor` is where the IMU stands in the base frame."""
+        offsets = rpy_from_matrix(sensor.rotation)
+        heading = matrix_from_rpy(0.0, 0.0, offsets[2])
+        mounting = self._mountings.of(sensor, heading)
+        angles = rpy_from_matrix(matrix_from_quaternion(reading.orientation))
+        level = [wrap(angle - offset) for angle, offset in zip(angles, offsets, strict=True)]
+        vector, covariance = np.zeros(6), np.zeros((6, 6))
+        vector[3:] = heading @ level
+        covariance[3:, 3:] = heading @ reading.covariance @ heading.T
+        if self._part.relative or self._part.differential:
+            return self._tracked(reading.stamp, vector, covariance, sensor)
+        return mounting.measurement(reading.stamp, vector, covariance)
+
+    def _tracked(self, stamp: int, vector: Array, covariance: Array, sensor: Transform) -> Measurement | None:
+        mounting = self._mountings.of(sensor)
+        pose = Transform(matrix_from_rpy(*vector[3:].tolist()), _NO_TRANSLATION)
+        if not self._part.differential:
+            return mounting.measurement(stamp, _vector(self.track.relative(pose)), covariance)
+        moved = self.track.velocity(stamp, pose, covariance)
+        return None if moved is None else mounting.measurement(stamp, *moved)
+
+
+def _offset(part: Part) -> int:
+    return int(TWIST.start if part.differential else POSE.start)
+
+
+def _vector(pose: Transform) -> Array:
+    return np.concatenate((pose.translation, rpy_from_matrix(pose.rotation)))
+
+
+def _over_lever_arm(covariance: Array, arm: Array) -> Array:
+    """Covariance of a point at `arm` from the measured one, all in the axes of the reading's frame.
+
+    The rotations are about fixed axes and stay; they move the point across the arm.
+    """
+    carry = np.eye(6)
+    carry[:3, 3:] = -cross_matrix(arm)
+    return carry @ covariance @ carry.T
