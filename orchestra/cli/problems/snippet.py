@@ -38,6 +38,11 @@ def snippet(line: str, column: int, end_column: int | None) -> Snippet:
     return Snippet(source.rstrip(), " " * before + "^" * max(marked, 1))
 
 
+def printable(text: str) -> str:
+    """Return a text of any origin so that no terminal takes a part of it for a command; its lines stay lines."""
+    return "".join(character if character == "\n" else _printable(character, 0) for character in text)
+
+
 def _shown(line: str) -> list[str]:
     """Return what to print for each character."""
     shown: list[str] = []

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeAlias
 
 Sources: TypeAlias = Callable[[str, int], str | None]
+
+_BREAK = re.compile("\r\n|[\n\r\x85\u2028\u2029]")  # the breaks that YAML's parsers count
 
 
 def from_files(given: dict[str, str] | None = None) -> Sources:
@@ -19,20 +22,19 @@ def from_files(given: dict[str, str] | None = None) -> Sources:
 
     def line(file: str, number: int) -> str | None:
         if file not in read:
-            read[file] = _lines(_text(Path(file)))
+            read[file] = _read(Path(file))
         lines = read[file]
         return lines[number - 1] if 0 < number <= len(lines) else None
 
     return line
 
 
-def _text(path: Path) -> str:
+def _read(path: Path) -> list[str]:
     try:
-        return path.read_text("utf-8-sig", errors="replace")
+        return _lines(path.read_bytes().decode("utf-8-sig", errors="replace"))
     except (OSError, ValueError):
-        return ""
+        return []
 
 
 def _lines(text: str) -> list[str]:
-    """Split at the line breaks of YAML 1.2 and XML; reading in text mode has made them all one character."""
-    return text.split("\n")
+    return _BREAK.split(text)

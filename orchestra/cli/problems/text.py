@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.cli.problems.snippet import snippet
+from orchestra.cli.problems.snippet import printable, snippet
 from orchestra.errors import Problem, Severity
 
 if TYPE_CHECKING:
@@ -32,13 +32,13 @@ def counts(problems: Sequence[Problem]) -> str:
 def _block(problem: Problem, sources: Sources, paint: Paint) -> Iterator[str]:
     severity = paint(problem.severity.value, f"{problem.severity}:")
     place = paint("strong", f"{problem.span}: ") if problem.span else ""
-    yield f"{place}{severity} {paint('strong', problem.message)} [{problem.code}]"
+    yield f"{place}{severity} {paint('strong', printable(problem.message))} [{problem.code}]"
     if problem.span:
         yield from _source(problem.span, problem.severity, sources, paint)
     if problem.suggestion is not None:
-        yield f"{paint('help', 'help:')} did you mean '{problem.suggestion}'?"
+        yield f"{paint('help', 'help:')} did you mean '{printable(problem.suggestion)}'?"
     for note in problem.notes:
-        yield f"{paint('strong', 'note:')} {note}"
+        yield f"{paint('strong', 'note:')} {printable(note)}"
     for include in problem.included_from:
         yield paint("faint", f"included from {include}")
 

@@ -1,0 +1,36 @@
+"""The table of commands. A command's module has `parser()` and `run(options)` and is imported when it is called."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Final
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """Where a command is and what it does, in a few words."""
+
+    module: str
+    summary: str
+
+
+COMMANDS: Final[dict[str, Command]] = {
+    "launch": Command("orchestra.cli.launch", "start what a launch file describes, watch it, stop it"),
+    "run": Command("orchestra.cli.run", "start one node"),
+    "plan": Command("orchestra.cli.plan", "show what a launch file would start"),
+    "check": Command("orchestra.cli.check", "find what is wrong in launch files and parameter files"),
+    "schema": Command(
+        "orchestra.cli.schema", "print the JSON Schema of launch files, plans, events or problems"
+    ),
+}
+
+
+def overview() -> str:
+    """Return the text of `orchestra --help`."""
+    rows = "".join(f"  {name:<9} {command.summary}\n" for name, command in COMMANDS.items())
+    return (
+        "usage: orchestra [--help] [--version] COMMAND ...\n\n"
+        "Launches, checks and supervises systems of ROS 2 nodes.\n\n"
+        f"commands:\n{rows}\n"
+        "'orchestra COMMAND --help' tells more about one of them.\n"
+    )

@@ -1,0 +1,57 @@
+"""What `launch` and `plan` read alike: the launch file, its arguments, parameters and parameter files."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+from typing import TYPE_CHECKING
+
+from orchestra import pipeline
+from orchestra.errors import DescriptionError, Severity, UsageError
+
+if TYPE_CHECKING:
+    from argparse import ArgumentParser, Namespace
+
+    from orchestra.errors import Problem
+    from orchestra.plan.model import Plan
+
+EPILOG = """\
+words after the launch file:
+  NAME:=VALUE        a launch argument
+  NODE:NAME:=VALUE   a parameter of one node; it wins over all that the description says
+
+The launch file is a path, or the name of a package and the name of a file in it.
+"""
+
+
+def add_to(parser: ArgumentParser) -> None:
+    """Let a parser read them."""
+    parser.add_argument("words", nargs="*", metavar="FILE | PACKAGE FILE [NAME:=VALUE ...]", help="see below")
+    parser.add_argument(
+        "--params-file",
+        action="append",
+        default=[],
+        metavar="FILE",
+        help="a parameter file for every node; it wins over the description; may be given more than once",
+    )
+    parser.add_argument("--strict", action="store_true", help="take warnings for errors")
+
+
+def plan_from(options: Namespace, *, required: bool = True) -> Plan:
+    """Make the plan that the options ask for; without `required`, arguments may lack values.
+
+    Raises `UsageError` and `DescriptionError`; with `--strict` also where there are only warnings.
+    """
+    if not options.words:
+        raise UsageError("a launch file is missing")
+    file, words = pipeline.find_launch_file(options.words)
+    given = pipeline.inputs_from(words, environment=os.environ, params_files=options.params_file)
+    plan = pipeline.make_plan(file, dataclasses.replace(given, required=required))
+    if options.strict and plan.problems:
+        raise DescriptionError(as_errors(plan.problems))
+    return plan
+
+
+def as_errors(problems: tuple[Problem, ...]) -> tuple[Problem, ...]:
+    """Return the problems, warnings turned into errors."""
+    return tuple(dataclasses.replace(problem, severity=Severity.ERROR) for problem in problems)

@@ -1,0 +1,32 @@
+"""The parser of one command: argparse, but mistakes are raised, and options stand anywhere and are never abbreviated."""
+
+from __future__ import annotations
+
+from argparse import ArgumentParser, Namespace, RawDescriptionHelpFormatter
+from typing import TYPE_CHECKING, NoReturn
+
+from orchestra.errors import UsageError
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+class CommandParser(ArgumentParser):
+    """Reads the words after `orchestra COMMAND`."""
+
+    def __init__(self, command: str, description: str, epilog: str | None = None) -> None:
+        super().__init__(
+            prog=f"orchestra {command}",
+            description=description,
+            epilog=epilog,
+            allow_abbrev=False,
+            formatter_class=RawDescriptionHelpFormatter,
+        )
+
+    def read(self, words: Sequence[str]) -> Namespace:
+        """Return the options. Raises `UsageError`, or `SystemExit` after `--help`."""
+        return self.parse_intermixed_args(words)
+
+    def error(self, message: str) -> NoReturn:
+        """Raise instead of printing and leaving."""
+        raise UsageError(message)

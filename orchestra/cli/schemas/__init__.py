@@ -1,0 +1,1 @@
+"""JSON Schemas of what Orchestra reads and writes, generated from the types themselves."""

@@ -1,0 +1,84 @@
+"""Which files `orchestra check` looks at, and what each of them is.
+
+A file that is named is always looked at. In a folder only what is plainly a launch file or a parameter file is: by
+its name, else by a key of its text. The text is searched, not parsed, so that a file with a syntax error is found.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Literal, TypeAlias
+
+from orchestra.errors import UsageError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+Kind: TypeAlias = Literal["launch", "parameters"]
+
+_LAUNCH_NAME = re.compile(r".\.launch(\.(py|xml|ya?ml))?$")
+_YAML_NAME = re.compile(r"\.ya?ml$")
+_LAUNCH_KEY = re.compile(r"""^(\{\s*)?["']?launch["']?\s*:""", re.MULTILINE)
+_PARAMETERS_KEY = re.compile(r"""^[^#\n]*\bros__parameters["']?\s*:""", re.MULTILINE)
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A file to look at."""
+
+    path: str
+    kind: Kind
+
+
+def targets(paths: Sequence[str]) -> tuple[Target, ...]:
+    """Return the files that the paths stand for, each once, those of a folder sorted by path.
+
+    Raises `UsageError` for a path that does not exist and for a folder in which there is nothing to look at.
+    """
+    found: dict[str, Target] = {}
+    for path in paths:
+        for target in _behind(path):
+            found.setdefault(os.path.realpath(target.path), target)
+    return tuple(found.values())
+
+
+def kind_of(name: str, text: str) -> Kind | None:
+    """Tell what a file is by its name and text, None where it is neither."""
+    if _LAUNCH_NAME.search(name):
+        return "launch"
+    if not _YAML_NAME.search(name):
+        return None
+    if _LAUNCH_KEY.search(text):
+        return "launch"
+    return "parameters" if _PARAMETERS_KEY.search(text) else None
+
+
+def _behind(path: str) -> list[Target]:
+    if Path(path).is_file():
+        return [Target(path, _kind_of_file(Path(path)) or "launch")]
+    if not Path(path).is_dir():
+        raise UsageError(f"there is no file or folder {path}")
+    found = [Target(str(file), kind) for file in sorted(_files(path)) if (kind := _kind_of_file(file))]
+    if not found:
+        raise UsageError(f"there is no launch file and no parameter file in {path}")
+    return found
+
+
+def _files(folder: str) -> Iterator[Path]:
+    """Yield the files below a folder, hidden folders left out."""
+    for here, folders, files in os.walk(folder):
+        folders[:] = [name for name in folders if not name.startswith(".")]
+        yield from (Path(here, name) for name in files)
+
+
+def _kind_of_file(file: Path) -> Kind | None:
+    if not _YAML_NAME.search(file.name):
+        return kind_of(file.name, "")
+    try:
+        text = file.read_text("utf-8", errors="replace")
+    except OSError:
+        text = ""  # whoever checks it by its name will say that it cannot be read
+    return kind_of(file.name, text)
