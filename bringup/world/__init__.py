@@ -1,1 +1,4 @@
-"""The simulated world of the bringup: layout, physics, sensors and picture, without ROS but for `messages`."""
+"""The simulated world of the bringup: layout, physics, sensors and picture.
+
+Only `inbox`, `messages`, `parameters` and `topics` know ROS.
+"""

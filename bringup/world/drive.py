@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 from bringup.world.body import WHEEL_RADIUS, WHEEL_SEPARATION
 
+
 @dataclass(frozen=True, slots=True)
 class Twist:
     """Forward velocity in m/s and turning rate in rad/s."""

@@ -18,6 +18,7 @@ ANGLE_MIN = -math.pi
 ANGLE_INCREMENT = math.tau / RAYS
 RANGE_MIN = 0.12
 RANGE_MAX = 12.0
+PERIOD = 0.1
 
 
 class Lidar:
@@ -55,7 +56,9 @@ class Lidar:
         return np.where(hit, self._distances, np.inf)
 
 
-def noisy(distances: NDArray[np.float64], deviation: float, chance: np.random.Generator) -> NDArray[np.float64]:
+def noisy(
+    distances: NDArray[np.float64], deviation: float, chance: np.random.Generator
+) -> NDArray[np.float64]:
     """What the scanner reports for true distances: normal noise (metres) on what it hits, within its range."""
     # The same number of draws whatever is hit, so that runs with one seed stay comparable.
     reported = distances + deviation * chance.standard_normal(len(distances))

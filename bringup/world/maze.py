@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 WALL_HEIGHT = 0.8
 WALL_HALF = 0.05
 # The share of walls that a second walk takes away, so that there are ways around and not only dead ends.
-LOOPS = 0.4
+LOOPS = 0.2
 
 Edge = tuple[Cell, Cell]
 

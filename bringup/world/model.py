@@ -4,20 +4,17 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import mujoco
 import numpy as np
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from numpy.typing import NDArray
 
 from bringup.world.body import FOOTPRINT_RADIUS, MOUNTS, WHEEL_RADIUS
 from bringup.world.drive import Twist
 from bringup.world.geometry import Pose, yaw_of
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
-
-    from bringup.world.layout import Layout
+from bringup.world.layout import Layout
 
 WORLDS = Path(__file__).parent.parent / "worlds"
 TEMPLATE = "world.xml.j2"
@@ -81,7 +78,7 @@ def pose(data: Any, robot: Robot) -> Pose:  # noqa: ANN401 - MjData has no type
     return Pose(x, y, yaw_of(*quaternion))
 
 
-def twist(data: Any, robot: Robot, heading: float) -> tuple[Twist, float]:
+def twist(data: Any, robot: Robot, heading: float) -> tuple[Twist, float]:  # noqa: ANN401 - MjData has no type
     """How the robot moves now, in its own frame, and its velocity to the left in m/s."""
     vx, vy, _, _, _, turn = data.qvel[robot.velocity : robot.velocity + 6].tolist()
     cos, sin = np.cos(heading), np.sin(heading)

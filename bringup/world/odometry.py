@@ -1,4 +1,4 @@
-"""Wheel odometry: dead reckoning from wheel angles, with the errors that real wheels have and an honest account of them.
+"""Wheel odometry: dead reckoning from wheel angles, with the errors of real wheels and an honest account of them.
 
 Three errors go in: a wrong belief in each wheel's radius, slip (a share of the travel that changes slowly, as tyres and
 floor do), and noise (a random walk with the travelled way). The covariances say what these do to the numbers: the
@@ -9,16 +9,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bringup.world.body import WHEEL_RADIUS, WHEEL_SEPARATION
 from bringup.world.drive import Twist
 from bringup.world.geometry import Pose, wrap
-
-if TYPE_CHECKING:
-    from numpy.typing import NDArray
 
 # Seconds for which slip stays about the same.
 SLIP_TIME = 1.0

@@ -1,0 +1,134 @@
+"""ROS messages made from the simulation's numbers; every message object is made once and then filled anew."""
+
+from __future__ import annotations
+
+import array
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+from geometry_msgs.msg import TransformStamped
+from nav_msgs.msg import Odometry
+from sensor_msgs.msg import Imu, LaserScan
+
+from bringup.world import lidar
+from bringup.world.body import MOUNTS
+from bringup.world.geometry import Pose, yaw_of
+from bringup.world.inertial import InertialNoise, variance
+from bringup.world.model import TICKS_PER_SECOND
+
+if TYPE_CHECKING:
+    from builtin_interfaces.msg import Time
+    from numpy.typing import NDArray
+
+    from bringup.world.drive import Twist
+
+NANOSECONDS = 10**9
+NANOSECONDS_PER_TICK = NANOSECONDS // TICKS_PER_SECOND
+# Rows and columns of (x, y, yaw) and (vx, vyaw) within a message's 6 x 6 covariance.
+PLANAR = np.ix_((0, 1, 5), (0, 1, 5))
+DRIVEN = np.ix_((0, 5), (0, 5))
+# What a wheel cannot know at all, and how well it knows that it does not go sideways (m/s).
+UNKNOWN = 1e6
+SIDEWAYS = 0.01**2
+
+
+def stamp(time: Time, ticks: int) -> Time:
+    """Set a time to that of a tick."""
+    time.sec, time.nanosec = divmod(ticks * NANOSECONDS_PER_TICK, NANOSECONDS)
+    return time
+
+
+def ticks_of(time: Time) -> float:
+    """The tick of a time; between two ticks it is a fraction."""
+    return float((time.sec * NANOSECONDS + time.nanosec) / NANOSECONDS_PER_TICK)
+
+
+def new_odometry(robot: str) -> Odometry:
+    """An odometry message of a robot whose numbers are exact."""
+    message = Odometry(child_frame_id=f"{robot}/base_footprint")
+    message.header.frame_id = f"{robot}/odom"
+    return message
+
+
+def new_wheel_odometry(robot: str) -> Odometry:
+    """An odometry message of a robot's wheels: what they cannot measure is marked as unknown."""
+    message = new_odometry(robot)
+    for axis in (2, 3, 4):
+        message.pose.covariance[axis * 7] = UNKNOWN
+        message.twist.covariance[axis * 7] = UNKNOWN
+    message.twist.covariance[7] = SIDEWAYS
+    return message
+
+
+def fill_motion(message: Odometry, pose: Pose, twist: Twist, sideways: float = 0.0) -> None:
+    """Put pose and velocity into an odometry message."""
+    message.pose.pose.position.x, message.pose.pose.position.y = pose.x, pose.y
+    message.pose.pose.orientation.z = math.sin(pose.yaw / 2)
+    message.pose.pose.orientation.w = math.cos(pose.yaw / 2)
+    message.twist.twist.linear.x, message.twist.twist.linear.y = twist.linear, sideways
+    message.twist.twist.angular.z = twist.angular
+
+
+def fill_covariances(message: Odometry, pose: NDArray[np.float64], twist: NDArray[np.float64]) -> None:
+    """Put covariances over (x, y, yaw) and (vx, vyaw) into an odometry message."""
+    message.pose.covariance.reshape(6, 6)[PLANAR] = pose
+    message.twist.covariance.reshape(6, 6)[DRIVEN] = twist
+
+
+def pose_of(message: Odometry) -> Pose:
+    """The pose in an odometry message."""
+    position, turn = message.pose.pose.position, message.pose.pose.orientation
+    return Pose(position.x, position.y, yaw_of(turn.w, turn.x, turn.y, turn.z))
+
+
+def new_imu(robot: str, noise: InertialNoise) -> Imu:
+    """A robot's IMU message: six axes, so no orientation (its covariance starts with -1)."""
+    message = Imu()
+    message.header.frame_id = f"{robot}/imu_link"
+    message.orientation_covariance[0] = -1.0
+    message.angular_velocity_covariance[::4] = variance(noise.gyro_noise, noise.gyro_bias)
+    message.linear_acceleration_covariance[::4] = variance(
+        noise.accelerometer_noise, noise.accelerometer_bias
+    )
+    return message
+
+
+def fill_imu(
+    message: Imu, turning: tuple[float, float, float], acceleration: tuple[float, float, float]
+) -> None:
+    """Put what the IMU has measured into its message."""
+    rate, force = message.angular_velocity, message.linear_acceleration
+    rate.x, rate.y, rate.z = turning
+    force.x, force.y, force.z = acceleration
+
+
+def new_scan(robot: str) -> LaserScan:
+    """A robot's laser scan; all its beams are of one moment."""
+    message = LaserScan(
+        angle_min=lidar.ANGLE_MIN,
+        angle_max=lidar.ANGLE_MIN + lidar.ANGLE_INCREMENT * (lidar.RAYS - 1),
+        angle_increment=lidar.ANGLE_INCREMENT,
+        scan_time=lidar.PERIOD,
+        range_min=lidar.RANGE_MIN,
+        range_max=lidar.RANGE_MAX,
+    )
+    message.header.frame_id = f"{robot}/laser"
+    return message
+
+
+def fill_scan(message: LaserScan, ranges: NDArray[np.float64]) -> None:
+    """Put measured distances into a scan."""
+    message.ranges = array.array("f", ranges.astype(np.float32).tobytes())
+
+
+def mounts(robot: str) -> list[TransformStamped]:
+    """The transforms of everything that is fixed on a robot, from its `base_footprint` on."""
+    transforms = []
+    for mount in MOUNTS:
+        transform = TransformStamped(child_frame_id=f"{robot}/{mount.child}")
+        transform.header.frame_id = f"{robot}/{mount.parent}"
+        place = transform.transform.translation
+        place.x, place.y, place.z = mount.x, mount.y, mount.z
+        transforms.append(transform)
+    return transforms
