@@ -1,4 +1,4 @@
-"""The parser of one command: argparse, but mistakes are raised, and options stand anywhere and are never abbreviated."""
+"""The parser of one command: argparse, but mistakes are raised, options stand anywhere and are never abbreviated."""
 
 from __future__ import annotations
 

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from orchestra.plan.model import Dependency, ParameterValue, Process, Ready, Restart, Stop
+    from orchestra.plan.model import Dependency, Process, Ready
+    from orchestra.values import ParameterValue, Restart, Stop
 
 _WIDTH = 11
 _REACHED = {

@@ -1,0 +1,223 @@
+"""What a person reads of a plan."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import replace
+from difflib import unified_diff
+
+import pytest
+
+from orchestra.location import Location, Span
+from orchestra.plan import codec
+from orchestra.plan.model import (
+    VERSION,
+    Argument,
+    Component,
+    Dependency,
+    LogAction,
+    ParameterFile,
+    Plan,
+    Process,
+    Provenance,
+    Ready,
+    ShutdownAction,
+    Skipped,
+    StartAction,
+    Trigger,
+    TriggerEvent,
+)
+from orchestra.plan.render.formats import FORMATS
+from orchestra.values import Restart, Stop
+
+
+def _at(line: int) -> Location:
+    return Location(Span("two.yaml", line, 5, line, 9))
+
+
+_TALKER = Process(
+    id="/robot1/talker",
+    kind="node",
+    package="demo",
+    executable="talker",
+    name="talker",
+    namespace="/robot1",
+    command=("/opt/demo/talker", "--ros-args", "-r", "__node:=talker", "a b"),
+    shell=False,
+    prefix=(),
+    environment={"LEVEL": "very high", "GONE": None},
+    cwd="/data",
+    parameters={"rate": 2.0, "name": "yes", "list": (1, 2)},
+    parameter_files=(ParameterFile("${run}/params/x.yaml", "/**: {}"),),
+    remappings=(("chatter", "/chatter"), ("a", "b")),
+    arguments=(),
+    output="screen",
+    emulate_tty=None,
+    stdin=None,
+    restart=Restart("on-failure", 1.0, 30.0, 10.0, 3),
+    required=True,
+    success_exit_codes=None,
+    ready=Ready(None, "/robot1/chatter", 5.0),
+    alive=None,
+    lifecycle=None,
+    depends_on=(Dependency("/clock", "ready", 20.0, _at(9)), Dependency("/other", "exited", None, _at(9))),
+    stop=Stop("SIGTERM", 2.0, 0.5),
+    limits=None,
+    warm=None,
+    machine=None,
+    digest="d",
+    location=_at(7),
+    provenance=Provenance(),
+)
+
+
+def _bare(identity: str, namespace: str | None, *, by_shell: bool = False) -> Process:
+    return replace(
+        _TALKER,
+        id=identity,
+        kind="process",
+        package=None,
+        namespace=namespace,
+        command=("echo", "$HOME"),
+        shell=by_shell,
+        environment={},
+        cwd=None,
+        parameters={},
+        parameter_files=(),
+        remappings=(),
+        output=None,
+        restart=None,
+        required=False,
+        ready=None,
+        depends_on=(),
+        stop=None,
+        location=_at(3),
+    )
+
+
+def _plan(*processes: Process) -> Plan:
+    return Plan(VERSION, "two.yaml", (), processes, (), (), (), ())
+
+
+def _text(plan: Plan) -> str:
+    return FORMATS["text"](plan)
+
+
+def test_a_process_in_full() -> None:
+    assert _text(_plan(_TALKER)) == (
+        "two.yaml: 1 process\n"
+        "\n"
+        "processes\n"
+        "  /\n"
+        "    robot1/\n"
+        "      /robot1/talker  (node demo/talker, two.yaml:7:5)\n"
+        "        command     /opt/demo/talker --ros-args -r __node:=talker 'a b'\n"
+        "        folder      /data\n"
+        "        environment LEVEL='very high'\n"
+        "                    GONE unset\n"
+        "        parameters  rate: 2.0\n"
+        '                    name: "yes"\n'
+        "                    list: [1, 2]\n"
+        "        passed on   ${run}/params/x.yaml\n"
+        "        remaps      chatter -> /chatter\n"
+        "                    a -> b\n"
+        "        output      screen\n"
+        "        after       /clock is ready, within 20 s\n"
+        "                    /other has exited\n"
+        "        ready       at the first message on /robot1/chatter, within 5 s\n"
+        "        restart     on-failure, after 1 s to 30 s, 3 times at most\n"
+        "        stop        SIGTERM, after 2 s SIGTERM, after 0.5 s more SIGKILL\n"
+        "        required    the run ends with it\n"
+    )
+
+
+def test_the_tree_follows_the_namespaces_and_keeps_the_order_of_the_plan() -> None:
+    plan = _plan(
+        _bare("/b/deep/x", "/b/deep"),
+        _bare("/root", "/"),
+        _bare("sh", None, by_shell=True),
+        _bare("/a/x", "/a"),
+        _bare("/b/x", "/b"),
+    )
+    assert [line for line in _text(plan).splitlines()[3:] if "command" not in line] == [
+        "  sh  (process, two.yaml:3:5)",
+        "  /",
+        "    /root  (process, two.yaml:3:5)",
+        "    b/",
+        "      /b/x  (process, two.yaml:3:5)",
+        "      deep/",
+        "        /b/deep/x  (process, two.yaml:3:5)",
+        "    a/",
+        "      /a/x  (process, two.yaml:3:5)",
+    ]
+    assert "    command     sh: echo $HOME\n" in _text(plan)
+    assert "        command     echo '$HOME'\n" in _text(plan)
+
+
+def test_a_node_more_changes_no_other_line() -> None:
+    one = _text(_plan(_bare("/a", "/"), _bare("/c", "/"))).splitlines()
+    two = _text(_plan(_bare("/a", "/"), _bare("/b", "/"), _bare("/c", "/"))).splitlines()
+    changed = [line for line in unified_diff(one[1:], two[1:], n=0, lineterm="") if line[0] in "+-"]
+    assert changed[2:] == ["+    /b  (process, two.yaml:3:5)", "+      command     echo '$HOME'"]
+
+
+def test_arguments_components_triggers_and_what_was_left_out() -> None:
+    start, ended = TriggerEvent("run_started"), TriggerEvent("process_exited", "/a")
+    plan = replace(
+        _plan(),
+        arguments=(
+            Argument("world", "arena", "big maze", "which", ("arena", "big maze"), _at(1)),
+            Argument("speed", "1.0", "1.0", None, None, _at(2)),
+            Argument("robot", None, None, None, None, _at(2)),
+        ),
+        components=(
+            Component(
+                "camera", "/r", "image", "image::Camera", "/r/box", {"hz": 3}, (), _at(4), Provenance()
+            ),
+        ),
+        triggers=(
+            Trigger(start, (LogAction("it's up", _at(5)), StartAction("/b", _at(5))), 2.5, False, _at(5)),
+            Trigger(ended, (ShutdownAction("/a ended", _at(6)),), None, False, _at(6)),
+            Trigger(ended, (), None, True, _at(6)),
+        ),
+        skipped=(Skipped("node", "gui", "if", "$(var gui)", "false", _at(8)),),
+    )
+    assert _text(plan) == (
+        "two.yaml: 1 component, 3 triggers\n"
+        "\n"
+        "arguments\n"
+        "  world := 'big maze'  (default arena)\n"
+        "  speed := 1.0\n"
+        "  robot := (no value)\n"
+        "\n"
+        "components\n"
+        "  /r/camera: image/image::Camera in /r/box hz=3\n"
+        "\n"
+        "triggers\n"
+        '  2.5 s after the start of the run: log "it\'s up"; start /b  (two.yaml:5:5)\n'
+        "  the end of /a: shut down, /a ended  (two.yaml:6:5)\n"
+        "  the end of /a: decided when it happens  (two.yaml:6:5)\n"
+        "\n"
+        "skipped\n"
+        "  node gui: if $(var gui), which is false  (two.yaml:8:5)\n"
+    )
+
+
+def test_a_plan_of_nothing_says_so() -> None:
+    assert _text(_plan()) == "two.yaml: nothing to run\n"
+
+
+def test_a_log_condition_is_shown_as_an_expression() -> None:
+    plan = _plan(replace(_bare("/a", "/"), ready=Ready("up .*", None, None)))
+    assert "ready       at a line of output that matches 'up .*'\n" in _text(plan)
+
+
+@pytest.mark.parametrize("name", sorted(FORMATS))
+def test_the_same_plan_gives_the_same_text(name: str) -> None:
+    plan = _plan(_TALKER, _bare("/a", "/"))
+    assert FORMATS[name](plan) == FORMATS[name](codec.loads(codec.dumps(plan)))
+
+
+def test_json_is_the_plan_itself() -> None:
+    plan = _plan(_TALKER)
+    assert json.loads(FORMATS["json"](plan)) == codec.encode(plan)
