@@ -213,7 +213,7 @@ class _Reader:
             told = f"$({call.name}) lacks its {signature.arguments[count]}"
             self.problems.error(Code.SUBSTITUTION_SYNTAX, told, call.span, notes=notes)
         elif signature.maximum is not None and count > signature.maximum:
-            told = f"$({call.name}) takes {_number(signature.maximum)}, here are {count}"
+            told = f"$({call.name}) takes {_number(signature.maximum)}, not {count}"
             suggestion = self.in_quotes(first, last) if signature.phrase else None
             self.fault(first, last, told, suggestion=suggestion, notes=notes)
 

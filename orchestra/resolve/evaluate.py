@@ -1,0 +1,37 @@
+"""Turns a text with substitutions into its value."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.description.text import Words
+from orchestra.resolve.context import POISON, Poison, Value
+from orchestra.resolve.substitutions.table import SUBSTITUTIONS
+
+if TYPE_CHECKING:
+    from orchestra.description.text import Call, Template
+    from orchestra.resolve.context import Context, Evaluated
+
+
+def evaluate(template: Template, context: Context) -> Evaluated:
+    """Return the concatenated parts; the value points at where the template is written.
+
+    Every part is evaluated even where one is faulty, so that all faults are reported and all reads are seen.
+    """
+    texts: list[str] = []
+    poisoned = template.faulty
+    for part in template.parts:
+        if isinstance(part, Words):
+            texts.append(part.text)
+            continue
+        value = perform(part, context)
+        if isinstance(value, Poison):
+            poisoned = True
+        else:
+            texts.append(value.text)
+    return POISON if poisoned else Value("".join(texts), context.at(template.span))
+
+
+def perform(call: Call, context: Context) -> Evaluated:
+    """Return the value of one substitution, which points at where the substitution is written."""
+    return SUBSTITUTIONS[call.name](call, context, evaluate)

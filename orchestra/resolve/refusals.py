@@ -1,0 +1,51 @@
+"""Reports what a written text turned out to name and is not there."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code
+from orchestra.nearest import nearest
+from orchestra.resolve.context import POISON
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from orchestra.description.text import Template
+    from orchestra.resolve.context import Context, Poison
+
+
+def refuse(
+    written: Template,
+    context: Context,
+    code: Code,
+    told: str,
+    *,
+    meant: str | None = None,
+    notes: Iterable[str] = (),
+) -> Poison:
+    """Report an error at a written text. What was meant can replace it only where it holds no substitution."""
+    replaceable = written.constant is not None
+    if meant is not None and not replaceable:
+        notes = (*notes, f"did you mean {meant!r}?")
+    suggestion = meant if replaceable else None
+    context.problems.error(code, told, context.at(written.span), suggestion=suggestion, notes=notes)
+    return POISON
+
+
+def report_missing_package(package: str, written: Template, context: Context) -> Poison:
+    """Report a package that is not here; `written` is the text that names it."""
+    meant = nearest(package, context.packages.names())
+    return refuse(
+        written, context, Code.MISSING_PACKAGE, f"there is no package {package!r} here", meant=meant
+    )
+
+
+def report_missing_executable(executable: str, package: str, written: Template, context: Context) -> Poison:
+    """Report an executable that a package lacks; `written` is the text that names it."""
+    known = context.packages.executables(package)
+    notes = (f"it has {', '.join(sorted(known))}",) if known else ("it has no executables",)
+    told = f"package {package!r} has no executable {executable!r}"
+    return refuse(
+        written, context, Code.MISSING_EXECUTABLE, told, meant=nearest(executable, known), notes=notes
+    )

@@ -1,0 +1,1 @@
+"""The substitutions: one file each, and one table."""

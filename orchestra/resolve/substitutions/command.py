@@ -1,0 +1,70 @@
+"""`$(command "program argument ..." [on_stderr])`: what a command prints."""
+
+from __future__ import annotations
+
+import shlex
+from typing import TYPE_CHECKING, Final
+
+from orchestra.errors import Code
+from orchestra.nearest import nearest
+from orchestra.resolve.context import POISON
+from orchestra.resolve.refusals import refuse
+from orchestra.resolve.substitutions.arguments import made, texts
+
+if TYPE_CHECKING:
+    from orchestra.description.text import Call
+    from orchestra.resolve.context import CommandResult, Context, Evaluated
+    from orchestra.resolve.substitutions.arguments import Evaluate
+
+_ON_STDERR: Final = ("fail", "ignore", "warn", "capture")
+_SHOWN: Final = 2000  # characters of standard error in a problem, its end
+
+
+def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
+    """Run the command without a shell and return its output, one final line break taken away.
+
+    It fails where the status is not 0 and, by default, where anything goes to standard error; `ignore` and `warn` let
+    that pass, `capture` appends it to the output. Upstream keeps the line break.
+    """
+    words = texts(call, context, evaluate)
+    if words is None:
+        return POISON
+    command, on_stderr = words[0], words[1] if len(words) > 1 else "fail"
+    if on_stderr not in _ON_STDERR:
+        told = f"on_stderr is one of {', '.join(_ON_STDERR)}, not {on_stderr!r}"
+        return refuse(call.arguments[1], context, Code.BAD_VALUE, told, meant=nearest(on_stderr, _ON_STDERR))
+    try:
+        argv = tuple(shlex.split(command))
+    except ValueError as error:
+        return refuse(
+            call.arguments[0], context, Code.COMMAND_FAILED, f"{command!r} cannot be split: {error}"
+        )
+    if not argv:
+        return refuse(call.arguments[0], context, Code.COMMAND_FAILED, "the command is empty")
+    result = context.run_command(argv, context.environment)
+    fault = _fault(result, on_stderr)
+    if fault is not None:
+        told, notes = f"command {argv[0]!r} {fault}", _notes(argv, result)
+        context.problems.error(Code.COMMAND_FAILED, told, context.at(call.span), notes=notes)
+        return POISON
+    if result.stderr and on_stderr == "warn":
+        told, notes = f"command {argv[0]!r} wrote to standard error", _notes(argv, result)
+        context.problems.warning(Code.COMMAND_FAILED, told, context.at(call.span), notes=notes)
+    output = result.stdout + result.stderr if on_stderr == "capture" else result.stdout
+    return made(call, context, output.removesuffix("\n"))
+
+
+def _fault(result: CommandResult, on_stderr: str) -> str | None:
+    """Return why the result cannot be used, None where it can."""
+    if result.failure is not None:
+        return result.failure
+    if result.status < 0:
+        return f"was ended by signal {-result.status}"
+    if result.status > 0:
+        return f"ended with status {result.status}"
+    return "wrote to standard error" if result.stderr and on_stderr == "fail" else None
+
+
+def _notes(argv: tuple[str, ...], result: CommandResult) -> tuple[str, ...]:
+    said = result.stderr.strip()[-_SHOWN:]
+    return (f"it is {shlex.join(argv)}", *([f"it says: {said}"] if said else []))

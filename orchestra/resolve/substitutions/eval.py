@@ -1,0 +1,93 @@
+"""`$(eval expression [modules])`: the result of a Python expression.
+
+As upstream, the expression is unrestricted Python and sees the members of `math`, unless other modules are named.
+It may run as long as it likes. Only what it raises is kept from ending the process.
+"""
+
+from __future__ import annotations
+
+import importlib
+import warnings
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code
+from orchestra.nearest import nearest
+from orchestra.resolve.context import POISON
+from orchestra.resolve.substitutions.arguments import made, texts
+
+if TYPE_CHECKING:
+    from orchestra.description.text import Call
+    from orchestra.resolve.context import Context, Evaluated
+    from orchestra.resolve.substitutions.arguments import Evaluate
+
+
+def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
+    """Return the `str` of what the expression gives."""
+    words = texts(call, context, evaluate)
+    if words is None:
+        return POISON
+    expression, modules = words[0], words[1] if len(words) > 1 else "math"
+    names: dict[str, object] = {}
+    try:
+        with warnings.catch_warnings(record=True) as doubts:
+            warnings.simplefilter("always")
+            names.update(_names(modules))
+            text = str(eval(expression, names))  # noqa: S307 - unrestricted Python is what $(eval) is
+    except (Exception, GeneratorExit, SystemExit) as error:  # noqa: BLE001 - it may raise whatever it likes
+        return _failed(call, context, expression, error, names)
+    for doubt in doubts:
+        context.problems.warning(Code.BAD_EXPRESSION, str(doubt.message), context.at(call.span))
+    return made(call, context, text)
+
+
+def _names(modules: str) -> dict[str, object]:
+    """Return what an expression sees of a comma-separated list of modules."""
+    names: dict[str, object] = {}
+    for name in filter(None, map(str.strip, modules.split(","))):
+        module = importlib.import_module(name)
+        names[name.partition(".")[0]] = importlib.import_module(name.partition(".")[0])
+        if name == "math":
+            names |= {member: value for member, value in vars(module).items() if not member.startswith("_")}
+    return names
+
+
+def _failed(
+    call: Call, context: Context, expression: str, error: BaseException, names: dict[str, object]
+) -> Evaluated:
+    notes = []
+    if call.arguments[0].constant is None:
+        notes.append(f"the expression is {expression!r} here")
+    if isinstance(error, NameError) and error.name:
+        meant = nearest(error.name, {*names, *_BUILTINS})
+        notes.append(f"did you mean {meant!r}?" if meant else f"text needs quotes of its own: '{error.name}'")
+    told = f"this expression fails: {type(error).__name__}: {_message(error)}"
+    context.problems.error(Code.BAD_EXPRESSION, told, context.at(call.span), notes=notes)
+    return POISON
+
+
+def _message(error: BaseException) -> str:
+    """Return what an exception says, even where saying it fails too."""
+    if isinstance(error, SyntaxError):
+        return error.msg
+    try:
+        return str(error)
+    except Exception:  # noqa: BLE001 - the expression may have made an exception of its own
+        return "it cannot even say why"
+
+
+_BUILTINS = (
+    "True",
+    "False",
+    "None",
+    "abs",
+    "bool",
+    "float",
+    "int",
+    "len",
+    "list",
+    "max",
+    "min",
+    "round",
+    "str",
+    "sum",
+)

@@ -1,0 +1,45 @@
+"""`$(file-content path)`: the text of a file."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code
+from orchestra.nearest import nearest
+from orchestra.resolve.context import POISON, Poison
+from orchestra.resolve.refusals import refuse
+from orchestra.resolve.substitutions.arguments import made
+
+if TYPE_CHECKING:
+    from orchestra.description.text import Call, Template
+    from orchestra.resolve.context import Context, Evaluated
+    from orchestra.resolve.substitutions.arguments import Evaluate
+
+
+def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
+    """Return the text, its last line break kept; the path is relative to the launch file, then to the working folder.
+
+    Upstream looks in the working folder only.
+    """
+    written = call.arguments[0]
+    path = evaluate(written, context)
+    if isinstance(path, Poison):
+        return POISON
+    folders = [Path(context.file).parent, Path()] if context.file else [Path()]
+    try:
+        found = next((folder / path.text for folder in folders if (folder / path.text).exists()), None)
+        if found is None:
+            return _missing(folders[0] / path.text, path.text, written, context)
+        if not found.is_file():
+            return refuse(written, context, Code.UNREADABLE_FILE, f"{path.text!r} is not a regular file")
+        return made(call, context, found.read_text(encoding="utf-8"))
+    except (OSError, ValueError) as error:
+        return refuse(written, context, Code.UNREADABLE_FILE, f"{path.text!r} cannot be read: {error}")
+
+
+def _missing(path: Path, told: str, written: Template, context: Context) -> Poison:
+    beside = [entry.name for entry in path.parent.iterdir()] if path.parent.is_dir() else []
+    near = nearest(path.name, beside)
+    meant = told.removesuffix(path.name) + near if near else None
+    return refuse(written, context, Code.MISSING_FILE, f"there is no file {told!r}", meant=meant)

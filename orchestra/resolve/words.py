@@ -1,0 +1,125 @@
+"""Splits `cmd`, `args` and `ros_args` into words by shell rules.
+
+Upstream splits each literal piece on its own, so that quotes around a substitution are an error there. Here the pieces
+are read as one text in which the result of a substitution is an indivisible character: it is never split, whether it
+stands in quotes or not, and an empty one by itself is an empty word. An empty text has no words; where it must have
+one, as `cmd` must, that is for the caller to say (upstream makes it one empty word).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Final
+
+from orchestra.description.text import Words
+from orchestra.errors import Code
+from orchestra.location import Span
+from orchestra.resolve.context import POISON, Poison, Value
+from orchestra.resolve.evaluate import perform
+
+if TYPE_CHECKING:
+    from orchestra.description.text import Template
+    from orchestra.resolve.context import Context
+
+_BLANKS: Final = " \t\r\n"
+
+
+def split(template: Template, context: Context) -> tuple[Value, ...] | Poison:
+    """Return the words, each pointing at where it is written; quotes and backslashes act as in `shlex.split`."""
+    splitter = _Splitter()
+    poisoned = template.faulty
+    for part in template.parts:
+        if isinstance(part, Words):
+            for offset, character in enumerate(part.text):
+                splitter.literal(character, _place(part, offset))
+            continue
+        value = perform(part, context)
+        if isinstance(value, Poison):
+            poisoned = True
+        else:
+            splitter.substituted(value.text, part.span)
+    if poisoned:
+        return POISON
+    splitter.end()
+    for span, told in splitter.faults:
+        context.problems.error(Code.SUBSTITUTION_SYNTAX, told, context.at(span))
+    return (
+        POISON if splitter.faults else tuple(Value(word, context.at(span)) for word, span in splitter.words)
+    )
+
+
+@dataclass(slots=True)
+class _Splitter:
+    """The state between two characters: behind which backslash, inside which quote, within which word."""
+
+    words: list[tuple[str, Span]] = field(default_factory=list)
+    faults: list[tuple[Span, str]] = field(default_factory=list)
+    backslash: Span | None = None
+    quote: str = ""
+    quote_at: Span | None = None
+    pieces: list[str] | None = None
+    spans: list[Span] = field(default_factory=list)
+
+    def literal(self, character: str, span: Span) -> None:
+        """Take a character of the literal text."""
+        if self.backslash:
+            kept = "\\" if self.quote and character not in (self.quote, "\\") else ""
+            self.append(kept + character, span)
+            self.backslash = None
+        elif character == "\\" and self.quote != "'":
+            self.append("", span)
+            self.backslash = span
+        elif self.quote:
+            self.append("" if character == self.quote else character, span)
+            self.quote = "" if character == self.quote else self.quote
+        elif character in "'\"":
+            self.append("", span)
+            self.quote, self.quote_at = character, span
+        elif character in _BLANKS:
+            self.finish()
+        else:
+            self.append(character, span)
+
+    def substituted(self, text: str, span: Span) -> None:
+        """Take the result of a substitution."""
+        self.end_of_backslash()
+        self.append(text, span)
+
+    def append(self, text: str, span: Span) -> None:
+        """Add to the current word, which begins here where there is none."""
+        if self.pieces is None:
+            self.pieces = []
+        self.pieces.append(text)
+        self.spans.append(span)
+
+    def finish(self) -> None:
+        """Finish the current word, if there is one."""
+        if self.pieces is not None:
+            self.words.append(("".join(self.pieces), _joined(self.spans[0], self.spans[-1])))
+        self.pieces = None
+        self.spans.clear()
+
+    def end(self) -> None:
+        """Finish the text."""
+        self.end_of_backslash()
+        if self.quote and self.quote_at:
+            self.faults.append((self.quote_at, f"this {self.quote} is not closed"))
+        self.finish()
+
+    def end_of_backslash(self) -> None:
+        """Report a backslash with no character behind it."""
+        if self.backslash:
+            self.faults.append((self.backslash, "this backslash escapes nothing"))
+        self.backslash = None
+
+
+def _place(words: Words, offset: int) -> Span:
+    """Return the place of a character: exact where the text is written as it reads, else that of the whole piece."""
+    span = words.span
+    if span.line != span.end_line or span.end_column - span.column != len(words.text):
+        return span
+    return Span(span.file, span.line, span.column + offset, span.line, span.column + offset + 1)
+
+
+def _joined(first: Span, last: Span) -> Span:
+    return Span(first.file, first.line, first.column, last.end_line, last.end_column)
