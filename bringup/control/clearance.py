@@ -3,6 +3,8 @@
 The robot is a disc about the middle of its axle, so that turning on the spot sweeps nothing new.
 """
 
+from __future__ import annotations
+
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,20 +20,20 @@ TIGHT = 0.03
 SLACK = 0.005
 
 
-def nearest(points: "NDArray[np.float64]") -> float:
+def nearest(points: NDArray[np.float64]) -> float:
     """Distance from the middle of the axle to the nearest point; inf without any."""
     return float(np.sqrt(np.min(np.einsum("ij,ij->i", points, points)))) if len(points) else np.inf
 
 
-def passing_radius(points: "NDArray[np.float64]", settings: "Settings", spare: float = 0.0) -> float:
+def passing_radius(points: NDArray[np.float64], settings: Settings, spare: float = 0.0) -> float:
     """Half the width that must be clear: radius and side clearance, less where it is already tighter."""
     wanted = settings.robot_radius + settings.side_clearance + spare
     return max(settings.robot_radius + TIGHT, min(wanted, nearest(points) - SLACK))
 
 
 def free_travel(
-    points: "NDArray[np.float64]", headings: "NDArray[np.float64]", half_width: float, distance: float
-) -> "NDArray[np.float64]":
+    points: NDArray[np.float64], headings: NDArray[np.float64], half_width: float, distance: float
+) -> NDArray[np.float64]:
     """How far the robot can drive straight in each heading before a point in its way is that near.
 
     Only points inside the swept strip count. Negative where one is nearer already, inf where none is.
@@ -46,7 +48,7 @@ def free_travel(
     return result
 
 
-def own_half(points: "NDArray[np.float64]", direction: float, keep: float, body: float) -> float:
+def own_half(points: NDArray[np.float64], direction: float, keep: float, body: float) -> float:
     """How far the robot may go ahead (`direction` 1) or back (-1) without leaving its half of the room.
 
     Whatever is seen may be a robot that drives as well. If each of two keeps a disc of radius `keep` on its

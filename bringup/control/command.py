@@ -1,5 +1,7 @@
 """The two values the whole room passes around: a velocity and a pose."""
 
+from __future__ import annotations
+
 import math
 from dataclasses import dataclass
 
@@ -24,7 +26,7 @@ class Pose:
     yaw: float
 
     def bearing(self, x: float, y: float) -> float:
-        """Direction of a point as the robot sees it, in −π..π, 0 straight ahead."""
+        """Direction of a point as the robot sees it, in -π..π, 0 straight ahead."""
         return wrapped(math.atan2(y - self.y, x - self.x) - self.yaw)
 
     def distance(self, x: float, y: float) -> float:
@@ -38,5 +40,5 @@ class Pose:
 
 
 def wrapped(angle: float) -> float:
-    """The same direction in −π..π."""
+    """The same direction in -π..π."""
     return math.remainder(angle, math.tau)

@@ -1,7 +1,12 @@
 """One tick of the controller: from the newest scan and odometry to the next velocity."""
 
-from dataclasses import dataclass, replace
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
 
 from bringup.control.command import STANDSTILL, Command, Pose
 from bringup.control.guard import guarded
@@ -11,9 +16,6 @@ from bringup.control.sight import moved
 from bringup.control.wander import Memory, wandered
 
 if TYPE_CHECKING:
-    import numpy as np
-    from numpy.typing import NDArray
-
     from bringup.control.settings import Settings
 
 # A tick that comes late does not allow a greater change of speed than this many seconds do.
@@ -25,7 +27,7 @@ class Sight:
     """A usable scan: when it came, its points in the robot's frame, and where the robot was, if known."""
 
     at: float
-    points: "NDArray[np.float64]"
+    points: NDArray[np.float64]
     pose: Pose | None
 
 
@@ -44,12 +46,12 @@ class State:
     command: Command = STANDSTILL
     at: float | None = None
     blocked: bool = False
-    memory: Memory = Memory()
+    memory: Memory = field(default_factory=Memory)
     fault: str | None = None
 
 
 def ticked(
-    state: State, settings: "Settings", now: float, sight: Sight | None, odometry: Odometry | None
+    state: State, settings: Settings, now: float, sight: Sight | None, odometry: Odometry | None
 ) -> State:
     """The state after a tick at time `now`; its `command` is what to send."""
     elapsed = 0.0 if state.at is None else min(max(now - state.at, 0.0), LONGEST_TICK)
@@ -66,7 +68,7 @@ def ticked(
 
 
 def _wanted(
-    memory: Memory, settings: "Settings", pose: Pose | None, points: "NDArray[np.float64]", now: float
+    memory: Memory, settings: Settings, pose: Pose | None, points: NDArray[np.float64], now: float
 ) -> tuple[Memory, Command]:
     match Mode(settings.mode):
         case Mode.LINEAR:
@@ -79,9 +81,7 @@ def _wanted(
             return memory, STANDSTILL
 
 
-def _fault(
-    settings: "Settings", now: float, sight: Sight | None, odometry: Odometry | None
-) -> str | None:
+def _fault(settings: Settings, now: float, sight: Sight | None, odometry: Odometry | None) -> str | None:
     """Why the robot must stand, or None.
 
     Only wandering needs odometry from the start; odometry that came once and stays away stops every mode,

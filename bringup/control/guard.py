@@ -6,6 +6,8 @@ before a point inside the swept strip (with hysteresis: once stopped, the way mu
 towards it, but for a creeping speed; it does not turn while something is inside its circle.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -38,7 +40,7 @@ class Guarded:
 
 
 def guarded(
-    wanted: Command, points: "NDArray[np.float64]", settings: "Settings", *, age: float, blocked: bool
+    wanted: Command, points: NDArray[np.float64], settings: Settings, *, age: float, blocked: bool
 ) -> Guarded:
     """The wanted velocity within the limits of what the points allow.
 
@@ -57,7 +59,7 @@ def guarded(
 
 
 def _gap(
-    wanted: Command, direction: float, points: "NDArray[np.float64]", settings: "Settings", reaction: float
+    wanted: Command, direction: float, points: NDArray[np.float64], settings: Settings, reaction: float
 ) -> float:
     """Free way in m over all headings that the robot can have before it stands."""
     turned = wanted.angular * (reaction + abs(wanted.linear) / settings.max_linear_deceleration)

@@ -1,5 +1,7 @@
 """How fast a velocity may change, and how fast one may drive to stop in time."""
 
+from __future__ import annotations
+
 import math
 from typing import TYPE_CHECKING
 
@@ -9,7 +11,7 @@ if TYPE_CHECKING:
     from bringup.control.settings import Settings
 
 
-def ramped(current: Command, wanted: Command, settings: "Settings", elapsed: float) -> Command:
+def ramped(current: Command, wanted: Command, settings: Settings, elapsed: float) -> Command:
     """The velocity nearest to the wanted one that can be reached in `elapsed` seconds."""
     rising = abs(wanted.linear) > abs(current.linear) and wanted.linear * current.linear >= 0.0
     rate = settings.max_linear_acceleration if rising else settings.max_linear_deceleration

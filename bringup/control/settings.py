@@ -1,5 +1,7 @@
 """The controller's parameters: values, bounds, descriptions, and what makes a set of them acceptable."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, field, fields
 from typing import TYPE_CHECKING, Any
 
@@ -55,18 +57,20 @@ class Settings:
         0.1, 0.0, 1.0, "How much farther in m than obstacle_distance the way must be clear to drive on"
     )
     robot_radius: float = _number(
-        0.28, 0.05, 1.0, "Radius in m of the circle about the middle of the axle that holds the whole robot"
+        0.25, 0.05, 1.0, "Radius in m of the circle about the middle of the axle that holds the whole robot"
     )
     side_clearance: float = _number(0.12, 0.02, 1.0, "Distance in m kept beside the robot while it drives")
-    lidar_x: float = _number(0.10, -0.5, 0.5, "How far in m the lidar sits ahead of the middle of the axle")
+    lidar_x: float = _number(0.0, -0.5, 0.5, "How far in m the lidar sits ahead of the middle of the axle")
     scan_timeout: float = _number(0.5, 0.15, 5.0, "Seconds of ROS time without a scan before the robot stops")
     odometry_timeout: float = _number(
         0.5, 0.05, 5.0, "Seconds of ROS time without odometry before the robot stops"
     )
-    seed: int = _number(0, 0, 2**31 - 1, "Start of the wandering's random choices; robots differ by their name")
+    seed: int = _number(
+        0, 0, 2**31 - 1, "Start of the wandering's random choices; robots differ by their name"
+    )
 
 
-def table() -> "Iterator[Setting]":
+def table() -> Iterator[Setting]:
     """Every parameter as it is declared, in the order of `Settings`."""
     for each in fields(Settings):
         if isinstance(each.default, float | int | str):

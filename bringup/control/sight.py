@@ -1,9 +1,11 @@
 """From the ranges of a scan to points about the robot.
 
-REP-117 and LaserScan.msg give the meaning: +inf is nothing within reach, −inf something too near to
+REP-117 and LaserScan.msg give the meaning: +inf is nothing within reach, -inf something too near to
 measure, NaN a faulty ray. A range below the minimum is taken as something at the minimum, which errs on the
 side of stopping; one above the maximum is no hit.
 """
+
+from __future__ import annotations
 
 from functools import lru_cache
 from typing import TYPE_CHECKING
@@ -22,11 +24,11 @@ MOST_FAULTY = 0.25
 
 
 def obstacle_points(
-    ranges: "Sequence[float] | NDArray[np.float32]",
+    ranges: Sequence[float] | NDArray[np.floating],
     angles: tuple[float, float],
     limits: tuple[float, float],
     lidar_x: float,
-) -> "NDArray[np.float64] | None":
+) -> NDArray[np.float64] | None:
     """Hits of one scan in the robot's frame, shape (n, 2), or None if the scan cannot be trusted.
 
     `angles` are the first ray's direction and the step to the next, `limits` the least and greatest range.
@@ -42,7 +44,7 @@ def obstacle_points(
     return points
 
 
-def moved(points: "NDArray[np.float64]", seen_from: "Pose", now_at: "Pose") -> "NDArray[np.float64]":
+def moved(points: NDArray[np.float64], seen_from: Pose, now_at: Pose) -> NDArray[np.float64]:
     """The same points as seen after the robot has moved from one pose to another."""
     turn = seen_from.yaw - now_at.yaw
     x, y = seen_from.x - now_at.x, seen_from.y - now_at.y
@@ -54,6 +56,6 @@ def moved(points: "NDArray[np.float64]", seen_from: "Pose", now_at: "Pose") -> "
 
 
 @lru_cache(maxsize=4)
-def _directions(count: int, first: float, step: float) -> "NDArray[np.float64]":
+def _directions(count: int, first: float, step: float) -> NDArray[np.float64]:
     angles = first + step * np.arange(count)
     return np.column_stack((np.cos(angles), np.sin(angles)))

@@ -5,8 +5,11 @@ straight free way; it is kept until reached, blocked or too old, so the robot do
 and paths were considered and left out: the lidar sees all round, and counting visits covers a maze as well.
 """
 
+from __future__ import annotations
+
 import math
 import random
+from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -17,8 +20,6 @@ from bringup.control.command import STANDSTILL, Command, Pose
 from bringup.control.guard import CREEP
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from numpy.typing import NDArray
 
     from bringup.control.settings import Settings
@@ -50,14 +51,14 @@ class Goal:
 class Memory:
     """What wandering remembers: visits per cell, the cell it is in, its goal, how many it has chosen."""
 
-    visits: "Mapping[tuple[int, int], int]" = field(default_factory=dict)
+    visits: Mapping[tuple[int, int], int] = field(default_factory=dict)
     cell: tuple[int, int] | None = None
     goal: Goal | None = None
     choices: int = 0
 
 
 def wandered(
-    memory: Memory, pose: Pose, points: "NDArray[np.float64]", settings: "Settings", now: float
+    memory: Memory, pose: Pose, points: NDArray[np.float64], settings: Settings, now: float
 ) -> tuple[Memory, Command]:
     """One tick: the memory after it and the velocity wanted, not yet guarded."""
     memory = _entered(memory, pose)
@@ -70,36 +71,35 @@ def wandered(
     return memory, _towards(pose.bearing(memory.goal.x, memory.goal.y), settings)
 
 
-def _towards(bearing: float, settings: "Settings") -> Command:
+def _towards(bearing: float, settings: Settings) -> Command:
     turn = max(-settings.max_angular_vel, min(settings.max_angular_vel, GAIN * bearing))
     return Command(settings.max_linear_vel * max(0.0, 1.0 - abs(bearing) / ASIDE), turn)
 
 
-def _retreat(points: "NDArray[np.float64]") -> Command:
+def _retreat(points: NDArray[np.float64]) -> Command:
     """Straight away from something inside the robot's circle, where turning could touch it."""
     closest = points[np.argmin(np.einsum("ij,ij->i", points, points))]
     return Command(-CREEP if closest[0] > 0.0 else CREEP, 0.0)
 
 
-def _spent(
-    goal: Goal, pose: Pose, points: "NDArray[np.float64]", settings: "Settings", now: float
-) -> bool:
+def _spent(goal: Goal, pose: Pose, points: NDArray[np.float64], settings: Settings, now: float) -> bool:
     """Whether the goal is reached, too old, or no longer at the end of a free way."""
     left = pose.distance(goal.x, goal.y)
     if left < REACHED or now - goal.since > GOAL_LIFE or now < goal.since:
         return True
-    return _free(points, np.array([pose.bearing(goal.x, goal.y)]), settings)[0] < min(left, GIVE_UP)
+    way = _free(points, np.array([pose.bearing(goal.x, goal.y)]), settings)
+    return float(way[0]) < GIVE_UP
 
 
 def _free(
-    points: "NDArray[np.float64]", headings: "NDArray[np.float64]", settings: "Settings", spare: float = 0.0
-) -> "NDArray[np.float64]":
+    points: NDArray[np.float64], headings: NDArray[np.float64], settings: Settings, spare: float = 0.0
+) -> NDArray[np.float64]:
     half_width = passing_radius(points, settings, spare)
     return free_travel(points, headings, half_width, max(settings.obstacle_distance, half_width))
 
 
 def _chosen(
-    memory: Memory, pose: Pose, points: "NDArray[np.float64]", settings: "Settings", now: float
+    memory: Memory, pose: Pose, points: NDArray[np.float64], settings: Settings, now: float
 ) -> Memory:
     """The memory with a new goal, or with none while every way is blocked."""
     free = np.minimum(_free(points, HEADINGS, settings, PLAN_SPARE), FARTHEST_GOAL)

@@ -3,6 +3,7 @@
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 import pytest
@@ -17,15 +18,20 @@ Array = NDArray[np.float64]
 
 STEP = 0.02
 RAYS = 360
-RADIUS = 0.28
-BODY = 0.20  # what a lidar sees of the other robot
+RADIUS = 0.25
+BODY = 0.25  # what a lidar sees of the other robot
 ANGLES = -math.pi + math.tau / RAYS * np.arange(RAYS)
 
 
 def box(x: float, y: float, width: float, height: float) -> list[tuple[float, float, float, float]]:
     """The four sides of a rectangle about (x, y)."""
     left, right, low, high = x - width / 2, x + width / 2, y - height / 2, y + height / 2
-    return [(left, low, right, low), (right, low, right, high), (right, high, left, high), (left, high, left, low)]
+    return [
+        (left, low, right, low),
+        (right, low, right, high),
+        (right, high, left, high),
+        (left, high, left, low),
+    ]
 
 
 def arena() -> Array:
@@ -86,7 +92,7 @@ class Robot:
 
 def ranges(robot: Robot, sides: Array, other: tuple[float, float] | None, noise: Array) -> Array:
     """Distances along every ray to the nearest side or to the other robot's body; inf beyond 12 m."""
-    origin = np.array([robot.x + 0.1 * math.cos(robot.yaw), robot.y + 0.1 * math.sin(robot.yaw)])
+    origin = np.array([robot.x, robot.y])
     rays = np.column_stack((np.cos(ANGLES + robot.yaw), np.sin(ANGLES + robot.yaw)))
     start, along = sides[:, :2] - origin, sides[:, 2:] - sides[:, :2]
     cross = rays[:, :1] * along[:, 1] - rays[:, 1:] * along[:, 0]
@@ -123,7 +129,7 @@ def drive(sides: Array, robots: list[Robot], seconds: float, seed: int) -> float
             others = [(each.x, each.y) for each in robots if each is not robot]
             if (step + 2 * index) % 5 == 0:
                 seen = ranges(robot, sides, others[0] if others else None, chance.normal(0, 0.01, RAYS))
-                points = obstacle_points(seen, (-math.pi, math.tau / RAYS), (0.12, 12.0), 0.1)
+                points = obstacle_points(seen, (-math.pi, math.tau / RAYS), (0.12, 12.0), 0.0)
                 assert points is not None
                 robot.sight = Sight(now, points, robot.pose())
             if (step + 3 * index + 4) % 5 == 0:
@@ -132,7 +138,7 @@ def drive(sides: Array, robots: list[Robot], seconds: float, seed: int) -> float
         for robot in robots:
             robot.drive()
             least = min(least, gap(robot, sides))
-        for one, two in zip(robots, robots[1:], strict=False):
+        for one, two in pairwise(robots):
             least = min(least, math.hypot(one.x - two.x, one.y - two.y) - 2 * RADIUS)
     return least
 
