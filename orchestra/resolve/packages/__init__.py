@@ -1,0 +1,81 @@
+"""Where packages are on this machine: the ament index first, then Python packages by their importable name.
+
+A Python package (the bringup, editable or from a wheel) needs no ament: its share folder is the package folder, its
+prefix is the interpreter's where it is installed below that, else the folder that holds it. An executable is, in
+this order, ament's `lib/PKG/EXE`, a console script `EXE` that starts something in PKG or comes with the distribution
+of that name, the module `PKG.nodes.EXE`. Nothing is imported to find it.
+"""
+
+from __future__ import annotations
+
+import sys
+from functools import cache
+from typing import TYPE_CHECKING
+
+from orchestra.resolve.packages import ament, python, scripts
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+__all__ = ["InstalledPackages"]
+
+
+class InstalledPackages:
+    """The packages that an environment shows; implements `orchestra.resolve.context.Packages`.
+
+    What is found is kept: a package that is installed later is seen by a new instance only.
+    """
+
+    def __init__(self, environment: Mapping[str, str]) -> None:
+        self._prefixes = ament.prefixes(environment)
+        self._ament = cache(self._look_in_ament)
+        self._python = cache(python.folder)
+        self._scripts = cache(scripts.console_scripts)
+
+    def prefix(self, package: str) -> str | None:
+        """Return the install prefix, None for an unknown package."""
+        if (prefix := self._ament(package)) is not None:
+            return str(prefix)
+        folder = self._python(package)
+        if folder is None:
+            return None
+        return sys.prefix if folder.is_relative_to(sys.prefix) else str(folder.parent)
+
+    def share(self, package: str) -> str | None:
+        """Return the share folder, None for an unknown package."""
+        if (prefix := self._ament(package)) is not None:
+            return str(prefix / "share" / package)
+        folder = self._python(package)
+        return None if folder is None else str(folder)
+
+    def executable(self, package: str, executable: str) -> tuple[str, ...] | None:
+        """Return the words of the command that starts it, None where the package has no such executable."""
+        prefix = self._ament(package)
+        if prefix is not None and (path := ament.executables(prefix, package).get(executable)):
+            return (str(path),)
+        folder = self._python(package)
+        if folder is None:
+            return None
+        if path := self._scripts().get((package, executable)):
+            return (str(path),)
+        if executable in python.nodes(folder):
+            return (sys.executable, "-m", f"{package}.nodes.{executable}")
+        return None
+
+    def names(self) -> tuple[str, ...]:
+        """Return all packages of the ament index, and the Python packages with nodes, for suggestions."""
+        indexed = (name for prefix in self._prefixes for name in ament.packages(prefix))
+        return tuple(sorted({*indexed, *python.packages_with_nodes()}))
+
+    def executables(self, package: str) -> tuple[str, ...]:
+        """Return the names of the package's executables, for suggestions."""
+        prefix, folder = self._ament(package), self._python(package)
+        found = set() if prefix is None else set(ament.executables(prefix, package))
+        if folder is not None:
+            found.update(python.nodes(folder))
+            found.update(script for owner, script in self._scripts() if owner == package)
+        return tuple(sorted(found))
+
+    def _look_in_ament(self, package: str) -> Path | None:
+        return next((prefix for prefix in self._prefixes if ament.has(prefix, package)), None)

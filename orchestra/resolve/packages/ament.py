@@ -1,0 +1,46 @@
+"""The ament resource index: a marker file per package in `PREFIX/share/ament_index/resource_index/packages`."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+_INDEX = Path("share", "ament_index", "resource_index", "packages")
+
+
+def prefixes(environment: Mapping[str, str]) -> tuple[Path, ...]:
+    """Return the prefixes that have an index: those of `AMENT_PREFIX_PATH`, then the interpreter's own.
+
+    The ROS wheels put their index below the interpreter's prefix and do not set the variable.
+    """
+    listed = (folder for folder in environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if folder)
+    return tuple(dict.fromkeys(path for path in map(Path, (*listed, sys.prefix)) if (path / _INDEX).is_dir()))
+
+
+def packages(prefix: Path) -> tuple[str, ...]:
+    """Return the names of the packages in a prefix."""
+    return tuple(sorted(marker.name for marker in (prefix / _INDEX).iterdir() if _is_marker(marker)))
+
+
+def has(prefix: Path, package: str) -> bool:
+    """Return whether the index of a prefix lists the package."""
+    return bool(package) and "/" not in package and _is_marker(prefix / _INDEX / package)
+
+
+def executables(prefix: Path, package: str) -> dict[str, Path]:
+    """Return the executables of a package by name: the executable files in `PREFIX/lib/PKG`."""
+    folder = prefix / "lib" / package
+    if not folder.is_dir():
+        return {}
+    return {
+        path.name: path for path in sorted(folder.iterdir()) if path.is_file() and os.access(path, os.X_OK)
+    }
+
+
+def _is_marker(path: Path) -> bool:
+    return not path.name.startswith(".") and path.is_file()

@@ -1,0 +1,55 @@
+"""Python packages as places for launch files and nodes, found without importing them."""
+
+from __future__ import annotations
+
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+_NOT_NODES = frozenset({"__init__", "__main__"})
+
+
+def folder(package: str) -> Path | None:
+    """Return the folder of an importable package, None for anything else.
+
+    Left out: the standard library, and folders without `__init__.py`, because every folder on the path is one.
+    """
+    if not package.isidentifier() or package in sys.stdlib_module_names or package == "__main__":
+        return None
+    spec = find_spec(package)
+    if spec is None or spec.origin is None or not spec.submodule_search_locations:
+        return None
+    return Path(spec.submodule_search_locations[0]).absolute()
+
+
+def nodes(package_folder: Path) -> tuple[str, ...]:
+    """Return the names of the modules of `PKG.nodes` that can be run with `python -m`."""
+    container = package_folder / "nodes"
+    if not container.is_dir():
+        return ()
+    return tuple(
+        sorted(
+            path.stem
+            for path in container.iterdir()
+            if path.stem.isidentifier() and path.stem not in _NOT_NODES and _is_runnable(path)
+        )
+    )
+
+
+def packages_with_nodes() -> tuple[str, ...]:
+    """Return the names of the packages on the import path that have a folder `nodes` beside `__init__.py`."""
+    return tuple(
+        sorted(
+            {
+                entry.parent.name
+                for place in map(Path, dict.fromkeys(sys.path))
+                if place.is_dir()
+                for entry in place.glob("*/nodes")
+                if entry.is_dir() and (entry.parent / "__init__.py").is_file() and folder(entry.parent.name)
+            }
+        )
+    )
+
+
+def _is_runnable(path: Path) -> bool:
+    return path.suffix == ".py" or (path / "__main__.py").is_file()
