@@ -3,11 +3,10 @@
 import numpy as np
 
 from bringup.filter.motion import advance
-from bringup.filter.state import SIZE, Array, Indices, wrap, wrap_orientation
+from bringup.filter.state import Array, Indices, wrap, wrap_orientation
 
 SMALLEST_VARIANCE = 1e-9
 
-_IDENTITY = np.eye(SIZE)
 _FIRST_ANGLE, _LAST_ANGLE = 3, 5
 
 
@@ -52,9 +51,9 @@ def correct(  # noqa: PLR0913 - the five quantities of a Kalman update, and its 
     if float(innovation @ inverse @ innovation) >= threshold * threshold:
         return None
     gain = spread @ inverse
-    keep = _IDENTITY.copy()
-    keep[:, indices] -= gain
-    updated = keep @ covariance @ keep.T + gain @ noise @ gain.T
+    # Joseph's (I - KH) P (I - KH)' + K R K', multiplied out: H only picks rows and columns.
+    half = covariance - gain @ spread.T
+    updated = half - (half[:, indices] - gain @ noise) @ gain.T
     corrected = state + gain @ innovation
     wrap_orientation(corrected)
     return corrected, (updated + updated.T) * 0.5

@@ -2,6 +2,8 @@
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from bringup.filter import readings
 from bringup.filter.estimator import Estimator
 from bringup.filter.frames import FrameResolver
@@ -15,8 +17,6 @@ from bringup.filter.settings import Settings
 from bringup.filter.state import Array
 from bringup.filter.streams import Surroundings
 from bringup.filter.transforms import TransformBuffer
-
-import numpy as np
 
 
 @dataclass(frozen=True, slots=True, eq=False)

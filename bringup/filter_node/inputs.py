@@ -1,0 +1,138 @@
+"""Subscribes what the filter takes in: sensors, transforms, set poses and velocity commands."""
+
+from collections.abc import Callable
+from functools import partial
+
+from geometry_msgs.msg import (
+    PoseWithCovarianceStamped,
+    Twist,
+    TwistStamped,
+    TwistWithCovarianceStamped,
+)
+from nav_msgs.msg import Odometry
+from orchestra.ros.interfaces import tf_message_type
+from rclpy.node import Node
+from rclpy.qos import (
+    DurabilityPolicy,
+    HistoryPolicy,
+    QoSProfile,
+    ReliabilityPolicy,
+)
+from rclpy.subscription import Subscription
+from sensor_msgs.msg import Imu
+
+from bringup.filter.localization import Localization
+from bringup.filter.readings import stamp_of, velocity_command
+from bringup.filter.settings import Control, Kind, Settings
+from bringup.filter.transforms import Sample
+from bringup.filter_node.messages import Message
+from bringup.filter_node.visits import VisitedSubscriptions
+
+_QUEUE = 10
+_TRANSFORM_QUEUE = 100
+_MESSAGE_TYPES: dict[Kind, type] = {
+    "odom": Odometry,
+    "pose": PoseWithCovarianceStamped,
+    "twist": TwistWithCovarianceStamped,
+    "imu": Imu,
+}
+
+
+class Inputs:
+    """The subscriptions of one filter."""
+
+    def __init__(
+        self, node: Node, settings: Settings, localization: Localization, now: Callable[[], int]
+    ) -> None:
+        self._node = node
+        self._localization = localization
+        self._now = now
+        self._frames = settings.frames
+        self._visited = VisitedSubscriptions(node)
+        self._moving: Subscription | None = None
+        for sensor in settings.sensors:
+            self._visited.add(
+                _MESSAGE_TYPES[sensor.kind],
+                sensor.topic,
+                partial(self._receive, sensor.name),
+                _sensor_qos(sensor.queue_size),
+            )
+        node.create_subscription(PoseWithCovarianceStamped, "set_pose", self._set_pose, _QUEUE)
+        node.create_subscription(tf_message_type(), "/tf_static", self._add_static, _static_qos())
+        if settings.control is not None:
+            self._subscribe_commands(settings.control)
+
+    def visit(self) -> None:
+        """Take in everything that has arrived."""
+        self._visited.visit()
+
+    def follow_moving_transforms(self) -> None:
+        """Subscribe /tf as long as static transforms are not enough: it is the busiest topic of most systems."""
+        in_map = self._frames.world == self._frames.map
+        needed = in_map or self._localization.frames.needs_moving_transforms()
+        if needed and self._moving is None:
+            qos = QoSProfile(depth=_TRANSFORM_QUEUE)
+            self._moving = self._visited.add(tf_message_type(), "/tf", self._add_moving, qos)
+        elif not needed and self._moving is not None:
+            self._visited.remove(self._moving)
+            self._moving = None
+
+    def _subscribe_commands(self, control: Control) -> None:
+        if control.stamped:
+            self._node.create_subscription(TwistStamped, "cmd_vel", self._command_stamped, _QUEUE)
+        else:
+            self._node.create_subscription(Twist, "cmd_vel", self._command, _QUEUE)
+
+    def _receive(self, sensor: str, message: Message) -> None:
+        self._localization.receive(sensor, message, self._now())
+
+    def _set_pose(self, message: Message) -> None:
+        if not self._localization.set_pose(message, self._now()):
+            self._node.get_logger().error(
+                f"set_pose: no transform from {message.header.frame_id} to {self._frames.world}; it is ignored"
+            )
+
+    def _add_static(self, message: Message) -> None:
+        for stamped in message.transforms:
+            self._localization.frames.add_static(*_edge(stamped))
+
+    def _add_moving(self, message: Message) -> None:
+        for stamped in message.transforms:
+            self._localization.frames.buffer.add(*_edge(stamped))
+
+    def _command(self, message: Message) -> None:
+        self._localization.command(velocity_command(message), self._now())
+
+    def _command_stamped(self, message: Message) -> None:
+        frame = message.header.frame_id.lstrip("/")
+        if frame not in {"", self._frames.base_link}:
+            self._node.get_logger().error(
+                f"cmd_vel: the frame must be {self._frames.base_link}, not {frame}; it is ignored",
+                throttle_duration_sec=5.0,
+            )
+            return
+        self._localization.command(velocity_command(message.twist), stamp_of(message))
+
+
+def _edge(stamped: Message) -> tuple[str, str, Sample]:
+    place, turn = stamped.transform.translation, stamped.transform.rotation
+    sample = Sample(stamp_of(stamped), (place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
+    return stamped.header.frame_id.lstrip("/"), stamped.child_frame_id.lstrip("/"), sample
+
+
+def _sensor_qos(depth: int) -> QoSProfile:
+    return QoSProfile(
+        depth=depth,
+        history=HistoryPolicy.KEEP_LAST,
+        reliability=ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.VOLATILE,
+    )
+
+
+def _static_qos() -> QoSProfile:
+    return QoSProfile(
+        depth=_TRANSFORM_QUEUE,
+        history=HistoryPolicy.KEEP_LAST,
+        reliability=ReliabilityPolicy.RELIABLE,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL,
+    )

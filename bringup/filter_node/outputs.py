@@ -1,0 +1,78 @@
+"""Publishes estimates: `odometry/filtered`, `accel/filtered` and the transform of the base on /tf."""
+
+import numpy as np
+from geometry_msgs.msg import AccelWithCovarianceStamped
+from nav_msgs.msg import Odometry
+from orchestra.ros.interfaces import tf_message_type
+from rclpy.node import Node
+
+from bringup.filter.localization import Estimate, Localization
+from bringup.filter.rigid import Transform
+from bringup.filter.rotation import matrix_from_rpy
+from bringup.filter.settings import Settings
+from bringup.filter.state import ORIENTATION, POSE
+from bringup.filter.transforms import TransformUnavailableError
+from bringup.filter_node.messages import EstimateMessages
+
+_QUEUE = 10
+_TRANSFORM_QUEUE = 100
+_SECONDS_BETWEEN_COMPLAINTS = 5.0
+
+
+class Outputs:
+    """The publishers of one filter."""
+
+    def __init__(self, node: Node, settings: Settings, localization: Localization) -> None:
+        self._logger = node.get_logger()
+        self._frames = settings.frames
+        self._offset = settings.publication.transform_offset
+        self._buffer = localization.frames.buffer
+        self._messages = EstimateMessages(settings.frames)
+        self._odometry = node.create_publisher(Odometry, "odometry/filtered", _QUEUE)
+        self._acceleration = self._transforms = None
+        if settings.publication.acceleration:
+            self._acceleration = node.create_publisher(AccelWithCovarianceStamped, "accel/filtered", _QUEUE)
+        if settings.publication.transform:
+            message_type = tf_message_type()
+            self._transforms = node.create_publisher(message_type, "/tf", _TRANSFORM_QUEUE)
+            self._transform_message = message_type()
+
+    def publish(self, estimate: Estimate) -> bool:
+        """Publish an estimate; one that is not finite is only complained about (upstream publishes it)."""
+        if not (np.isfinite(estimate.state).all() and np.isfinite(estimate.covariance).all()):
+            self._logger.error(
+                "critical error, NaNs in the estimate: nothing is published; call the reset service",
+                throttle_duration_sec=_SECONDS_BETWEEN_COMPLAINTS,
+            )
+            return False
+        self._odometry.publish(self._messages.odometry(estimate))
+        if self._acceleration is not None:
+            self._acceleration.publish(self._messages.acceleration(estimate))
+        if self._transforms is not None:
+            self._broadcast(estimate)
+        return True
+
+    def _broadcast(self, estimate: Estimate) -> None:
+        rotation = matrix_from_rpy(*estimate.state[ORIENTATION].tolist())
+        base = Transform(rotation, estimate.state[POSE][:3])
+        parent, child = self._frames.world, self._frames.base_link_output
+        if self._frames.world == self._frames.map:
+            child = self._frames.odom
+            odometry = self._odometry_transform()
+            if odometry is None:
+                return
+            base = base @ odometry.inverse()
+        stamped = self._messages.transform(parent, child, estimate.stamp + self._offset, base)
+        self._transform_message.transforms = [stamped]
+        self._transforms.publish(self._transform_message)
+
+    def _odometry_transform(self) -> Transform | None:
+        """Find where somebody else's odometry has the base, for a filter in the map frame."""
+        try:
+            return self._buffer.lookup(self._frames.odom, self._frames.base_link)
+        except TransformUnavailableError as error:
+            self._logger.error(
+                f"{self._frames.map} -> {self._frames.odom} is not broadcast: {error}",
+                throttle_duration_sec=_SECONDS_BETWEEN_COMPLAINTS,
+            )
+            return None

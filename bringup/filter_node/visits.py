@@ -1,0 +1,62 @@
+"""Subscriptions that are emptied once per update instead of waking the process for each message.
+
+Measurements are used at the next update and not before, so nothing is lost by leaving them with the middleware
+until then; each wake-up that is saved is worth more than the message's own cost. Rejected: callbacks from the
+executor (a third more processor time at 150 messages a second).
+"""
+
+from collections.abc import Callable
+from typing import Any, TypeAlias
+
+from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
+from rclpy.node import Node
+from rclpy.qos import QoSProfile
+from rclpy.subscription import Subscription
+
+Message: TypeAlias = Any
+
+# Visits come at least this often in real time, and a queue holds what comes at 1 kHz between two of them.
+VISIT_PERIOD = 0.02
+_SHORTEST_QUEUE = 40
+
+
+class _NeverExecuted(MutuallyExclusiveCallbackGroup):  # type: ignore[misc] # rclpy is untyped
+    """Keeps the executor from waiting for what is in this group."""
+
+    def can_execute(self, entity: object) -> bool:  # noqa: ARG002 - the signature is rclpy's
+        return False
+
+
+class VisitedSubscriptions:
+    """The subscriptions of one node that are visited; messages go to each one's own callback."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._group: CallbackGroup = _NeverExecuted()
+        self._subscriptions: list[Subscription] = []
+
+    def add(
+        self, message_type: type, topic: str, callback: Callable[[Message], None], qos: QoSProfile
+    ) -> Subscription:
+        """Subscribe; the queue is made long enough for the messages between two visits."""
+        qos.depth = max(qos.depth, _SHORTEST_QUEUE)
+        subscription = self._node.create_subscription(
+            message_type, topic, callback, qos, callback_group=self._group
+        )
+        self._subscriptions.append(subscription)
+        return subscription
+
+    def remove(self, subscription: Subscription) -> None:
+        """End a subscription."""
+        self._subscriptions.remove(subscription)
+        self._node.destroy_subscription(subscription)
+
+    def visit(self) -> None:
+        """Hand over everything that has arrived."""
+        for subscription in self._subscriptions:
+            callback, kind = subscription.callback, subscription.msg_type
+            with subscription.handle as handle:
+                taken = handle.take_message(kind, False)
+                while taken is not None:
+                    callback(taken[0])
+                    taken = handle.take_message(kind, False)
