@@ -24,7 +24,11 @@ def doubts(settings: Settings) -> Iterator[tuple[Level, str, str]]:
             yield Level.WARN, key, f"{text}; all but one should be differential or measure the velocity"
         exempt = settings.estimation.two_d_mode and variable in OUT_OF_PLANE
         if not sources and not velocities[variable] and not exempt:
-            yield Level.ERROR, key, f"neither {NAMES[variable]} nor its velocity is measured: it drifts without bound"
+            yield (
+                Level.ERROR,
+                key,
+                f"neither {NAMES[variable]} nor its velocity is measured: it drifts without bound",
+            )
 
 
 def _sources(settings: Settings) -> tuple[list[list[str]], list[list[str]]]:

@@ -71,9 +71,7 @@ class Estimator:
             self.predict_to(measurement.stamp)
         if len(indices) == 0:
             return True
-        corrected = kalman.correct(
-            self.state, self.covariance, indices, values, noise, measurement.threshold
-        )
+        corrected = kalman.correct(self.state, self.covariance, indices, values, noise, measurement.threshold)
         if corrected is None:
             return False
         self.state, self.covariance = corrected

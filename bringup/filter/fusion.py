@@ -102,5 +102,7 @@ class Fusion:
         if self._updated is not None and now > self._updated[0]:
             dt = (now - self._updated[0]) / NANOSECONDS
             self.angular_acceleration = (omega - self._updated[1]) / dt
-            self.angular_acceleration_covariance = self._estimator.covariance[ANGULAR, ANGULAR] * 2.0 / (dt * dt)
+            self.angular_acceleration_covariance = (
+                self._estimator.covariance[ANGULAR, ANGULAR] * 2.0 / (dt * dt)
+            )
         self._updated = now, omega

@@ -25,7 +25,7 @@ def usable_noise(noise: Array) -> Array:
     return fixed
 
 
-def correct(  # noqa: PLR0913 - the five quantities of a Kalman update, and its gate
+def correct(
     state: Array, covariance: Array, indices: Indices, values: Array, noise: Array, threshold: float
 ) -> tuple[Array, Array] | None:
     """Fuse direct measurements of some state variables.

@@ -11,8 +11,8 @@ from bringup.filter.fusion import Fusion
 from bringup.filter.intake import ClockJumpError, Intake
 from bringup.filter.notices import Notices
 from bringup.filter.readings import Message
-from bringup.filter.rotation import rpy_from_matrix, six_dimensional
 from bringup.filter.rigid import transform
+from bringup.filter.rotation import rpy_from_matrix, six_dimensional
 from bringup.filter.settings import Settings
 from bringup.filter.state import Array
 from bringup.filter.streams import Surroundings

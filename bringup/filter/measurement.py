@@ -72,7 +72,9 @@ def select(flags: Flags, offset: int, *, two_d_mode: bool) -> Selection:
         indices=np.array(indices, dtype=np.intp),
         entries=np.array(entries, dtype=np.intp),
         source=np.array([row * width + column for row in entries for column in entries], dtype=np.intp),
-        target=np.array([row * size + column for row in range(count) for column in range(count)], dtype=np.intp),
+        target=np.array(
+            [row * size + column for row in range(count) for column in range(count)], dtype=np.intp
+        ),
         noise=noise,
     )
 

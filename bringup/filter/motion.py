@@ -64,8 +64,10 @@ def advance(state: Array, dt: float) -> tuple[Array, Array]:
     ))
     # fmt: on
     moved = np.array(
-        (x + east, y + north, z + up)
-        + (wrap(roll + wx * dt + tp * swing), wrap(pitch + lift), wrap(yaw + swing / cp))
-        + (vx + ax * dt, vy + ay * dt, vz + az * dt, wx, wy, wz, ax, ay, az)
+        (
+            *(x + east, y + north, z + up),
+            *(wrap(roll + wx * dt + tp * swing), wrap(pitch + lift), wrap(yaw + swing / cp)),
+            *(vx + ax * dt, vy + ay * dt, vz + az * dt, wx, wy, wz, ax, ay, az),
+        )
     )
     return moved, jacobian

@@ -39,6 +39,10 @@ def check_orientation(quaternion: Quaternion, name: str, notices: Notices) -> No
     """Note a quaternion that is not of unit length; it is used normalised, a zero one as no rotation."""
     square = sum(component * component for component in quaternion)
     if square == 0.0:
-        notices.warn(f"{name}_orientation", f"{name}: the orientation is all zeros; it is taken as no rotation")
+        notices.warn(
+            f"{name}_orientation", f"{name}: the orientation is all zeros; it is taken as no rotation"
+        )
     elif abs(square**0.5 - 1.0) > _UNIT_TOLERANCE:
-        notices.warn(f"{name}_orientation", f"{name}: the orientation is not of unit length; it is normalised")
+        notices.warn(
+            f"{name}_orientation", f"{name}: the orientation is not of unit length; it is normalised"
+        )

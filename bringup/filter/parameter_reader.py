@@ -6,7 +6,6 @@ from typing import Protocol, TypeVar
 
 import numpy as np
 
-
 _Value = TypeVar("_Value")
 
 

@@ -24,7 +24,9 @@ from bringup.filter.settings import (
 from bringup.filter.state import SIZE, Array
 
 DEFAULT_PROCESS_NOISE = (
-    (0.05, 0.05, 0.06, 0.03, 0.03, 0.06) + (0.025, 0.025, 0.04, 0.01, 0.01, 0.02) + (0.01, 0.01, 0.015)
+    *(0.05, 0.05, 0.06, 0.03, 0.03, 0.06),
+    *(0.025, 0.025, 0.04, 0.01, 0.01, 0.02),
+    *(0.01, 0.01, 0.015),
 )
 _DEFAULT_VARIANCE = 1e-9
 _CONTROL_AXES = 6
@@ -91,11 +93,13 @@ def _check_frames(frames: Frames, report: Report) -> None:
         )
     if frames.base_link_output in {frames.map, frames.odom}:
         report.error(
-            f"invalid frames: base_link_frame_output {frames.base_link_output} must differ from map_frame and odom_frame"
+            f"invalid frames: base_link_frame_output {frames.base_link_output} must differ from "
+            "map_frame and odom_frame"
         )
     if frames.world not in {frames.map, frames.odom}:
         report.error(
-            f"invalid frames: world_frame {frames.world} must be the odom_frame {frames.odom} or the map_frame {frames.map}"
+            f"invalid frames: world_frame {frames.world} must be the odom_frame {frames.odom} "
+            f"or the map_frame {frames.map}"
         )
 
 

@@ -95,7 +95,9 @@ def imu_orientation(message: Message) -> OrientationReading | None:
     covariance = _matrix(message.orientation_covariance, 3)
     if covariance[0, 0] == _NOT_MEASURED:
         return None
-    return OrientationReading(stamp_of(message), _frame(message), _quaternion(message.orientation), covariance)
+    return OrientationReading(
+        stamp_of(message), _frame(message), _quaternion(message.orientation), covariance
+    )
 
 
 def imu_twist(message: Message) -> TwistReading | None:

@@ -16,9 +16,7 @@ class Transform:
     translation: Array
 
     def __matmul__(self, other: "Transform") -> "Transform":
-        return Transform(
-            self.rotation @ other.rotation, self.rotation @ other.translation + self.translation
-        )
+        return Transform(self.rotation @ other.rotation, self.rotation @ other.translation + self.translation)
 
     def inverse(self) -> "Transform":
         """Give the transform from the target frame back into the source frame."""

@@ -1,4 +1,4 @@
-"""Reads the parameters of the sensors `odom0`, `odom1`, …, `pose0`, …, `twist0`, …, `imu0`, …"""
+"""Reads the parameters of the sensors: `odom0`, `odom1` and so on, `pose0`, `twist0`, `imu0`."""
 
 from collections.abc import Callable, Iterator
 from itertools import count, takewhile
@@ -30,7 +30,9 @@ def _is_of_use(sensor: Sensor, reader: Reader) -> bool:
         return False
     if sensor.pose or sensor.twist or sensor.acceleration:
         return True
-    reader.report.error(f"{sensor.name}_config enables nothing that {sensor.topic} measures; it is not subscribed")
+    reader.report.error(
+        f"{sensor.name}_config enables nothing that {sensor.topic} measures; it is not subscribed"
+    )
     return False
 
 
@@ -110,7 +112,7 @@ _KINDS: dict[Kind, Callable[[Reader, str], Sensor]] = {
 }
 
 
-def _sensor(  # noqa: PLR0913 - the parts of a message, by name
+def _sensor(
     reader: Reader,
     name: str,
     kind: Kind,
@@ -143,7 +145,9 @@ def _pose_modes(reader: Reader, name: str) -> tuple[bool, bool]:
     differential = reader.boolean(f"{name}_differential")
     relative = reader.boolean(f"{name}_relative")
     if differential and relative:
-        reader.report.error(f"{name}_differential and {name}_relative are both set; only differential is used")
+        reader.report.error(
+            f"{name}_differential and {name}_relative are both set; only differential is used"
+        )
     return differential, relative and not differential
 
 

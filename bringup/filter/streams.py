@@ -87,7 +87,9 @@ def _imu(sensor: Sensor, around: Surroundings) -> list[Stream]:
     if sensor.twist is not None:
         streams.append(_twist_stream(sensor.twist, readings.imu_twist, around))
     if sensor.acceleration is not None:
-        streams.append(_acceleration_stream(sensor.acceleration, around, remove_gravity=sensor.remove_gravity))
+        streams.append(
+            _acceleration_stream(sensor.acceleration, around, remove_gravity=sensor.remove_gravity)
+        )
     return streams
 
 

@@ -44,7 +44,9 @@ class _Edge:
         if place < len(self.samples) and self.samples[place].stamp == stamp:
             return self.samples[place].transform()
         if place in {0, len(self.samples)}:
-            raise TransformUnavailableError(f"{self.parent} is not known at {stamp}: this would be extrapolation")
+            raise TransformUnavailableError(
+                f"{self.parent} is not known at {stamp}: this would be extrapolation"
+            )
         return _between(self.samples[place - 1], self.samples[place], stamp)
 
 
@@ -107,9 +109,7 @@ class TransformBuffer:
         return result
 
     def _newest_common(self, children: tuple[str, ...]) -> int | None:
-        newest = [
-            edge.samples[-1].stamp for child in children if (edge := self._edges[child]).static is None
-        ]
+        newest = [edge.samples[-1].stamp for child in children if (edge := self._edges[child]).static is None]
         return min(newest, default=None)
 
     def _paths(self, target: str, source: str) -> tuple[list[str], list[str]]:

@@ -15,8 +15,8 @@ _QUEUE = 10
 _WINDOW = 10
 _ACCEPTED = 2.0
 _TOLERANCE = 0.1
-_GOOD = "The robot_localization state estimation node appears to be functioning properly."
-_BAD = "Erroneous data or settings detected for a robot_localization state estimation node."
+_GOOD = "settings and data are in order"
+_BAD = "there are doubts about settings or data"
 
 
 class Diagnostics:

@@ -10,7 +10,6 @@ from geometry_msgs.msg import (
     TwistWithCovarianceStamped,
 )
 from nav_msgs.msg import Odometry
-from orchestra.ros.interfaces import tf_message_type
 from rclpy.node import Node
 from rclpy.qos import (
     DurabilityPolicy,
@@ -18,7 +17,6 @@ from rclpy.qos import (
     QoSProfile,
     ReliabilityPolicy,
 )
-from rclpy.subscription import Subscription
 from sensor_msgs.msg import Imu
 
 from bringup.filter.localization import Localization
@@ -26,7 +24,8 @@ from bringup.filter.readings import stamp_of, velocity_command
 from bringup.filter.settings import Control, Kind, Settings
 from bringup.filter.transforms import Sample
 from bringup.filter_node.messages import Message
-from bringup.filter_node.visits import VisitedSubscriptions
+from bringup.filter_node.visits import Subscription, VisitedSubscriptions
+from orchestra.ros.interfaces import tf_message_type
 
 _QUEUE = 10
 _TRANSFORM_QUEUE = 100

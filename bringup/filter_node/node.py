@@ -61,10 +61,8 @@ class FilterNode:
             self._keep_house(now)
         took = perf_counter() - began
         if took > self._period:
-            self._logger.error(
-                f"failed to meet update rate: an update took {took:.4f} s of {self._period:.4f} s",
-                throttle_duration_sec=1.0,
-            )
+            text = f"failed to meet update rate: an update took {took:.4f} s of {self._period:.4f} s"
+            self._logger.error(text, throttle_duration_sec=1.0)
 
     def _keep_house(self, now: int) -> None:
         self._inputs.follow_moving_transforms()

@@ -3,7 +3,6 @@
 import numpy as np
 from geometry_msgs.msg import AccelWithCovarianceStamped
 from nav_msgs.msg import Odometry
-from orchestra.ros.interfaces import tf_message_type
 from rclpy.node import Node
 
 from bringup.filter.localization import Estimate, Localization
@@ -13,6 +12,7 @@ from bringup.filter.settings import Settings
 from bringup.filter.state import ORIENTATION, POSE
 from bringup.filter.transforms import TransformUnavailableError
 from bringup.filter_node.messages import EstimateMessages
+from orchestra.ros.interfaces import tf_message_type
 
 _QUEUE = 10
 _TRANSFORM_QUEUE = 100
@@ -48,11 +48,12 @@ class Outputs:
         self._odometry.publish(self._messages.odometry(estimate))
         if self._acceleration is not None:
             self._acceleration.publish(self._messages.acceleration(estimate))
-        if self._transforms is not None:
-            self._broadcast(estimate)
+        self._broadcast(estimate)
         return True
 
     def _broadcast(self, estimate: Estimate) -> None:
+        if self._transforms is None:
+            return
         rotation = matrix_from_rpy(*estimate.state[ORIENTATION].tolist())
         base = Transform(rotation, estimate.state[POSE][:3])
         parent, child = self._frames.world, self._frames.base_link_output
@@ -71,8 +72,6 @@ class Outputs:
         try:
             return self._buffer.lookup(self._frames.odom, self._frames.base_link)
         except TransformUnavailableError as error:
-            self._logger.error(
-                f"{self._frames.map} -> {self._frames.odom} is not broadcast: {error}",
-                throttle_duration_sec=_SECONDS_BETWEEN_COMPLAINTS,
-            )
-            return None
+            text = f"{self._frames.map} -> {self._frames.odom} is not broadcast: {error}"
+        self._logger.error(text, throttle_duration_sec=_SECONDS_BETWEEN_COMPLAINTS)
+        return None

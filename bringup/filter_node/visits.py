@@ -11,9 +11,9 @@ from typing import Any, TypeAlias
 from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
-from rclpy.subscription import Subscription
 
 Message: TypeAlias = Any
+Subscription: TypeAlias = Any
 
 # Visits come at least this often in real time, and a queue holds what comes at 1 kHz between two of them.
 VISIT_PERIOD = 0.02
