@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import os
 import sys
+import traceback
 from typing import TYPE_CHECKING
 
 from orchestra.cli import colour
@@ -30,7 +31,9 @@ OK, FAILED, MISTAKE, BUG = 0, 1, 2, 3
 INTERRUPTED, BROKEN_PIPE = 130, 141
 
 
-def guarded(work: Callable[[], int], *, command: str = "", problem_format: str = "text") -> int:
+def guarded(
+    work: Callable[[], int], *, command: str = "", problem_format: str = "text", debug: bool = False
+) -> int:
     """Do the work of one command and return its exit status, or that of the error it ended with."""
     try:
         status = work()
@@ -56,6 +59,8 @@ def guarded(work: Callable[[], int], *, command: str = "", problem_format: str =
         _forget_output()
         return BROKEN_PIPE
     except Exception as error:  # noqa: BLE001 - whatever else ends a command is a bug, and this is where it is shown
+        if debug:
+            traceback.print_exception(error)
         _say("error", f"this is a bug in Orchestra: {type(error).__name__}: {error}")
         _say("help", f"please report it with the file {write_report(error)}")
         return BUG

@@ -1,0 +1,50 @@
+"""`orchestra run`: start one node."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from typing import TYPE_CHECKING
+
+from orchestra import pipeline
+from orchestra.cli import boundary
+from orchestra.cli.handover import add_run_options, hand_over, supervised
+from orchestra.cli.parser import CommandParser
+from orchestra.errors import UsageError
+
+if TYPE_CHECKING:
+    from argparse import Namespace
+    from typing import BinaryIO
+
+_EPILOG = "All words after the executable go to the node unchanged."
+
+
+def parser() -> CommandParser:
+    """Return what the command understands."""
+    made = CommandParser("run", "Start one node.", _EPILOG)
+    add_run_options(made)
+    made.add_argument(
+        "--prefix", default="", metavar="COMMAND", help="a command to run the node with: 'gdb --args'"
+    )
+    made.add_argument(
+        "words", nargs=argparse.REMAINDER, metavar="PACKAGE EXECUTABLE [WORD ...]", help="see below"
+    )
+    return made
+
+
+def run(options: Namespace) -> int:
+    """Run the node."""
+    return supervised("run", prepare, options)
+
+
+def prepare(options: Namespace, stream: BinaryIO) -> int:
+    """Make the plan of the one node and hand it to the supervisor."""
+    if len(options.words) < 2:  # noqa: PLR2004 - a package and an executable
+        raise UsageError("a package and an executable are wanted")
+    package, executable, *arguments = options.words
+    given = pipeline.inputs_from((), environment=os.environ)
+    plan = pipeline.plan_of_node(package, executable, arguments, given, prefix=options.prefix)
+    boundary.show_problems(plan.problems, "text", sys.stderr)
+    hand_over(plan, options, executable, stream)
+    return boundary.OK
