@@ -72,7 +72,7 @@ def _constant_of(wanted: str, accepts: Callable[[str], bool]) -> Callable[[objec
         constant = template.constant
         if constant is not None and not accepts(constant):
             raise PydanticCustomError(
-                "wrong_type", "expected {wanted}, found {found}", {"wanted": wanted, "found": f"`{constant}`"}
+                "wrong_type", "expected {wanted}, found {found}", {"wanted": wanted, "found": f"'{constant}'"}
             )
         return template
 

@@ -45,7 +45,7 @@ class Listed(list[Any]):
 def kind_of(value: object) -> str:
     """Return what a value is, in the user's words."""
     if isinstance(value, Written):
-        return "nothing" if value.null else f"`{shortened(value.text)}`"
+        return "nothing" if value.null else f"'{shortened(value.text)}'"
     if isinstance(value, dict):
         return "a mapping"
     return "a list" if isinstance(value, list) else type(value).__name__

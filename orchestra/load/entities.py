@@ -44,7 +44,7 @@ class _Builder:
         if model is None:
             self.incomplete = True
             suggestion = nearest(name, ACTIONS)
-            self.reader.error(Code.UNKNOWN_ACTION, f"unknown action `{name}`", at, suggestion=suggestion)
+            self.reader.error(Code.UNKNOWN_ACTION, f"unknown action '{name}'", at, suggestion=suggestion)
             return None
         return self._validated(model, self._content(content, at, model))
 
@@ -82,15 +82,15 @@ def describe(tree: Any, path: str, file: str, reader: Reader) -> Description | N
     """Return the description that a tree holds, None where it is no launch description at all."""
     builder = _Builder(reader)
     if not isinstance(tree, Keyed):
-        reader.error(Code.WRONG_TYPE, "a launch file is a mapping with the key `launch`", tree.span)
+        reader.error(Code.WRONG_TYPE, "a launch file is a mapping with the key 'launch'", tree.span)
         return None
     for key, at in tree.keys_at.items():
         if key != "launch":
             suggestion = nearest(key, ["launch"])
-            reader.error(Code.UNKNOWN_KEY, f"unknown key `{key}` beside `launch`", at, suggestion=suggestion)
+            reader.error(Code.UNKNOWN_KEY, f"unknown key '{key}' beside 'launch'", at, suggestion=suggestion)
     if "launch" not in tree:
         if not tree:
-            reader.error(Code.MISSING_KEY, "the key `launch` is missing", tree.span)
+            reader.error(Code.MISSING_KEY, "the key 'launch' is missing", tree.span)
         return None
     root, head = tree["launch"], tree.keys_at["launch"]
     deprecated = None
@@ -112,5 +112,5 @@ def _span(value: Any, head: Span) -> Span:  # noqa: ANN401 - a tree
 
 def _found(item: Any) -> str:  # noqa: ANN401 - a tree
     if isinstance(item, Keyed) and item:
-        return f"{len(item)} keys: " + ", ".join(f"`{key}`" for key in item)
+        return f"{len(item)} keys: " + ", ".join(f"'{key}'" for key in item)
     return kind_of(item)

@@ -63,7 +63,7 @@ class Reader:
 
     def unknown_key(self, known: frozenset[str], mapping: Keyed, key: str) -> None:
         """Report a key that the entity does not have."""
-        what = f"unknown key `{key}`"
+        what = f"unknown key '{key}'"
         self.error(Code.UNKNOWN_KEY, what, mapping.keys_at[key], suggestion=nearest(key, known))
 
     def faults(self, mapping: Keyed, errors: Sequence[ErrorDetails]) -> set[str]:
@@ -77,7 +77,7 @@ class Reader:
         kind = error["type"]
         place = error["loc"]
         if kind == "missing":
-            self.error(Code.MISSING_KEY, f"the key `{place[-1]}` is missing", _at(mapping, place[:-1]))
+            self.error(Code.MISSING_KEY, f"the key '{place[-1]}' is missing", _at(mapping, place[:-1]))
             return
         if kind in _WANTED:
             message = f"expected {_WANTED[kind]}, found {kind_of(error['input'])}"

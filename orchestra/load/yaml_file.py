@@ -44,7 +44,7 @@ def read(text: str, file: str, reader: Reader) -> Any | None:  # noqa: ANN401 - 
         )
         return None
     if node is None:
-        reader.error(Code.SYNTAX, "the file is empty: a launch file has a `launch` key", whole.span(0, 0))
+        reader.error(Code.SYNTAX, "the file is empty: a launch file has a 'launch' key", whole.span(0, 0))
         return None
     return _Tree(whole, reader).of(node, None, ())
 
@@ -105,7 +105,7 @@ class _Tree:
                 first = mapping.keys_at[name]
                 self.reader.error(
                     Code.DUPLICATE_KEY,
-                    f"the key `{key.value}` stands twice in one mapping",
+                    f"the key '{key.value}' stands twice in one mapping",
                     at,
                     notes=(f"first at {first}",),
                 )

@@ -80,7 +80,8 @@ class Context:
 
     `file` is the absolute path of the launch file that is being read, `included_from` the chain of includes to it,
     innermost first. `anonymous` remembers the names that `$(anon)` made. `parameters` are the values that
-    `set_parameter` put in scope, for `$(param)`.
+    `set_parameter` put in scope, for `$(param)`. `launching` is false where nothing will be started here: then a
+    missing package is a warning about this host.
     """
 
     problems: Problems
@@ -91,6 +92,7 @@ class Context:
     file: str | None = None
     included_from: tuple[Span, ...] = ()
     log_folder: str = "${run}/logs"
+    launching: bool = True
     anonymous: dict[str, str] = field(default_factory=dict)
     parameters: Mapping[str, str] = field(default_factory=dict)
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 from orchestra.location import Span
 
@@ -37,10 +37,15 @@ class GivenFile:
 
 @dataclass(frozen=True, slots=True)
 class Inputs:
-    """The command line and the environment of one resolution."""
+    """The command line and the environment of one resolution.
+
+    `launching` tells that processes will be started here: then a missing package is an error, not a warning about
+    this host. `required` tells whether a required argument without a value is an error.
+    """
 
     environment: Mapping[str, str]
     arguments: tuple[GivenArgument, ...] = ()
     parameters: tuple[GivenParameter, ...] = ()
     parameter_files: tuple[GivenFile, ...] = ()
-    required: bool = field(default=True)  # whether a required argument without a value is an error
+    launching: bool = True
+    required: bool = True

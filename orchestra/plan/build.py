@@ -1,0 +1,112 @@
+"""The third stage: what was resolved becomes a plan, checked for what can never work."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from orchestra.plan.command import command
+from orchestra.plan.digest import digest
+from orchestra.plan.edges import Targets, check_cycles, dependencies
+from orchestra.plan.ids import check_names, identities
+from orchestra.plan.model import VERSION, Argument, Plan, Process, Skipped
+from orchestra.plan.parameter_file import file_name
+from orchestra.plan.parameters import Parameters, check_given, parameters_of
+from orchestra.plan.provenance import environment_of, provenance
+from orchestra.plan.remappings import check_remaps, readiness
+from orchestra.plan.triggers import triggers
+
+if TYPE_CHECKING:
+    from orchestra.errors import Problems
+    from orchestra.plan.model import Dependency
+    from orchestra.resolve.model import Resolved, ResolvedProcess
+
+
+def build(resolved: Resolved, problems: Problems) -> Plan:
+    """Return the plan. What cannot work is reported; the problems found so far become part of the plan."""
+    ids = identities(resolved.processes)
+    check_names(resolved.processes, problems)
+    targets = Targets(resolved.processes, ids)
+    complete = not resolved.incomplete and not any(process.faulty for process in resolved.processes)
+    edges = {
+        identity: dependencies(process, identity, targets, problems, complete=complete)
+        for identity, process in targets.process.items()
+    }
+    check_cycles(edges, problems)
+    check_given(resolved, ids, problems, complete=complete)
+    processes = tuple(
+        _process(process, identity, edges[identity], resolved, problems)
+        for identity, process in targets.process.items()
+    )
+    return Plan(
+        VERSION,
+        resolved.file,
+        tuple(
+            Argument(item.name, item.default, item.value, item.description, item.choices, item.location)
+            for item in resolved.arguments
+        ),
+        processes,
+        (),
+        triggers(resolved, ids),
+        tuple(
+            Skipped(item.action, item.name, item.condition, item.expression, item.value, item.location)
+            for item in resolved.skipped
+        ),
+        problems.ordered,
+    )
+
+
+def _process(
+    process: ResolvedProcess,
+    identity: str,
+    edges: tuple[Dependency, ...],
+    resolved: Resolved,
+    problems: Problems,
+) -> Process:
+    parameters = parameters_of(process, identity, resolved.given, problems)
+    check_remaps(process, problems)
+    planned = Process(
+        id=identity,
+        kind=process.kind,
+        package=process.package,
+        executable=process.executable,
+        name=process.name.text if process.name is not None else None,
+        namespace=process.namespace.text if process.namespace is not None else None,
+        command=(),
+        shell=process.shell,
+        prefix=process.prefix,
+        environment=environment_of(process),
+        cwd=process.cwd,
+        parameters=parameters.values,
+        parameter_files=(),
+        remappings=tuple((rule.source.text, rule.target.text) for rule in process.remaps),
+        arguments=process.arguments,
+        output=process.output,
+        emulate_tty=process.emulate_tty,
+        stdin=None,
+        restart=process.restart,
+        required=process.required,
+        success_exit_codes=process.success_exit_codes,
+        ready=readiness(process, problems),
+        alive=None,
+        lifecycle=None,
+        depends_on=edges,
+        stop=process.stop,
+        limits=None,
+        warm=None,
+        machine=None,
+        digest="",
+        location=process.location,
+        provenance=provenance(process, parameters),
+    )
+    return _with_files(planned, process, parameters)
+
+
+def _with_files(planned: Process, process: ResolvedProcess, parameters: Parameters) -> Process:
+    """Add what depends on the process as a whole: its parameter file, its command line, its digest."""
+    path = None
+    if parameters.values or parameters.files:
+        path = "${run}/params/" + file_name(planned)
+    files = tuple(replace(file, path=path or file.path) for file in parameters.files)
+    whole = replace(planned, parameter_files=files, command=command(process, path))
+    return replace(whole, digest=digest(whole))

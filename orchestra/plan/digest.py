@@ -1,0 +1,28 @@
+"""What has to stay the same for a running process to be left alone."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from typing import TYPE_CHECKING
+
+from orchestra.plan.codec import encode
+
+if TYPE_CHECKING:
+    from orchestra.plan.model import Process
+
+
+def digest(process: Process) -> str:
+    """Return the SHA-256 of command, environment, cwd, parameter content, stdin, shell and limits."""
+    content = (
+        process.command,
+        process.environment,
+        process.cwd,
+        process.parameters,
+        process.parameter_files,
+        process.stdin,
+        process.shell,
+        process.limits,
+    )
+    text = json.dumps([encode(item) for item in content], sort_keys=True, ensure_ascii=False)
+    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()

@@ -1,0 +1,106 @@
+"""Which process waits for which: names become ids, and what can never come about is reported."""
+
+from __future__ import annotations
+
+from graphlib import CycleError, TopologicalSorter
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code, Problems
+from orchestra.nearest import nearest
+from orchestra.plan.ids import node_name
+from orchestra.plan.model import Dependency
+from orchestra.resolve.names import InvalidName, expanded
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from orchestra.resolve.model import ResolvedDependency, ResolvedProcess
+
+
+class Targets:
+    """The processes of a plan by what a dependency may call them."""
+
+    def __init__(self, processes: Sequence[ResolvedProcess], ids: Sequence[str]) -> None:
+        self.process = dict(zip(ids, processes, strict=True))
+        self.nodes: dict[str, list[str]] = {}
+        self.names: dict[str, list[str]] = {}
+        self.labels: dict[str, list[str]] = {}
+        for process, identity in zip(processes, ids, strict=True):
+            full = node_name(process)
+            if full is not None:
+                self.nodes.setdefault(full, []).append(identity)
+            for name in {identity, process.label or process.executable}:
+                self.names.setdefault(name, []).append(identity)
+            for label in process.labels:
+                self.labels.setdefault(label, []).append(identity)
+
+
+def dependencies(
+    process: ResolvedProcess, identity: str, targets: Targets, problems: Problems, *, complete: bool
+) -> tuple[Dependency, ...]:
+    """Return what a process waits for. What is not there is reported where the description is `complete`."""
+    edges: dict[tuple[str, str], Dependency] = {}
+    for written in process.depends_on:
+        found = _found(written, process, targets)
+        if not found and complete:
+            _report_unknown(written, process, targets, problems)
+        for target in found:
+            if target == identity and len(found) > 1:
+                continue  # a label covers the process that waits for the others
+            if written.condition == "ready":
+                _check_ready(written, target, targets, problems)
+            edge = Dependency(target, written.condition, written.timeout, written.location)
+            edges.setdefault((target, written.condition), edge)
+    return tuple(edges.values())
+
+
+def check_cycles(edges: Mapping[str, tuple[Dependency, ...]], problems: Problems) -> None:
+    """Report processes that wait for each other."""
+    graph = {identity: [edge.process for edge in waits] for identity, waits in edges.items()}
+    try:
+        TopologicalSorter(graph).prepare()
+    except CycleError as error:
+        circle: list[str] = error.args[1]
+        way = " waits for ".join(reversed(circle))
+        edge = next(edge for edge in edges[circle[1]] if edge.process == circle[0])
+        problems.error(Code.DEPENDENCY_CYCLE, f"these wait for each other: {way}", edge.location)
+
+
+def _found(written: ResolvedDependency, process: ResolvedProcess, targets: Targets) -> list[str]:
+    name = written.name.text
+    if written.kind == "node":
+        return targets.nodes.get(_full(name, process), [])
+    return (targets.labels if written.kind == "label" else targets.names).get(name, [])
+
+
+def _full(name: str, process: ResolvedProcess) -> str:
+    namespace = process.namespace.text if process.namespace is not None else "/"
+    try:
+        return expanded(name, namespace, process.name.text if process.name is not None else "_")
+    except InvalidName:
+        return name
+
+
+def _report_unknown(
+    written: ResolvedDependency, process: ResolvedProcess, targets: Targets, problems: Problems
+) -> None:
+    known = {"node": targets.nodes, "process": targets.names, "label": targets.labels}[written.kind]
+    name = _full(written.name.text, process) if written.kind == "node" else written.name.text
+    what = {"node": "node", "process": "process", "label": "include with the label"}[written.kind]
+    problems.error(
+        Code.UNKNOWN_DEPENDENCY,
+        f"there is no {what} '{name}' to wait for",
+        written.name.location,
+        suggestion=nearest(name, known),
+    )
+
+
+def _check_ready(written: ResolvedDependency, target: str, targets: Targets, problems: Problems) -> None:
+    awaited = targets.process[target]
+    if awaited.ready is None and not awaited.faulty:
+        problems.error(
+            Code.NEVER_READY,
+            f"'{target}' does not say when it is ready",
+            written.location,
+            notes=(f"it is described at {awaited.location}: give it a `ready`",),
+        )

@@ -1,0 +1,1 @@
+"""The behaviour of each action, one module per word: `visit(action, run)`."""

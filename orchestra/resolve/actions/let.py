@@ -1,0 +1,18 @@
+"""`let`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.resolve.context import Value
+
+if TYPE_CHECKING:
+    from orchestra.description.actions.let import Let
+    from orchestra.resolve.resolution import Resolution
+
+
+def visit(action: Let, run: Resolution) -> None:
+    """Set a variable."""
+    name, value = run.evaluate(action.name), run.evaluate(action.value)
+    if isinstance(name, Value) and value is not None:
+        run.scope.set(name.text, value, run.at(action.value.span))

@@ -1,0 +1,21 @@
+"""`push_ros_namespace`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.resolve.context import POISON, Value
+from orchestra.resolve.namespaces import below
+from orchestra.resolve.scope import NAMESPACE
+
+if TYPE_CHECKING:
+    from orchestra.description.actions.push_ros_namespace import PushRosNamespace
+    from orchestra.resolve.resolution import Resolution
+
+
+def visit(action: PushRosNamespace, run: Resolution) -> None:
+    """Put what follows below a namespace."""
+    value = run.evaluate(action.namespace)
+    pushed = below(run.scope.namespace, value, run.problems) if isinstance(value, Value) else POISON
+    if pushed is not None:
+        run.scope.set(NAMESPACE, pushed, run.at(action.namespace.span))

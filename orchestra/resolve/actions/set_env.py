@@ -1,0 +1,17 @@
+"""`set_env`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from orchestra.description.actions.set_env import SetEnv
+    from orchestra.resolve.resolution import Resolution
+
+
+def visit(action: SetEnv, run: Resolution) -> None:
+    """Set an environment variable for what follows."""
+    name, value = run.text(action.name), run.text(action.value)
+    if isinstance(name, str) and isinstance(value, str):
+        run.scope.change(name, value, run.at(action.value.span))
+        run.refresh()

@@ -1,0 +1,24 @@
+"""`set_parameter`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.resolve.context import Poison
+from orchestra.resolve.model import InlineParameter
+from orchestra.resolve.parameters import typed
+
+if TYPE_CHECKING:
+    from orchestra.description.actions.set_parameter import SetParameter
+    from orchestra.resolve.resolution import Resolution
+
+
+def visit(action: SetParameter, run: Resolution) -> None:
+    """Set a parameter of every node that follows."""
+    name, value = run.text(action.name), typed(action.value, None, run)
+    if not isinstance(name, str) or isinstance(value, Poison):
+        return
+    first = action.value[0] if isinstance(action.value, tuple) else action.value
+    parameter = InlineParameter(name, value, run.at(first.span), everywhere=True)
+    run.scope.parameters = (*run.scope.parameters, parameter)
+    run.refresh()

@@ -1,0 +1,191 @@
+"""What a description comes to: no substitution left, every value with the place that set it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Literal, TypeAlias
+
+from orchestra.location import Location
+from orchestra.resolve.context import Value
+from orchestra.resolve.rcl.sections import Section
+from orchestra.values import Condition, ParameterValue, Restart, Stop
+
+DependencyKind: TypeAlias = Literal["node", "process", "label"]
+
+
+@dataclass(frozen=True, slots=True)
+class ResolvedArgument:
+    """A declared launch argument; `value` is None where it is required and was not given."""
+
+    name: str
+    default: str | None
+    value: str | None
+    description: str | None
+    choices: tuple[str, ...] | None
+    location: Location
+
+
+@dataclass(frozen=True, slots=True)
+class InlineParameter:
+    """A parameter written in the description; `everywhere` where it was set for all nodes of a scope."""
+
+    name: str
+    value: ParameterValue
+    location: Location
+    everywhere: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class FileParameters:
+    """The sections of a parameter file, as far as it could be read."""
+
+    path: str
+    sections: tuple[Section, ...]
+    location: Location
+
+
+ParameterSource: TypeAlias = InlineParameter | FileParameters
+
+
+@dataclass(frozen=True, slots=True)
+class ResolvedRemap:
+    """One remapping rule."""
+
+    source: Value
+    target: Value
+
+
+@dataclass(frozen=True, slots=True)
+class ResolvedDependency:
+    """What a process waits for, by name; the plan finds the processes."""
+
+    kind: DependencyKind
+    name: Value
+    condition: Condition
+    timeout: float | None
+    location: Location
+
+
+@dataclass(frozen=True, slots=True)
+class ResolvedReady:
+    """When a process counts as ready; `timeout` in seconds."""
+
+    message: Value | None
+    log: Value | None
+    timeout: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class EnvironmentChange:
+    """An environment variable that the description sets, or removes where `value` is None."""
+
+    value: str | None
+    location: Location
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ResolvedProcess:
+    """One process. `program` starts it; a node's arguments and ROS arguments are added by the plan.
+
+    `conditional` tells that a condition, which is true, stands on it or around it. `faulty` marks a process of which
+    something has been reported: what follows from it is not reported again.
+    """
+
+    kind: Literal["process", "node"]
+    package: str | None
+    executable: str
+    name: Value | None
+    namespace: Value | None
+    label: str | None
+    program: tuple[str, ...]
+    arguments: tuple[str, ...]
+    ros_arguments: tuple[str, ...] | None
+    prefix: tuple[str, ...]
+    shell: bool
+    cwd: str | None
+    environment: Mapping[str, tuple[EnvironmentChange, ...]]
+    parameters: tuple[ParameterSource, ...]
+    remaps: tuple[ResolvedRemap, ...]
+    output: str | None
+    emulate_tty: bool | None
+    restart: Restart | None
+    required: bool
+    shutdown_on_exit: bool
+    success_exit_codes: tuple[int, ...] | None
+    ready: ResolvedReady | None
+    stop: Stop | None
+    depends_on: tuple[ResolvedDependency, ...]
+    labels: tuple[str, ...]
+    location: Location
+    conditional: bool
+    faulty: bool
+
+
+@dataclass(frozen=True, slots=True)
+class ResolvedLog:
+    """Tell the user something."""
+
+    message: str
+    location: Location
+
+
+@dataclass(frozen=True, slots=True)
+class ResolvedStart:
+    """Start the process at `index` of the resolved processes."""
+
+    index: int
+    location: Location
+
+
+@dataclass(frozen=True, slots=True)
+class ResolvedShutdown:
+    """End the run."""
+
+    reason: str
+    location: Location
+
+
+TriggeredAction: TypeAlias = ResolvedLog | ResolvedStart | ResolvedShutdown
+
+
+@dataclass(frozen=True, slots=True)
+class ResolvedTrigger:
+    """Actions to carry out `delay` seconds after the run has started."""
+
+    do: tuple[TriggeredAction, ...]
+    delay: float | None
+    location: Location
+
+
+@dataclass(frozen=True, slots=True)
+class ResolvedSkip:
+    """An action that its condition left out."""
+
+    action: str
+    name: str | None
+    condition: Literal["if", "unless"]
+    expression: str
+    value: str
+    location: Location
+
+
+@dataclass(frozen=True, slots=True)
+class GivenSections:
+    """Parameters of the command line, which win over all others."""
+
+    sections: tuple[Section, ...]
+    location: Location
+
+
+@dataclass(frozen=True, slots=True)
+class Resolved:
+    """Everything a description comes to. `incomplete`: parts with faults have been left out."""
+
+    file: str
+    arguments: tuple[ResolvedArgument, ...]
+    processes: tuple[ResolvedProcess, ...]
+    triggers: tuple[ResolvedTrigger, ...]
+    skipped: tuple[ResolvedSkip, ...]
+    given: tuple[GivenSections, ...]
+    incomplete: bool

@@ -1,0 +1,25 @@
+"""Namespaces below namespaces, and what is wrong with them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code
+from orchestra.resolve.context import POISON, Evaluated, Value
+from orchestra.resolve.names import joined, namespace_fault
+
+if TYPE_CHECKING:
+    from orchestra.errors import Problems
+
+
+def below(base: Value | None, namespace: Value | None, problems: Problems) -> Evaluated | None:
+    """Return the absolute namespace of a base and what is added to it; a name that cannot be one is reported."""
+    text = joined(base.text if base else None, namespace.text if namespace else None)
+    if text is None:
+        return None
+    location = (namespace or base).location  # type: ignore[union-attr]
+    fault = namespace_fault(text)
+    if fault is not None:
+        problems.error(Code.BAD_NAME, f"'{text}' cannot be a namespace: {fault.reason}", location)
+        return POISON
+    return Value(text, location)

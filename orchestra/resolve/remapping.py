@@ -1,0 +1,30 @@
+"""Remapping rules as written, evaluated and checked."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code
+from orchestra.resolve.context import Value
+from orchestra.resolve.model import ResolvedRemap
+from orchestra.resolve.names import InvalidName
+from orchestra.resolve.remaps import read_rule
+
+if TYPE_CHECKING:
+    from orchestra.description.text import Template
+    from orchestra.resolve.resolution import Resolution
+
+
+def remap(source: Template, target: Template, run: Resolution) -> ResolvedRemap | None:
+    """Return a rule, None where it cannot be one (which has been reported)."""
+    left, right = run.evaluate(source), run.evaluate(target)
+    if not isinstance(left, Value) or not isinstance(right, Value):
+        return None
+    try:
+        read_rule(left.text, right.text)
+    except InvalidName as error:
+        value = left if error.name == left.text else right
+        message = f"'{error.name}' cannot be a name: {error.fault.reason}"
+        run.problems.error(Code.BAD_NAME, message, value.location)
+        return None
+    return ResolvedRemap(left, right)

@@ -1,0 +1,45 @@
+"""`for_each`: the same action once per value, each time in a scope of its own."""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import TYPE_CHECKING
+
+from orchestra.resolve.context import POISON, Evaluated, Poison, Value
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from orchestra.description.text import Template
+    from orchestra.resolve.resolution import Resolution
+
+
+def repeated(
+    for_each: Mapping[str, Template | tuple[Template, ...]] | None, run: Resolution
+) -> Iterator[None]:
+    """Yield once per combination of values, the first variable changing slowest; once where nothing is repeated.
+
+    The variables and whatever the body sets are gone after each round. A single text stands for a list with commas
+    between the values, so that an argument can carry one.
+    """
+    if for_each is None:
+        yield
+        return
+    values = [_values(written, run) for written in for_each.values()]
+    for combination in product(*values):
+        scope = run.scope.copy()
+        for (name, written), value in zip(for_each.items(), combination, strict=True):
+            first = written if not isinstance(written, tuple) else written[0]
+            scope.set(name, value, value.location if isinstance(value, Value) else run.at(first.span))
+        with run.scoped(scope):
+            yield
+
+
+def _values(written: Template | tuple[Template, ...], run: Resolution) -> tuple[Evaluated, ...]:
+    if isinstance(written, tuple):
+        return tuple(run.evaluate(item) or POISON for item in written)
+    value = run.evaluate(written)
+    if value is None or isinstance(value, Poison):
+        return (POISON,)
+    words = (word.strip() for word in value.text.strip("[] ").split(","))
+    return tuple(Value(word.strip("'\""), value.location) for word in words if word)

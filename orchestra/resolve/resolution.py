@@ -1,0 +1,169 @@
+"""The state of one resolution, as the visitors of the actions see it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, TypeAlias
+
+from orchestra.description.entity import Action
+from orchestra.description.launch import Description
+from orchestra.errors import Code, Problems
+from orchestra.location import Location, Span
+from orchestra.resolve.booleans import boolean
+from orchestra.resolve.context import POISON, Context, Evaluated, Poison, Value
+from orchestra.resolve.evaluate import evaluate
+from orchestra.resolve.inputs import Inputs
+from orchestra.resolve.model import (
+    FileParameters,
+    ResolvedArgument,
+    ResolvedDependency,
+    ResolvedProcess,
+    ResolvedSkip,
+    ResolvedTrigger,
+    TriggeredAction,
+)
+from orchestra.resolve.scope import Ledger, Scope
+
+if TYPE_CHECKING:
+    from orchestra.description.text import Template
+
+LoadFile: TypeAlias = Callable[[str, Problems, tuple[Span, ...]], Description | None]
+Visit: TypeAlias = Callable[[Sequence[Action], "Resolution"], None]
+
+
+@dataclass(slots=True)
+class Found:
+    """What the visit has come upon so far."""
+
+    processes: list[ResolvedProcess] = field(default_factory=list)
+    arguments: dict[str, ResolvedArgument] = field(default_factory=dict)
+    triggers: list[ResolvedTrigger] = field(default_factory=list)
+    skipped: list[ResolvedSkip] = field(default_factory=list)
+    hidden_include: bool = False
+    incomplete: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """One file on the way to where the visit is: its path and the arguments that its include gave."""
+
+    path: str
+    given: frozenset[str] = frozenset()
+    labels: tuple[str, ...] = ()
+    depends_on: tuple[ResolvedDependency, ...] = ()
+
+
+@dataclass(slots=True)
+class Resolution:
+    """Where the visit is, and what it may use."""
+
+    inputs: Inputs
+    problems: Problems
+    load: LoadFile
+    visit: Visit
+    context: Context
+    scope: Scope
+    found: Found = field(default_factory=Found)
+    frames: tuple[Frame, ...] = ()
+    delayed: list[TriggeredAction] | None = None
+    delay: float = 0.0
+    conditional: bool = False
+    descriptions: dict[str, Description | None] = field(default_factory=dict)
+    parameter_files: dict[str, FileParameters | None] = field(default_factory=dict)
+
+    @property
+    def frame(self) -> Frame:
+        """The file that is being visited."""
+        return self.frames[-1]
+
+    def at(self, span: Span) -> Location:
+        """Return the location of a span of the file that is being visited."""
+        return self.context.at(span)
+
+    def evaluate(self, template: Template | None) -> Evaluated | None:
+        """Evaluate a text in the current scope; None stays None."""
+        return None if template is None else evaluate(template, self.context)
+
+    def text(self, template: Template | None) -> str | Poison | None:
+        """Return what a text comes to."""
+        value = self.evaluate(template)
+        return value.text if isinstance(value, Value) else value
+
+    def flag(self, template: Template | None, default: bool | None = None) -> bool | Poison | None:
+        """Return what a text comes to as true or false; anything else is reported."""
+        value = self.evaluate(template)
+        if value is None:
+            return default
+        if isinstance(value, Poison):
+            return POISON
+        flag = boolean(value.text)
+        if flag is None:
+            self.problems.error(
+                Code.BAD_VALUE, f"expected true or false, found '{value.text}'", value.location
+            )
+            return POISON
+        return flag
+
+    def number(self, template: Template | None) -> float | Poison | None:
+        """Return what a text comes to as a number of seconds; anything else is reported."""
+        value = self.evaluate(template)
+        if value is None or isinstance(value, Poison):
+            return value
+        try:
+            number = float(value.text)
+        except ValueError:
+            number = -1.0
+        if not 0 <= number < float("inf"):
+            self.problems.error(
+                Code.BAD_VALUE, f"expected a number of seconds, found '{value.text}'", value.location
+            )
+            return POISON
+        return number
+
+    def integer(self, template: Template | None) -> int | Poison | None:
+        """Return what a text comes to as a whole number; anything else is reported."""
+        value = self.evaluate(template)
+        if value is None or isinstance(value, Poison):
+            return value
+        try:
+            return int(value.text)
+        except ValueError:
+            message = f"expected a whole number, found '{value.text}'"
+            self.problems.error(Code.BAD_VALUE, message, value.location)
+            return POISON
+
+    @contextmanager
+    def scoped(self, scope: Scope) -> Iterator[None]:
+        """Carry on in another scope for a while."""
+        outer, outer_context = self.scope, self.context
+        self._enter(scope)
+        try:
+            yield
+        finally:
+            self.scope, self.context = outer, outer_context
+
+    @contextmanager
+    def inside(self, frame: Frame, included_at: Location | None) -> Iterator[None]:
+        """Carry on in another file, in the same scope, for a while. Its ledger flows into the outer one."""
+        chain = () if included_at is None else (included_at.span, *included_at.included_from)
+        outer_frames, outer_context, outer_ledger = self.frames, self.context, self.scope.ledger
+        self.frames = (*outer_frames, frame)
+        self.context = replace(self.context, file=frame.path, included_from=chain)
+        self.scope.ledger = Ledger()
+        try:
+            yield
+        finally:
+            outer_ledger.absorb(self.scope.ledger)
+            self.frames, self.context, self.scope.ledger = outer_frames, outer_context, outer_ledger
+
+    def refresh(self) -> None:
+        """Let evaluations see what the scope has become."""
+        self.context.environment = self.scope.environment
+        self.context.parameters = {item.name: str(item.value) for item in self.scope.parameters}
+
+    def _enter(self, scope: Scope) -> None:
+        self.scope = scope
+        self.context = replace(self.context, variables=scope)
+        self.refresh()
