@@ -1,0 +1,115 @@
+"""Runs one command and ends everything it leaves behind; `commands` starts this file as a script of its own.
+
+Its argument is the descriptor to report on, with lines `failed REASON` or `status N`. Standard input brings the
+command's words and its environment, marshalled, and then stays open as long as the command may run.
+
+This process is a subreaper, so whatever the command starts, detached or not, is its child sooner or later, and nothing
+else ever is. Doing this in the caller would make the caller inherit the orphans of everything else it runs, and tell
+them apart by guessing; following descent from outside loses a daemon as soon as its parent has ended.
+
+Every import here delays the command, so there are few: json and typing alone would double the time.
+"""
+
+from __future__ import annotations
+
+import ctypes
+import marshal
+import os
+import select
+import signal
+import sys
+
+_PR_SET_PDEATHSIG = 1
+_PR_SET_CHILD_SUBREAPER = 36
+_CONTROL = 0
+_NOT_STARTED = 127
+
+
+def main() -> None:
+    """Run the ordered command to its end or until the caller lets go, end what is left, report."""
+    report = int(sys.argv[1])
+    os.set_inheritable(report, False)
+    _prctl(_PR_SET_CHILD_SUBREAPER, 1)
+    argv, environment = marshal.load(sys.stdin.buffer)  # noqa: S302 - the caller is this same program
+    leader = os.fork()
+    if leader == 0:
+        _become(argv, environment, report)
+    status = _status(leader)
+    _end_children()
+    if status is not None:
+        os.write(report, b"status %d\n" % status)
+
+
+def _become(argv: list[str], environment: dict[str, str], report: int) -> None:
+    """Turn into the command: a session of its own, no input, signals as they are by default."""
+    try:
+        os.setsid()
+        _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+        os.dup2(os.open(os.devnull, os.O_RDONLY), _CONTROL)
+        for ignored_by_python in (signal.SIGPIPE, signal.SIGXFSZ):
+            signal.signal(ignored_by_python, signal.SIG_DFL)
+        signal.pthread_sigmask(signal.SIG_SETMASK, ())
+        os.execvpe(argv[0], argv, environment)  # noqa: S606 - without a shell is the point
+    except (OSError, ValueError) as error:
+        reason = error.strerror if isinstance(error, OSError) else str(error)
+        os.write(report, f"failed {reason}\n".encode())
+    finally:
+        os._exit(_NOT_STARTED)
+
+
+def _status(leader: int) -> int | None:
+    """Wait for the command; the negative signal number where one ended it, None where the caller let go first."""
+    ended = os.pidfd_open(leader)
+    poll = select.poll()
+    poll.register(ended, select.POLLIN)
+    poll.register(_CONTROL, select.POLLIN | select.POLLHUP)
+    if ended not in dict(poll.poll()):
+        return None
+    return os.waitstatus_to_exitcode(os.waitpid(leader, 0)[1])
+
+
+def _end_children() -> None:
+    """Kill all children, and those that become children because of it, until there are none."""
+    while True:
+        try:
+            ended, _ = os.waitpid(-1, os.WNOHANG)
+            if ended:
+                continue
+            for child in _children():
+                _kill(child)
+            os.waitpid(-1, 0)
+        except ChildProcessError:
+            return
+
+
+def _children() -> list[int]:
+    """Return the children of this process; none of their numbers can be used again before it waits for them."""
+    found = []
+    for entry in os.listdir("/proc"):  # noqa: PTH208 - pathlib is slow to import
+        if not entry.isdigit():
+            continue
+        try:
+            with open(f"/proc/{entry}/stat", "rb") as stat:  # noqa: PTH123 - as above
+                parent = int(stat.read().rpartition(b")")[2].split()[1])
+        except (FileNotFoundError, ProcessLookupError):
+            continue  # it has ended since
+        if parent == os.getpid():
+            found.append(int(entry))
+    return found
+
+
+def _kill(child: int) -> None:
+    try:
+        os.kill(child, signal.SIGKILL)
+    except PermissionError:
+        return  # it has become another user's: all that can be done is to wait for it, and the caller has a limit
+
+
+def _prctl(option: int, value: int) -> None:
+    libc = ctypes.CDLL(None, use_errno=True)
+    if libc.prctl(option, value, 0, 0, 0) != 0:
+        raise OSError(ctypes.get_errno(), f"prctl {option}")
+
+
+if __name__ == "__main__":
+    main()
