@@ -1,0 +1,171 @@
+"""The type support of TFMessage without a compiler.
+
+The middleware calls a message's type support while it holds a lock of the writer or reader, in a thread that
+holds the interpreter's lock. Were such a callback to run bytecode, another thread could get the interpreter's
+lock there and wait for the middleware's: both would wait for ever. So nothing below runs bytecode: each callback
+is a callable written in C (an operator, an `attrgetter`, a bound method of a dictionary or an iterator) that ends
+in a function of a library, called without releasing the interpreter's lock. An interrupt (Ctrl-C) is not taken
+there for the same reason, so none is lost. What does need bytecode happens in `conversion`, before and after.
+
+Rejected: calling the compiled serializers of the element from a Python loop (bytecode under a lock, and a C++
+exception for malformed data would cross Python's frames); a process-wide lock around publish and take (does not
+cover the creation of endpoints); machine code in memory of our own (one version per processor).
+"""
+
+from __future__ import annotations
+
+import ctypes
+import operator
+from ctypes import CFUNCTYPE, POINTER, c_bool, c_char_p, c_int, c_size_t, c_uint32, c_void_p, py_object
+from itertools import repeat
+from operator import attrgetter
+from typing import TYPE_CHECKING, Any
+
+from orchestra.ros.interfaces import description, layouts
+from orchestra.ros.interfaces.layouts import Bytes, Callbacks, Cdr, FastBuffer, Handle, SerializedMessage
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_FAST_CDR = "libfastcdr.so.2"
+_RUNTIME = "librosidl_runtime_c.so"
+_FASTRTPS = b"rosidl_typesupport_fastrtps_c"
+_INTROSPECTION = b"rosidl_typesupport_introspection_c"
+_NAMESPACE = b"tf2_msgs__msg"
+_CXX_NAMESPACE = b"tf2_msgs::msg"
+_TYPE_NAME = b"TFMessage"
+_ROS_TYPE_MESSAGE = 18  # rosidl_typesupport_introspection_c/field_types.h
+
+
+class UnsupportedInstallationError(RuntimeError):
+    """The installed ROS libraries are not laid out as in ROS 2 Jazzy."""
+
+
+class _Buffer:
+    """Argument converter: what a `Cdr` reads, as pointer and length.
+
+    By value, a structure of these two is passed in two registers, exactly as the two would be.
+    """
+
+    from_param = attrgetter("contents.buffer.contents.bytes")
+
+
+class _Outgoing:
+    """Argument converter: what a message sends, as pointer and length."""
+
+    from_param = attrgetter("contents.outgoing")
+
+
+def build(element: int) -> int:
+    """Make the type support of TFMessage from the handle of TransformStamped; returns its address.
+
+    Raises:
+        UnsupportedInstallationError: the libraries are not those of ROS 2 Jazzy.
+    """
+    runtime = ctypes.PyDLL(_RUNTIME)
+    fast_cdr = ctypes.PyDLL(_FAST_CDR)
+    _check_layout(fast_cdr)
+    find = runtime.get_message_typesupport_handle
+    find.argtypes, find.restype = [c_void_p, c_char_p], POINTER(Handle)
+    table: dict[bytes, int] = {}
+    dispatch = _callback(CFUNCTYPE(c_void_p, _handle_in(table), c_char_p), operator.getitem)
+    common = (dispatch, *_description_functions(find(element, _FASTRTPS).contents))
+    for identifier, data in (
+        (_FASTRTPS, _callbacks(find(element, _FASTRTPS).contents, runtime, fast_cdr)),
+        (_INTROSPECTION, _members(find(element, _INTROSPECTION))),
+    ):
+        handle = layouts.immortal(Handle(identifier, ctypes.addressof(data), *common))
+        table[identifier] = ctypes.addressof(handle)
+    return table[_FASTRTPS]
+
+
+def _callback(prototype: Any, function: Callable[..., Any]) -> int:  # noqa: ANN401  # made by ctypes at run time
+    address = ctypes.cast(layouts.immortal(prototype(function)), c_void_p).value
+    assert address is not None
+    return address
+
+
+def _handle_in(table: dict[bytes, int]) -> type[c_void_p]:
+    """The type of a handle for which `handle[identifier]` is the address of the type support of that name."""
+    return type("HandleReference", (c_void_p,), {"__getitem__": table.get})
+
+
+def _constant(address: int) -> int:
+    """A C function that returns this address, whatever it is given."""
+    return _callback(CFUNCTYPE(c_void_p), repeat(address).__next__)
+
+
+def _description_functions(element: Handle) -> list[int]:
+    """The functions of a handle that return the type's hash, description and sources."""
+    prototype = ctypes.PYFUNCTYPE(c_void_p, c_void_p)
+    of_element = layouts.TypeDescription.from_address(prototype(element.get_type_description_func)(None))
+    sources = layouts.String.from_address(prototype(element.get_type_description_sources_func)(None))
+    described = description.describe(of_element)
+    values = (description.type_hash(described), described, description.sources(sources))
+    return [_constant(ctypes.addressof(layouts.immortal(value))) for value in values]
+
+
+def _callbacks(element: Handle, runtime: ctypes.PyDLL, fast_cdr: ctypes.PyDLL) -> Callbacks:
+    """What rmw_fastrtps calls to send and to receive; `a >> b` means that b takes its bytes from a."""
+    message, cdr = POINTER(SerializedMessage), POINTER(Cdr)
+    receive = runtime.rosidl_runtime_c__String__assignn
+    receive.argtypes, receive.restype = [message, _Buffer], c_bool
+    send = fast_cdr._ZN8eprosima7fastcdr3Cdr15serialize_arrayEPKcm  # noqa: SLF001  # a C++ name, not a private one
+    send.argtypes, send.restype = [cdr, _Outgoing], c_void_p
+    message.__rrshift__ = _method(receive)  # type: ignore[attr-defined]  # the class is made by ctypes
+    cdr.__rrshift__ = _method(send)  # type: ignore[attr-defined]  # as above
+    return layouts.immortal(
+        Callbacks(
+            _CXX_NAMESPACE,
+            _TYPE_NAME,
+            _callback(CFUNCTYPE(c_bool, message, cdr), operator.rshift),
+            _callback(CFUNCTYPE(c_bool, cdr, message), operator.rshift),
+            _callback(CFUNCTYPE(c_uint32, message), attrgetter("contents.outgoing.size")),
+            # Says "unbounded" and a size to begin with: so does the element's own function.
+            Callbacks.from_address(element.data).max_serialized_size,
+        )
+    )
+
+
+def _method(function: Callable[..., Any]) -> object:
+    """A function that binds to the instance when it is found in a class, as those written in Python do."""
+    bind = ctypes.pythonapi.PyInstanceMethod_New
+    bind.argtypes, bind.restype = [py_object], py_object
+    return bind(function)
+
+
+def _members(element: Any) -> layouts.Members:  # noqa: ANN401  # a pointer made by ctypes
+    """The names and types of the fields, which the middleware makes its own type object from.
+
+    The functions of the member stay null: they would reach into a message as the C generator lays it out, and
+    ours is serialized. Whoever tried would be told by the null pointer, not by a wrong value.
+    """
+    member = layouts.Member(
+        name=b"transforms",
+        type_id=_ROS_TYPE_MESSAGE,
+        members=ctypes.addressof(element.contents),
+        is_array=True,
+    )
+    size = ctypes.sizeof(SerializedMessage)
+    return layouts.immortal(
+        layouts.Members(_NAMESPACE, _TYPE_NAME, 1, size, False, ctypes.pointer(member))  # noqa: FBT003  # no keywords in C
+    )
+
+
+def _check_layout(fast_cdr: ctypes.PyDLL) -> None:
+    """Let the library fill a buffer and a coder and look whether it puts things where `layouts` expects them."""
+    memory = ctypes.create_string_buffer(16)
+    buffer, cdr = FastBuffer(), ctypes.create_string_buffer(1024)
+    make_buffer = fast_cdr._ZN8eprosima7fastcdr10FastBufferC1EPcm  # noqa: SLF001  # a C++ name, not a private one
+    make_buffer.argtypes, make_buffer.restype = [c_void_p, c_void_p, c_size_t], None
+    make_cdr = fast_cdr._ZN8eprosima7fastcdr3CdrC1ERNS0_10FastBufferENS1_10EndiannessENS0_10CdrVersionE  # noqa: SLF001  # as above
+    make_cdr.argtypes, make_cdr.restype = [c_void_p, c_void_p, c_int, c_int], None
+    make_buffer(ctypes.addressof(buffer), ctypes.addressof(memory), len(memory))
+    make_cdr(ctypes.addressof(cdr), ctypes.addressof(buffer), 1, 1)
+    found: Bytes = buffer.bytes
+    reference = ctypes.cast(Cdr.from_buffer(cdr).buffer, c_void_p).value
+    expected = (ctypes.addressof(memory), len(memory), ctypes.addressof(buffer))
+    if (found.data, found.size, reference) != expected:
+        raise UnsupportedInstallationError(
+            f"{_FAST_CDR} is laid out in another way than in ROS 2 Jazzy; install tf2_msgs to use TFMessage"
+        )
