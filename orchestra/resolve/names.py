@@ -85,7 +85,7 @@ def rule_name_fault(name: str) -> Fault | None:
 def topic_name_fault(name: str) -> Fault | None:
     """Return why this cannot stand for a topic or service in a node, None where it can.
 
-    The name may be absolute, relative or private (`~/scan`) and may hold `{node}`, `{ns}` and `{namespace}`.
+    The name may be absolute, relative or private (`~/scan`) and may hold '{node}', '{ns}' and '{namespace}'.
     """
     if not name:
         return Fault("it must not be empty", 0)
