@@ -1,0 +1,72 @@
+"""The table of contents: a launch file is loaded, resolved and planned; the supervisor then runs the plan."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from orchestra.errors import DescriptionError, Problem, Problems
+from orchestra.load.files import load
+from orchestra.plan.build import build
+from orchestra.resolve import launch_files
+from orchestra.resolve.command_line import inputs_from
+from orchestra.resolve.commands import run_command
+from orchestra.resolve.packages import InstalledPackages
+from orchestra.resolve.resolve import resolve
+from orchestra.resolve.single import single_node
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from orchestra.description.launch import Description
+    from orchestra.plan.model import Plan
+    from orchestra.resolve.inputs import Inputs
+    from orchestra.resolve.model import Resolved
+
+
+__all__ = ["check", "find_launch_file", "inputs_from", "make_plan", "plan_of_node"]
+
+
+def make_plan(path: str, inputs: Inputs) -> Plan:
+    """Return the plan of a launch file. Raises `DescriptionError` with all problems where there are errors."""
+    problems = Problems()
+    plan = _plan(path, inputs, problems)
+    if plan is None or problems.errors:
+        raise DescriptionError(problems.ordered)
+    return plan
+
+
+def check(path: str, inputs: Inputs) -> tuple[Problem, ...]:
+    """Return everything that is wrong with a launch file."""
+    problems = Problems()
+    _plan(path, inputs, problems)
+    return problems.ordered
+
+
+def plan_of_node(
+    package: str, executable: str, arguments: Sequence[str], inputs: Inputs, *, prefix: str = ""
+) -> Plan:
+    """Return the plan of one node whose arguments are passed on unchanged. Raises `DescriptionError`."""
+    problems = Problems()
+    packages = InstalledPackages(inputs.environment)
+    plan = build(single_node(package, executable, arguments, prefix, problems, packages), problems)
+    if problems.errors:
+        raise DescriptionError(problems.ordered)
+    return plan
+
+
+def find_launch_file(words: Sequence[str]) -> tuple[str, tuple[str, ...]]:
+    """Return the launch file that the first words name, and the words after it. Raises `UsageError`."""
+    return launch_files.find_launch_file(words, InstalledPackages(os.environ))
+
+
+def _plan(path: str, inputs: Inputs, problems: Problems) -> Plan | None:
+    description = load(path, problems)
+    if description is None:
+        return None
+    return build(_resolved(description, inputs, problems), problems)
+
+
+def _resolved(description: Description, inputs: Inputs, problems: Problems) -> Resolved:
+    packages = InstalledPackages(inputs.environment)
+    return resolve(description, inputs, problems, load=load, packages=packages, run_command=run_command)

@@ -1,0 +1,39 @@
+"""The words of a command line that follow the launch file, as inputs of a resolution."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.errors import UsageError
+from orchestra.location import Span
+from orchestra.resolve.inputs import GivenArgument, GivenFile, GivenParameter, Inputs
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+COMMAND_LINE = "command line"
+
+
+def inputs_from(
+    words: Sequence[str], *, environment: Mapping[str, str], params_files: Sequence[str] = ()
+) -> Inputs:
+    """Read `NAME:=VALUE` and `NODE:NAME:=VALUE`; the last of a repeated launch argument counts, as upstream.
+
+    Raises `UsageError` for a word of another form.
+    """
+    arguments: dict[str, GivenArgument] = {}
+    parameters: list[GivenParameter] = []
+    column = 1
+    for word in words:
+        name, separator, value = word.partition(":=")
+        if not separator or not name or name != name.strip():
+            raise UsageError(f"'{word}' is none of NAME:=VALUE and NODE:NAME:=VALUE")
+        span = Span(COMMAND_LINE, 1, column, 1, column + len(name))
+        column += len(word) + 1
+        node, colon, parameter = name.rpartition(":")
+        if colon:
+            parameters.append(GivenParameter(node, parameter, value, span))
+        else:
+            arguments[name] = GivenArgument(name, value, span)
+    files = tuple(GivenFile(path, Span(COMMAND_LINE, 1, 1, 1, 1)) for path in params_files)
+    return Inputs(environment, tuple(arguments.values()), tuple(parameters), files)
