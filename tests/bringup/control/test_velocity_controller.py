@@ -1,0 +1,323 @@
+"""The node for real: a process of its own, simulated time, and another participant that plays the robot."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import pytest
+import rclpy
+from geometry_msgs.msg import Twist
+from nav_msgs.msg import Odometry
+from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParameters, SetParametersAtomically
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from rosgraph_msgs.msg import Clock
+from sensor_msgs.msg import LaserScan
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+from bringup.control.settings import table
+
+# What rclpy imports to find its types still uses the old name of a standard module.
+pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
+
+DEADLINE = 40.0
+NODE = "/robot1/velocity_controller"
+TICK = 0.02
+
+
+class Bench:
+    """Everything around the controller: a clock, a lidar, odometry, and ears for what it sends."""
+
+    def __init__(self, domain: int) -> None:
+        self.context = rclpy.Context()
+        rclpy.init(context=self.context, domain_id=domain)
+        self.node = rclpy.create_node("bench", context=self.context)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.node)
+        self.clock = self.node.create_publisher(Clock, "/clock", 10)
+        sensor = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+        latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+        self.scan = self.node.create_publisher(LaserScan, "/robot1/scan", sensor)
+        self.odometry = self.node.create_publisher(Odometry, "/robot1/odometry/filtered", 1)
+        self.commands: list[Twist] = []
+        self.modes: list[str] = []
+        self.node.create_subscription(Twist, "/robot1/cmd_vel", self.commands.append, 100)
+        self.node.create_subscription(
+            String, f"{NODE}/mode", lambda message: self.modes.append(message.data), latched
+        )
+        self.tick = 0
+        self.ahead = float("inf")
+        self.scanning = True
+        self.locating = True
+
+    @property
+    def time(self) -> float:
+        return self.tick * TICK
+
+    def close(self) -> None:
+        self.executor.shutdown()
+        self.node.destroy_node()
+        rclpy.shutdown(context=self.context)
+
+    def until(self, condition: Callable[[], bool], what: str, ticks: int = 1) -> None:
+        """Let simulated time pass (0 ticks: stand), all sensors that are on sending, until the condition holds."""
+        end = time.monotonic() + DEADLINE
+        while not condition():
+            assert time.monotonic() < end, f"not within {DEADLINE} s: {what}"
+            self._step(ticks)
+            self.executor.spin_once(timeout_sec=0.005)
+
+    def _step(self, ticks: int) -> None:
+        self.tick += ticks
+        now = Clock()
+        now.clock.sec, now.clock.nanosec = divmod(self.tick * 20_000_000, 1_000_000_000)
+        self.clock.publish(now)
+        if self.locating:
+            self.odometry.publish(Odometry())
+        if self.scanning and self.tick % 5 == 0:
+            self.scan.publish(self._scan())
+
+    def _scan(self) -> LaserScan:
+        scan = LaserScan(range_min=0.12, range_max=12.0, angle_min=-3.14159265, angle_increment=0.0174532925)
+        scan.ranges = [float("inf")] * 360
+        scan.ranges[175:186] = type(scan.ranges)("f", [self.ahead] * 11)
+        return scan
+
+    def call(self, kind: Any, name: str, request: Any) -> Any:
+        client = self.node.create_client(kind, name)
+        try:
+            self.until(client.service_is_ready, f"{name} is there")
+            answer = client.call_async(request)
+            self.until(answer.done, f"{name} answers")
+            return answer.result()
+        finally:
+            self.node.destroy_client(client)
+
+    def set(self, atomically: bool = False, **values: Any) -> list[tuple[bool, str]]:
+        wanted = [Parameter(name=name, value=value_of(value)) for name, value in values.items()]
+        if atomically:
+            request = SetParametersAtomically.Request(parameters=wanted)
+            answer = self.call(SetParametersAtomically, f"{NODE}/set_parameters_atomically", request)
+            return [(answer.result.successful, answer.result.reason)]
+        answer = self.call(SetParameters, f"{NODE}/set_parameters", SetParameters.Request(parameters=wanted))
+        return [(result.successful, result.reason) for result in answer.results]
+
+    def get(self, *names: str) -> list[Any]:
+        answer = self.call(GetParameters, f"{NODE}/get_parameters", GetParameters.Request(names=names))
+        return [
+            value.double_value if value.type == ParameterType.PARAMETER_DOUBLE else value.string_value
+            for value in answer.values
+        ]
+
+    def drives(self, speed: float) -> Callable[[], bool]:
+        return lambda: bool(self.commands) and abs(self.commands[-1].linear.x - speed) < 0.01
+
+
+def value_of(value: Any) -> ParameterValue:
+    if isinstance(value, str):
+        return ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=value)
+    if isinstance(value, int):
+        return ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=value)
+    return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
+
+
+@contextmanager
+def controller(domain: int, *parameters: str) -> Iterator["subprocess.Popen[str]"]:
+    arguments = ["--ros-args", "-r", "__ns:=/robot1"]
+    for parameter in parameters:
+        arguments += ["-p", parameter]
+    process = subprocess.Popen(
+        [sys.executable, "-m", "bringup.nodes.velocity_controller", *arguments],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"ROS_DOMAIN_ID": str(domain)},
+    )
+    try:
+        yield process
+    finally:
+        process.kill()
+        process.communicate()
+
+
+@contextmanager
+def on_bench(domain: int, *parameters: str) -> Iterator[tuple[Bench, "subprocess.Popen[str]"]]:
+    with controller(domain, "use_sim_time:=true", *parameters) as process:
+        bench = Bench(domain)
+        try:
+            bench.until(lambda: bool(bench.commands and bench.modes), "the controller talks")
+            yield bench, process
+        finally:
+            bench.close()
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _localhost() -> Iterator[None]:
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "LOCALHOST")
+        yield
+
+
+@pytest.fixture(scope="module")
+def shared() -> Iterator[Bench]:
+    with on_bench(40, "mode:=hold") as (bench, _):
+        yield bench
+
+
+@pytest.fixture
+def bench(shared: Bench) -> Bench:
+    """The one node of these tests, standing still with its own defaults and all sensors on."""
+    shared.scanning = shared.locating = True
+    shared.ahead = float("inf")
+    assert shared.set(mode="hold", max_linear_vel=0.5, obstacle_distance=0.5, robot_radius=0.25)[0][0]
+    shared.until(shared.drives(0.0), "standing still")
+    return shared
+
+
+def test_every_parameter_is_described_with_its_type_and_range(bench: Bench) -> None:
+    request = DescribeParameters.Request(names=[each.name for each in table()])
+    answer = bench.call(DescribeParameters, f"{NODE}/describe_parameters", request)
+    for each, described in zip(table(), answer.descriptors, strict=True):
+        assert described.description == each.description
+        assert described.additional_constraints == each.constraints
+        bounds = list(described.floating_point_range) + list(described.integer_range)
+        if isinstance(each.default, str):
+            assert described.type == ParameterType.PARAMETER_STRING
+        else:
+            assert [(bound.from_value, bound.to_value) for bound in bounds] == [(each.minimum, each.maximum)]
+
+
+@pytest.mark.parametrize(
+    ("values", "words"),
+    [
+        ({"max_linear_vel": 0.9}, ["max_linear_vel", "0.9", "0.8"]),
+        ({"max_angular_vel": float("nan")}, ["max_angular_vel", "nan", "1.5"]),
+        ({"max_linear_vel": "fast"}, ["type", "DOUBLE", "STRING"]),
+        ({"mode": "fly"}, ["mode", "fly", "linear, rotational, wander, hold"]),
+        ({"obstacle_distance": 0.2}, ["obstacle_distance (0.2 m) must exceed robot_radius (0.25 m)"]),
+        ({"robot_radius": 0.7}, ["obstacle_distance (0.5 m) must exceed robot_radius (0.7 m)"]),
+    ],
+)
+def test_a_refused_parameter_says_why_and_stays_as_it_was(
+    bench: Bench, values: dict[str, Any], words: list[str]
+) -> None:
+    before = bench.get(*values)
+    [(successful, reason)] = bench.set(**values)
+    assert not successful
+    for word in words:
+        assert word in reason
+    assert bench.get(*values) == before
+
+
+def test_a_set_of_parameters_is_taken_as_a_whole_or_not_at_all(bench: Bench) -> None:
+    [(successful, reason)] = bench.set(atomically=True, max_linear_vel=0.3, robot_radius=0.7)
+    assert not successful
+    assert "must exceed" in reason
+    assert bench.get("max_linear_vel", "robot_radius") == [0.5, 0.25]
+    assert bench.set(atomically=True, robot_radius=0.7, obstacle_distance=0.9) == [(True, "")]
+    assert bench.get("robot_radius", "obstacle_distance") == [0.7, 0.9]
+    assert bench.set(atomically=True, robot_radius=0.25, obstacle_distance=0.5) == [(True, "")]
+
+
+def test_services_and_the_parameter_change_the_mode_which_is_told_to_all(bench: Bench) -> None:
+    for name, mode in (
+        ("velocity_controller/rotational", "rotational"),
+        ("velocity_controller/linear", "linear"),
+        ("switch_mode", "rotational"),
+        ("switch_mode", "wander"),
+        ("switch_mode", "hold"),
+        ("velocity_controller/wander", "wander"),
+        ("velocity_controller/hold", "hold"),
+    ):
+        answer = bench.call(Trigger, f"/robot1/{name}", Trigger.Request())
+        assert (answer.success, answer.message) == (True, mode)
+        assert bench.get("mode") == [mode]
+        bench.until(lambda mode=mode: bench.modes[-1] == mode, f"the topic says {mode}")  # type: ignore[misc]
+    bench.set(mode="linear")
+    bench.until(lambda: bench.modes[-1] == "linear", "the topic follows the parameter")
+
+
+def test_it_turns_in_rotational_mode(bench: Bench) -> None:
+    bench.set(mode="rotational")
+    bench.until(lambda: bench.commands[-1].angular.z > 0.99, "turning")
+    assert bench.commands[-1].linear.x == 0.0
+
+
+def test_it_wanders(bench: Bench) -> None:
+    bench.set(mode="wander")
+    bench.until(lambda: bench.commands[-1].linear.x > 0.1, "driving about")
+
+
+def test_it_drives_as_fast_as_allowed_and_stops_before_an_obstacle(bench: Bench) -> None:
+    bench.set(mode="linear")
+    bench.until(bench.drives(0.5), "driving")
+    bench.set(max_linear_vel=0.2)
+    bench.until(bench.drives(0.2), "driving at the new speed")
+    bench.ahead = 0.45
+    bench.until(bench.drives(0.0), "standing before the obstacle")
+    bench.ahead = 3.0
+    bench.until(bench.drives(0.2), "driving on")
+
+
+@pytest.mark.parametrize("sensor", ["scanning", "locating"])
+def test_it_stops_when_a_sensor_falls_silent_and_drives_on_when_it_is_back(bench: Bench, sensor: str) -> None:
+    bench.set(mode="linear")
+    bench.until(bench.drives(0.5), "driving")
+    setattr(bench, sensor, False)
+    lost = bench.time
+    bench.until(lambda: bench.commands[-1].linear.x < 0.49, "braking")
+    assert bench.time - lost > 0.4
+    bench.until(bench.drives(0.0), "standing")
+    setattr(bench, sensor, True)
+    bench.until(bench.drives(0.5), "driving again")
+
+
+def test_commands_come_at_10_hz_of_simulated_time(bench: Bench) -> None:
+    """Time waits for each command, so that a busy machine changes nothing."""
+    before = len(bench.commands)
+    for number in range(1, 31):
+        end = bench.tick + 5
+        bench.until(lambda end=end: bench.tick >= end, "a tenth of a second")  # type: ignore[misc]
+        bench.until(
+            lambda least=before + number: len(bench.commands) >= least,  # type: ignore[misc]
+            "a command for every tenth",
+            ticks=0,
+        )
+    assert len(bench.commands) - before <= 33
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_cleanly_with_a_last_order_to_stand(number: signal.Signals) -> None:
+    with on_bench(41, "mode:=linear") as (bench, process):
+        bench.until(bench.drives(0.5), "driving")
+        process.send_signal(number)
+        bench.until(lambda: process.poll() is not None, "the end")
+        bench.until(bench.drives(0.0), "the last command is zero")
+        _, errors = process.communicate()
+        assert process.returncode == 0
+        assert "Traceback" not in errors
+
+
+@pytest.mark.parametrize(
+    ("parameter", "words"),
+    [
+        ("max_linear_vel:=7.0", ["max_linear_vel", "7.0", "0.8"]),
+        ("max_linear_vel:=fast", ["max_linear_vel", "fast", "DOUBLE"]),
+        ("obstacle_distance:=0.2", ["obstacle_distance (0.2 m) must exceed robot_radius (0.25 m)"]),
+        ("mode:=fly", ["mode is 'fly'"]),
+    ],
+)
+def test_unusable_parameters_end_the_start_with_a_reason(parameter: str, words: list[str]) -> None:
+    with controller(42, parameter) as process:
+        _, errors = process.communicate(timeout=DEADLINE)
+    assert process.returncode == 1
+    assert "Traceback" not in errors
+    for word in words:
+        assert word in errors
