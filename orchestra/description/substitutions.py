@@ -73,15 +73,3 @@ ELSEWHERE: Final[Mapping[str, str]] = MappingProxyType({
     "if-else": "if",
     "optenv": "env",
 })  # fmt: skip
-
-
-def usage(name: str) -> str:
-    """Return how the substitution is written, optional arguments in brackets."""
-    signature = SIGNATURES[name]
-    words = [
-        argument.upper() if index < signature.minimum else f"[{argument.upper()}]"
-        for index, argument in enumerate(signature.arguments)
-    ]
-    if signature.maximum is None:
-        words.append("...")
-    return f"$({' '.join([name, *words])})"

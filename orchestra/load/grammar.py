@@ -15,11 +15,11 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
-from orchestra.description.substitutions import ELSEWHERE, SIGNATURES, usage
+from orchestra.description.substitutions import SIGNATURES
 from orchestra.description.text import Call, Template, Words
 from orchestra.errors import Code, Problems
+from orchestra.load.signatures import excess, lack, meant, usage
 from orchestra.location import Span
-from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -101,7 +101,7 @@ class _Reader:
             self.fault(start, start + 2, "this substitution is not closed: a ')' is missing")
         call = Call(name, tuple(arguments), self.spans(start, self.at))
         if name_span and self.known(name, name_span) and self.faults == before:
-            self.counted(call, first, last)
+            self.count(call, start, first, last)
         if self.faults == before:
             return (call,)
         return tuple(part for argument in arguments for part in argument.parts if isinstance(part, Call))
@@ -198,24 +198,21 @@ class _Reader:
         if name in SIGNATURES:
             return True
         self.faults += 1
-        meant = ELSEWHERE.get(name) or nearest(name, SIGNATURES)
-        self.problems.error(
-            Code.UNKNOWN_SUBSTITUTION, f"there is no substitution $({name})", span, suggestion=meant
-        )
+        told = f"there is no substitution $({name})"
+        self.problems.error(Code.UNKNOWN_SUBSTITUTION, told, span, suggestion=meant(name))
         return False
 
-    def counted(self, call: Call, first: int, last: int) -> None:
-        """Report too few or too many arguments; those that there are stand between two offsets."""
-        signature, count = SIGNATURES[call.name], len(call.arguments)
-        notes = (f"it is written {usage(call.name)}",)
-        if count < signature.minimum:
-            self.faults += 1
-            told = f"$({call.name}) lacks its {signature.arguments[count]}"
-            self.problems.error(Code.SUBSTITUTION_SYNTAX, told, call.span, notes=notes)
-        elif signature.maximum is not None and count > signature.maximum:
-            told = f"$({call.name}) takes {_number(signature.maximum)}, not {count}"
-            suggestion = self.in_quotes(first, last) if signature.phrase else None
-            self.fault(first, last, told, suggestion=suggestion, notes=notes)
+    def count(self, call: Call, start: int, first: int, last: int) -> None:
+        """Report too few or too many arguments of the call that began at `start`; they reach from `first` to `last`."""
+        name, number = call.name, len(call.arguments)
+        notes = (f"it is written {usage(name)}",)
+        if told := lack(name, number):
+            self.fault(start, self.at, told, notes=notes)
+        elif told := excess(name, number):
+            phrase = SIGNATURES[name].phrase
+            self.fault(
+                first, last, told, suggestion=self.in_quotes(first, last) if phrase else None, notes=notes
+            )
 
     def in_quotes(self, start: int, end: int) -> str | None:
         """Return the stretch in quotes that it does not hold itself, None where it holds both."""
@@ -288,13 +285,3 @@ class _Parts:
             span = self._reader.spans(self._begin, self._reader.at)
             self._parts.append(Words("".join(self._characters), span))
             self._characters.clear()
-
-
-def _number(arguments: int) -> str:
-    match arguments:
-        case 0:
-            return "no argument"
-        case 1:
-            return "one argument"
-        case _:
-            return f"at most {arguments} arguments"

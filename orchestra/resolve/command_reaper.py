@@ -29,6 +29,9 @@ def main() -> None:
     """Run the ordered command to its end or until the caller lets go, end what is left, report."""
     report = int(sys.argv[1])
     os.set_inheritable(report, False)
+    signal.signal(
+        signal.SIGCHLD, signal.SIG_DFL
+    )  # where a caller ignores it, no status would be left to wait for
     _prctl(_PR_SET_CHILD_SUBREAPER, 1)
     argv, environment = marshal.load(sys.stdin.buffer)  # noqa: S302 - the caller is this same program
     leader = os.fork()
@@ -46,8 +49,9 @@ def _become(argv: list[str], environment: dict[str, str], report: int) -> None:
         os.setsid()
         _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
         os.dup2(os.open(os.devnull, os.O_RDONLY), _CONTROL)
-        for ignored_by_python in (signal.SIGPIPE, signal.SIGXFSZ):
-            signal.signal(ignored_by_python, signal.SIG_DFL)
+        for number in range(1, signal.NSIG):
+            if signal.getsignal(number) == signal.SIG_IGN:
+                signal.signal(number, signal.SIG_DFL)
         signal.pthread_sigmask(signal.SIG_SETMASK, ())
         os.execvpe(argv[0], argv, environment)  # noqa: S606 - without a shell is the point
     except (OSError, ValueError) as error:
