@@ -37,4 +37,4 @@ ForEach: TypeAlias = Annotated[
         }
     ),
 ]
-Children: TypeAlias = Annotated[tuple[InstanceOf[Action], ...], WithJsonSchema({"$ref": "#/$defs/Actions"})]
+Children: TypeAlias = Annotated[tuple[InstanceOf[Action], ...], WithJsonSchema({"type": "array"})]
