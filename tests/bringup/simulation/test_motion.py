@@ -43,7 +43,9 @@ def test_a_turn_on_the_spot_stays_on_the_spot(turn: float) -> None:
     drive(simulation, 1.0, STILL)
     here = pose(simulation.data, simulation.model.robots[0])
     assert math.hypot(here.x, here.y) < 0.01
-    assert abs(wrap(here.yaw - math.copysign(round(math.pi, 2), turn))) < 0.06  # the motors lag by one per cent
+    assert (
+        abs(wrap(here.yaw - math.copysign(round(math.pi, 2), turn))) < 0.06
+    )  # the motors lag by one per cent
 
 
 def test_an_arc_has_the_radius_of_its_command() -> None:

@@ -62,4 +62,6 @@ def test_more_robots_than_colours(tmp_path: Path, world: str) -> None:
     layout = lay_out(world, 2, [f"r{number}" for number in range(8)])
     robots = [Driven(start.robot, start.pose, [], [], []) for start in layout.starts]
     image = drawn(tmp_path, layout, *robots)
-    assert len(image.getcolors(maxcolors=1 << 20)) > len(picture.COLOURS)
+    colours = image.getcolors(maxcolors=1 << 20)
+    assert colours is not None
+    assert len(colours) > len(picture.COLOURS)

@@ -1,0 +1,72 @@
+"""How the node ends, and what it refuses to begin."""
+
+from __future__ import annotations
+
+import re
+import signal
+import time
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+    from contextlib import AbstractContextManager
+    from pathlib import Path
+
+    Start = Callable[..., AbstractContextManager[Any]]
+
+DOMAIN = 29
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_the_run_as_if_it_were_over(start: Start, number: int, tmp_path: Path) -> None:
+    picture = tmp_path / "run.png"
+    with start(DOMAIN, "-p", "status_period:=0.2", "-p", f"picture:={picture}", "-p", "world:=maze") as run:
+        run.wait_for("robot2: pose")
+        asked = time.monotonic()
+        run.process.send_signal(number)
+        status, said = run.end()
+        took = time.monotonic() - asked
+    assert (status, "Traceback" in said) == (0, False)
+    assert "real-time factor" in said
+    assert picture.exists()
+    # It takes a third of a second; the bound allows for a machine that has other things to do.
+    assert took < 5.0
+
+
+@pytest.mark.parametrize(
+    ("arguments", "reason"),
+    [
+        (["-p", "speed:=-1.0"], "speed out of range"),
+        (["-p", "speed:=fast"], "'speed' to 'fast' of type 'STRING'"),
+        (["-p", "world:=moon"], "no world is called 'moon'; there are arena, maze"),
+        (["-p", "robots:=[a, a]"], "'a' stands there twice"),
+        (["-p", "headless:=false"], "no window can be opened"),
+    ],
+)
+def test_what_cannot_be_is_refused_in_one_line(start: Start, arguments: list[str], reason: str) -> None:
+    with start(DOMAIN, *arguments, DISPLAY="", WAYLAND_DISPLAY="") as run:
+        status, said = run.end()
+    assert status == 1
+    assert reason in said
+    assert "Traceback" not in said
+    assert len(said.splitlines()) == 1
+
+
+def test_a_picture_that_cannot_be_written_is_an_error_and_no_crash(start: Start) -> None:
+    with start(DOMAIN, "-p", "duration:=1", "-p", "speed:=0", "-p", "picture:=/proc/none/run.png") as run:
+        status, said = run.end()
+    assert status == 0
+    assert "[ERROR]" in said
+    assert "the picture cannot be written" in said
+
+
+def test_a_run_without_pace_is_faster_than_real_time(start: Start) -> None:
+    with start(DOMAIN, "-p", "duration:=20", "-p", "speed:=0.0", "-p", "robots:=[solo]") as run:
+        status, said = run.end()
+    factor = re.search(r"real-time factor (\S+)", said)
+    assert status == 0
+    assert factor is not None
+    assert float(factor[1]) > 2.0
+    assert "solo: 0 contacts" in said
