@@ -7,7 +7,7 @@ that later stages report nothing that only follows from it. Reporting itself is 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Protocol, Self
+from typing import Any, Protocol, Self, TypeVar
 
 from pydantic import (
     BaseModel,
@@ -27,14 +27,16 @@ from orchestra.location import Span
 
 REPORTED = "reported"
 
+_EntityT = TypeVar("_EntityT")
+
 
 class FaultReader(Protocol):
     """The part of a loader that entities talk to."""
 
-    def unknown_key(self, known: frozenset[str], mapping: Keyed, key: str) -> None:
-        """Report a key that the entity does not have."""
+    def unknown_key(self, known: frozenset[str], mapping: Keyed, key: str) -> str | None:
+        """Report a key that the entity does not have, return the one that was probably meant."""
 
-    def faults(self, mapping: Keyed, errors: Sequence[ErrorDetails]) -> set[str]:
+    def faults(self, mapping: Keyed, errors: Sequence[ErrorDetails], meant: frozenset[str]) -> set[str]:
         """Report what is wrong with the values, return the keys that are concerned."""
 
 
@@ -71,15 +73,14 @@ class Entity(BaseModel):
             raise TypeError("mappings are read with a loader as the validation context")
         known = cls.known_keys()
         values = {key: value for key, value in data.items() if key in known}
-        for key in data:
-            if key not in known:
-                reader.unknown_key(known, data, key)
+        guesses = [reader.unknown_key(known, data, key) for key in data if key not in known]
+        meant = frozenset(guess for guess in guesses if guess is not None)
         faulty = len(values) < len(data)
         try:
             entity = handler(values)
         except ValidationError as error:
             faulty = True
-            entity = _without_faults(data, values, handler, reader, error)
+            entity = _without(reader.faults(data, _details(error), meant), values, handler)
         entity._span = data.head  # noqa: SLF001 - its own class
         entity._faulty = faulty  # noqa: SLF001 - its own class
         return entity
@@ -100,15 +101,14 @@ class Action(Entity):
         return self
 
 
-def _without_faults(
-    data: Keyed,
-    values: dict[str, Any],
-    handler: ModelWrapValidatorHandler[Any],
-    reader: FaultReader,
-    error: ValidationError,
-) -> Any:  # noqa: ANN401 - the entity
-    """Report the faults and read the entity again without the keys they concern."""
-    wrong = reader.faults(data, error.errors(include_url=False))
+def _details(error: ValidationError) -> Sequence[ErrorDetails]:
+    return error.errors(include_url=False)
+
+
+def _without(
+    wrong: set[str], values: dict[str, Any], handler: ModelWrapValidatorHandler[_EntityT]
+) -> _EntityT:
+    """Read the entity again without the keys whose faults have been reported."""
     try:
         return handler({key: value for key, value in values.items() if key not in wrong})
     except ValidationError:

@@ -61,15 +61,22 @@ class Reader:
         """Read a text without substitutions."""
         return unescaped(written.text)
 
-    def unknown_key(self, known: frozenset[str], mapping: Keyed, key: str) -> None:
-        """Report a key that the entity does not have."""
-        what = f"unknown key '{key}'"
-        self.error(Code.UNKNOWN_KEY, what, mapping.keys_at[key], suggestion=nearest(key, known))
+    def unknown_key(self, known: frozenset[str], mapping: Keyed, key: str) -> str | None:
+        """Report a key that the entity does not have, return the one that was probably meant."""
+        meant = nearest(key, known - mapping.keys())
+        self.error(Code.UNKNOWN_KEY, f"unknown key '{key}'", mapping.keys_at[key], suggestion=meant)
+        return meant
 
-    def faults(self, mapping: Keyed, errors: Sequence[ErrorDetails]) -> set[str]:
-        """Report what is wrong with the values of a mapping, return the keys that are concerned."""
+    def faults(self, mapping: Keyed, errors: Sequence[ErrorDetails], meant: frozenset[str]) -> set[str]:
+        """Report what is wrong with the values of a mapping, return the keys that are concerned.
+
+        `meant` are keys that unknown ones were probably meant to be: what is missing because of them stays silent.
+        """
         for error in errors:
-            if error["type"] != REPORTED:
+            follows = error["type"] == "conflict" or (
+                error["type"] == "missing" and error["loc"][-1] in meant
+            )
+            if error["type"] != REPORTED and not (meant and follows):
                 self._fault(mapping, error)
         return {str(error["loc"][0]) for error in errors if error["loc"]}
 

@@ -80,7 +80,7 @@ class _Tree:
         kind = node.tag.removeprefix("tag:yaml.org,2002:")
         if node.tag != _PLAIN_TAG and kind not in _SCALAR_TYPES:
             self.reader.error(Code.SYNTAX, f"the tag {node.tag} means nothing here", span)
-        plain = node.style is None and (node.tag == _PLAIN_TAG or kind in _SCALAR_TYPES)
+        plain = not node.style and (node.tag == _PLAIN_TAG or kind in _SCALAR_TYPES)
         tagged = plain and self.whole.text[node.start_mark.index : node.start_mark.index + 1] == "!"
         quoted = not plain or (tagged and kind == "str")
         spans = spans_of(self.whole, node.start_mark.index, node.end_mark.index, node.value, node.style)
@@ -97,7 +97,7 @@ class _Tree:
                 self.reader.error(Code.WRONG_TYPE, "a key is a word, not a mapping or a list", at)
                 continue
             tree = self.of(value, at, (*above, node))
-            if key.value == "<<" and key.style is None:
+            if key.value == "<<" and not key.style:
                 merged.extend(
                     item for item in (tree if isinstance(tree, list) else [tree]) if isinstance(item, Keyed)
                 )
