@@ -12,16 +12,14 @@ from __future__ import annotations
 
 import os
 import sys
-import traceback
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from orchestra.cli import colour
-from orchestra.cli.problems.formats import FORMATS
-from orchestra.cli.problems.sources import from_files
-from orchestra.cli.report import write_report
 from orchestra.errors import DescriptionError, RunError, UsageError
 
 if TYPE_CHECKING:
+    from argparse import Namespace
     from collections.abc import Callable, Sequence
     from typing import TextIO
 
@@ -31,24 +29,37 @@ OK, FAILED, MISTAKE, BUG = 0, 1, 2, 3
 INTERRUPTED, BROKEN_PIPE = 130, 141
 
 
-def guarded(
-    work: Callable[[], int], *, command: str = "", problem_format: str = "text", debug: bool = False
-) -> int:
+@dataclass(frozen=True, slots=True)
+class Telling:
+    """How the errors of one command are told.
+
+    `command_line` is the text that problems of the command line point into, `debug` asks for the traceback of a bug.
+    """
+
+    command: str = ""
+    problem_format: str = "text"
+    command_line: str = ""
+    debug: bool = False
+
+    @classmethod
+    def of(cls, command: str, options: Namespace) -> Telling:
+        """Return how the errors of a command with these options are told."""
+        given = " ".join(word for word in getattr(options, "words", ()) if ":=" in word)
+        return cls(command, getattr(options, "format", "text"), given, getattr(options, "debug", False))
+
+
+def guarded(work: Callable[[], int], telling: Telling) -> int:
     """Do the work of one command and return its exit status, or that of the error it ended with."""
     try:
         status = work()
         sys.stdout.flush()
     except DescriptionError as error:
-        show_problems(error.problems, problem_format, sys.stderr)
+        show_problems(error.problems, telling.problem_format, sys.stderr, command_line=telling.command_line)
         return MISTAKE
     except UsageError as error:
         _say("error", str(error))
-        _say(
-            "help",
-            f"'orchestra {command} --help' lists what it understands"
-            if command
-            else "see 'orchestra --help'",
-        )
+        words = ("orchestra", telling.command, "--help")
+        _say("help", f"see '{' '.join(word for word in words if word)}'")
         return MISTAKE
     except RunError as error:
         _say("error", str(error))
@@ -59,18 +70,31 @@ def guarded(
         _forget_output()
         return BROKEN_PIPE
     except Exception as error:  # noqa: BLE001 - whatever else ends a command is a bug, and this is where it is shown
-        if debug:
-            traceback.print_exception(error)
-        _say("error", f"this is a bug in Orchestra: {type(error).__name__}: {error}")
-        _say("help", f"please report it with the file {write_report(error)}")
+        _show_bug(error, debug=telling.debug)
         return BUG
     return status
 
 
-def show_problems(problems: Sequence[Problem], problem_format: str, stream: TextIO) -> None:
-    """Print problems to a stream."""
+def show_problems(
+    problems: Sequence[Problem], problem_format: str, stream: TextIO, *, command_line: str = ""
+) -> None:
+    """Print problems to a stream; `command_line` is the text that those of the command line point into."""
+    # `orchestra --help` should be fast, and it has no problems.
+    from orchestra.cli.problems.formats import FORMATS  # noqa: PLC0415
+    from orchestra.cli.problems.sources import from_files  # noqa: PLC0415
+    from orchestra.resolve.command_line import COMMAND_LINE  # noqa: PLC0415
+
     paint = colour.painter(enabled=colour.wanted(stream, os.environ))
-    stream.write(FORMATS[problem_format](problems, from_files(), paint))
+    stream.write(FORMATS[problem_format](problems, from_files({COMMAND_LINE: command_line}), paint))
+
+
+def _show_bug(error: Exception, *, debug: bool) -> None:
+    from orchestra.cli.report import traceback_of, write_report  # noqa: PLC0415 - there is none, most of the time
+
+    if debug:
+        sys.stderr.write(traceback_of(error))
+    _say("error", f"this is a bug in Orchestra: {type(error).__name__}: {error}")
+    _say("help", f"please report it with the file {write_report(error)}")
 
 
 def _say(kind: str, text: str) -> None:

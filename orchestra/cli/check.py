@@ -1,3 +1,55 @@
 """`orchestra check`: find what is wrong in launch files and parameter files, and start nothing."""
 
 from __future__ import annotations
+
+import os
+import sys
+from typing import TYPE_CHECKING
+
+from orchestra.cli import boundary
+from orchestra.cli.checking import problems_in
+from orchestra.cli.inputs import as_errors
+from orchestra.cli.parser import CommandParser
+from orchestra.cli.problems.formats import FORMATS
+from orchestra.cli.targets import targets
+from orchestra.errors import Severity, UsageError
+from orchestra.pipeline import inputs_from
+
+if TYPE_CHECKING:
+    from argparse import Namespace
+
+_EPILOG = """\
+A file is checked whatever it is called. In a folder, and the folders below it, these are checked: files whose name
+ends in .launch, .launch.py, .launch.xml or .launch.yaml, YAML files with a `launch` key, and YAML files with
+`ros__parameters`. The exit status is 0, or 2 where there is an error.
+"""
+
+
+def parser() -> CommandParser:
+    """Return what the command understands."""
+    made = CommandParser("check", "Find what is wrong in launch files and parameter files.", _EPILOG)
+    made.add_argument(
+        "words", nargs="*", metavar="PATH | NAME:=VALUE", help="files and folders; launch arguments"
+    )
+    made.add_argument(
+        "--format", choices=sorted(FORMATS), default="text", help="of the problems (default: text)"
+    )
+    made.add_argument("--strict", action="store_true", help="take warnings for errors")
+    return made
+
+
+def run(options: Namespace) -> int:
+    """Print the list of problems on standard output."""
+    paths = [word for word in options.words if ":=" not in word]
+    if not paths:
+        raise UsageError("a file or folder is missing")
+    words = [word for word in options.words if ":=" in word]
+    found = targets(paths)
+    problems = problems_in(found, inputs_from(words, environment=os.environ))
+    if options.strict:
+        problems = as_errors(problems)
+    boundary.show_problems(problems, options.format, sys.stdout, command_line=" ".join(words))
+    if not problems and options.format == "text":
+        sys.stdout.write(f"no problems in {len(found)} file{'s' * (len(found) != 1)}\n")
+    faulty = any(problem.severity is Severity.ERROR for problem in problems)
+    return boundary.MISTAKE if faulty else boundary.OK

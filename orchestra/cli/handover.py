@@ -6,7 +6,7 @@ import dataclasses
 import re
 from typing import TYPE_CHECKING
 
-from orchestra.cli.boundary import guarded
+from orchestra.cli.boundary import Telling, guarded
 from orchestra.supervise import document
 from orchestra.supervise.options import RunOptions
 from orchestra.supervise.run import run as run_supervised
@@ -58,4 +58,6 @@ def hand_over(plan: Plan, options: Namespace, default_name: str, stream: BinaryI
 
 def supervised(command: str, prepare: Callable[[Namespace, BinaryIO], int], options: Namespace) -> int:
     """Run what `prepare` hands over: for a command line that `orchestra.__main__` did not know for a run."""
-    return run_supervised(lambda stream: guarded(lambda: prepare(options, stream), command=command))
+    return run_supervised(
+        lambda stream: guarded(lambda: prepare(options, stream), Telling.of(command, options))
+    )

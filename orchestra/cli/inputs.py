@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import dataclasses
 import os
+import sys
 from typing import TYPE_CHECKING
 
 from orchestra import pipeline
+from orchestra.cli import boundary
 from orchestra.errors import DescriptionError, Severity, UsageError
 
 if TYPE_CHECKING:
@@ -37,7 +39,7 @@ def add_to(parser: ArgumentParser) -> None:
     parser.add_argument("--strict", action="store_true", help="take warnings for errors")
 
 
-def plan_from(options: Namespace, *, required: bool = True) -> Plan:
+def plan_from(options: Namespace, *, launching: bool, required: bool = True) -> Plan:
     """Make the plan that the options ask for; without `required`, arguments may lack values.
 
     Raises `UsageError` and `DescriptionError`; with `--strict` also where there are only warnings.
@@ -46,10 +48,18 @@ def plan_from(options: Namespace, *, required: bool = True) -> Plan:
         raise UsageError("a launch file is missing")
     file, words = pipeline.find_launch_file(options.words)
     given = pipeline.inputs_from(words, environment=os.environ, params_files=options.params_file)
-    plan = pipeline.make_plan(file, dataclasses.replace(given, required=required))
+    plan = pipeline.make_plan(file, dataclasses.replace(given, launching=launching, required=required))
     if options.strict and plan.problems:
         raise DescriptionError(as_errors(plan.problems))
     return plan
+
+
+def warn(plan: Plan, options: Namespace) -> None:
+    """Print the warnings of a plan on standard error."""
+    telling = boundary.Telling.of("", options)
+    boundary.show_problems(
+        plan.problems, telling.problem_format, sys.stderr, command_line=telling.command_line
+    )
 
 
 def as_errors(problems: tuple[Problem, ...]) -> tuple[Problem, ...]:

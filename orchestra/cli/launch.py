@@ -24,7 +24,6 @@ def parser() -> CommandParser:
     inputs.add_to(made)
     made.add_argument(
         "--format",
-        dest="problem_format",
         choices=sorted(FORMATS),
         default="text",
         help="how problems are shown (default: text)",
@@ -49,17 +48,17 @@ def parser() -> CommandParser:
 def run(options: Namespace) -> int:
     """Show what was asked for, else run the plan."""
     if options.show_args:
-        sys.stdout.write(arguments_text(inputs.plan_from(options, required=False)))
+        sys.stdout.write(arguments_text(inputs.plan_from(options, launching=False, required=False)))
         return boundary.OK
     if options.print_plan:
-        sys.stdout.write(PLAN_FORMATS["text"](inputs.plan_from(options)))
+        sys.stdout.write(PLAN_FORMATS["text"](inputs.plan_from(options, launching=False)))
         return boundary.OK
     return supervised("launch", prepare, options)
 
 
 def prepare(options: Namespace, stream: BinaryIO) -> int:
     """Make the plan and hand it to the supervisor; its warnings go to standard error."""
-    plan = inputs.plan_from(options)
-    boundary.show_problems(plan.problems, options.problem_format, sys.stderr)
+    plan = inputs.plan_from(options, launching=True)
+    inputs.warn(plan, options)
     hand_over(plan, options, Path(plan.file).name.partition(".")[0], stream)
     return boundary.OK

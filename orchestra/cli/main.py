@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import sys
 from importlib import import_module
-from importlib.metadata import version
 from typing import TYPE_CHECKING
 
-from orchestra.cli.boundary import guarded
+from orchestra.cli.boundary import Telling, guarded
 from orchestra.cli.commands import COMMANDS, overview
 from orchestra.errors import UsageError
 from orchestra.nearest import nearest
@@ -15,28 +14,35 @@ from orchestra.nearest import nearest
 if TYPE_CHECKING:
     from argparse import Namespace
     from collections.abc import Callable, Sequence
-    from typing import Any
+    from typing import Any, BinaryIO
 
 
 def main(words: Sequence[str]) -> int:
     """Carry out the command line, without the program's name, and return the exit status."""
     name = words[0] if words else ""
-    return guarded(lambda: _dispatch(words), command=name if name in COMMANDS else "")
+    return guarded(lambda: _dispatch(words), Telling(name if name in COMMANDS else ""))
 
 
-def carry_out(name: str, words: Sequence[str], act: Callable[[Any, Namespace], int]) -> int:
+def prepare(words: Sequence[str], stream: BinaryIO) -> int:
+    """Write the plan of `launch` or `run` to the stream; return 0, or the status of the error that was shown.
+
+    This is what the resolver process of a run does.
+    """
+
+    def act(module: Any, options: Namespace) -> int:  # noqa: ANN401 - the module of a command
+        return int(module.prepare(options, stream))
+
+    return guarded(lambda: _carry_out(words[0], words[1:], act), Telling(words[0]))
+
+
+def _carry_out(name: str, words: Sequence[str], act: Callable[[Any, Namespace], int]) -> int:
     """Read the options of a command and act on them with its module, the only one of a command that is imported."""
     module = import_module(COMMANDS[name].module)
     try:
         options = module.parser().read(words)
     except SystemExit:  # argparse leaves so after it has printed the help
         return 0
-    return guarded(
-        lambda: act(module, options),
-        command=name,
-        problem_format=getattr(options, "problem_format", "text"),
-        debug=getattr(options, "debug", False),
-    )
+    return guarded(lambda: act(module, options), Telling.of(name, options))
 
 
 def _dispatch(words: Sequence[str]) -> int:
@@ -47,9 +53,11 @@ def _dispatch(words: Sequence[str]) -> int:
         sys.stdout.write(overview())
         return 0
     if name == "--version":
+        from importlib.metadata import version  # noqa: PLC0415 - slow, and `--help` does not need it
+
         sys.stdout.write(f"orchestra {version('orchestra')}\n")
         return 0
     if name not in COMMANDS:
         near = nearest(name, COMMANDS)
         raise UsageError(f"there is no command '{name}'" + (f"; did you mean '{near}'?" if near else ""))
-    return carry_out(name, rest, lambda module, options: int(module.run(options)))
+    return _carry_out(name, rest, lambda module, options: int(module.run(options)))

@@ -24,9 +24,9 @@ def parser() -> CommandParser:
 
 
 def run(options: Namespace) -> int:
-    """Print the plan on standard output; in text, its warnings go to standard error."""
-    plan = inputs.plan_from(options)
-    if options.format == "text":
-        boundary.show_problems(plan.problems, "text", sys.stderr)
+    """Print the plan on standard output; its warnings, in text, and all errors go to standard error."""
+    plan = inputs.plan_from(options, launching=False)
+    if options.format == "text":  # in JSON they are part of the plan
+        inputs.warn(plan, options)
     sys.stdout.write(FORMATS[options.format](plan))
     return boundary.OK

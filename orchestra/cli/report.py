@@ -11,6 +11,8 @@ import traceback
 from importlib.metadata import version
 from pathlib import Path
 
+from orchestra.supervise.directory import state_folder
+
 
 def write_report(error: BaseException) -> Path:
     """Write the report below the state folder, or in the temporary folder where that is impossible; return its path."""
@@ -26,15 +28,6 @@ def write_report(error: BaseException) -> Path:
     return Path(os.devnull)
 
 
-def state_folder() -> Path:
-    """Return `$ORCHESTRA_HOME`, else `orchestra` in the user's state folder (XDG base directory specification)."""
-    home = os.environ.get("ORCHESTRA_HOME")
-    if home:
-        return Path(home)
-    state = os.environ.get("XDG_STATE_HOME") or Path.home() / ".local" / "state"
-    return Path(state) / "orchestra"
-
-
 def _text(error: BaseException) -> str:
     facts = {
         "orchestra": version("orchestra"),
@@ -44,4 +37,9 @@ def _text(error: BaseException) -> str:
         "folder": Path.cwd(),
     }
     lines = "".join(f"{name}: {value}\n" for name, value in facts.items())
-    return f"{lines}\n{''.join(traceback.format_exception(error))}"
+    return f"{lines}\n{traceback_of(error)}"
+
+
+def traceback_of(error: BaseException) -> str:
+    """Return the traceback as the interpreter would print it."""
+    return "".join(traceback.format_exception(error))

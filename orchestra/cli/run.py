@@ -4,11 +4,10 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from typing import TYPE_CHECKING
 
 from orchestra import pipeline
-from orchestra.cli import boundary
+from orchestra.cli import boundary, inputs
 from orchestra.cli.handover import add_run_options, hand_over, supervised
 from orchestra.cli.parser import CommandParser
 from orchestra.errors import UsageError
@@ -45,6 +44,6 @@ def prepare(options: Namespace, stream: BinaryIO) -> int:
     package, executable, *arguments = options.words
     given = pipeline.inputs_from((), environment=os.environ)
     plan = pipeline.plan_of_node(package, executable, arguments, given, prefix=options.prefix)
-    boundary.show_problems(plan.problems, "text", sys.stderr)
+    inputs.warn(plan, options)
     hand_over(plan, options, executable, stream)
     return boundary.OK

@@ -1,0 +1,101 @@
+"""What is wrong in a set of files, each problem once."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code, Problem, Problems
+from orchestra.load.files import load
+from orchestra.location import Location, Span, displayed, point
+from orchestra.plan.build import build
+from orchestra.resolve.commands import run_command
+from orchestra.resolve.packages import InstalledPackages
+from orchestra.resolve.rcl.files import read_parameter_file
+from orchestra.resolve.resolve import resolve
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from orchestra.cli.targets import Target
+    from orchestra.description.launch import Description
+    from orchestra.resolve.inputs import Inputs
+
+
+def problems_in(targets: Sequence[Target], inputs: Inputs) -> tuple[Problem, ...]:
+    """Return the problems of all targets.
+
+    A launch file that another of them includes is judged by how that one uses it: alone it would lack the arguments
+    and variables that it is given there. A problem that is found on several ways is told with the shortest.
+    """
+    given = replace(inputs, launching=False)
+    launch_files = [_LaunchFile(target.path, given) for target in targets if target.kind == "launch"]
+    found = Problems()
+    for file in _outermost(launch_files):
+        found.extend(file.problems)
+    for target in targets:
+        if target.kind == "parameters":
+            _read_parameters(target.path, found)
+    return _shortest(found)
+
+
+class _LaunchFile:
+    """A launch file that has been taken through all stages that start nothing."""
+
+    def __init__(self, path: str, inputs: Inputs) -> None:
+        self.path = os.path.realpath(path)
+        self.problems = Problems()
+        self.included: set[str] = set()
+        description = load(str(Path(path).absolute()), self.problems)
+        if description is not None:
+            self._go_on(description, inputs)
+
+    def _go_on(self, description: Description, inputs: Inputs) -> None:
+        packages = InstalledPackages(inputs.environment)
+        resolved = resolve(
+            description, inputs, self.problems, load=self._include, packages=packages, run_command=run_command
+        )
+        build(resolved, self.problems)
+
+    def _include(self, path: str, problems: Problems, chain: tuple[Span, ...] = ()) -> Description | None:
+        self.included.add(os.path.realpath(path))
+        return load(path, problems, chain)
+
+
+def _outermost(files: Sequence[_LaunchFile]) -> list[_LaunchFile]:
+    """Return the files that no other includes, and of files that include each other in a circle the first."""
+    inner = {path for file in files for path in file.included - {file.path}}
+    chosen = [file for file in files if file.path not in inner]
+    reached = {path for file in chosen for path in (file.path, *file.included)}
+    for file in files:
+        if file.path not in reached:
+            chosen.append(file)
+            reached |= {file.path, *file.included}
+    return chosen
+
+
+def _read_parameters(path: str, problems: Problems) -> None:
+    file = displayed(path)
+    try:
+        text = Path(path).read_bytes().decode("utf-8-sig")
+    except (OSError, UnicodeDecodeError) as error:
+        problems.error(
+            Code.UNREADABLE_FILE, f"cannot read the parameter file {file}: {error}", Location(point(file))
+        )
+        return
+    read_parameter_file(text, file, problems, ())
+
+
+def _shortest(problems: Problems) -> tuple[Problem, ...]:
+    """Return each problem of a place once, with the fewest includes."""
+    best: dict[tuple[object, ...], Problem] = {}
+    for problem in problems:
+        key = (problem.code, problem.span, problem.message)
+        known = best.get(key)
+        if known is None or len(problem.included_from) < len(known.included_from):
+            best[key] = problem
+    once = Problems()
+    once.extend(best.values())
+    return once.ordered
