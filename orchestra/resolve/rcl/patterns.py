@@ -1,0 +1,46 @@
+"""The node patterns of parameter files: `/ns/n`, `/**`, `/**/n`, `/*/n`.
+
+Source: `rcl_yaml_param_parser` (`_validate_name`) for what is allowed, rclpy and rclcpp for what matches; measured in
+`tests/data/rcl-probes.jsonl`.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+from orchestra.resolve.names import Fault, rmw_namespace_fault, rmw_node_name_fault
+
+_WILDCARDS = frozenset({"*", "**"})
+
+
+def matches(pattern: str, full_name: str) -> bool:
+    """Return whether a pattern, with or without its first slash, matches a full node name."""
+    return _expression(pattern).fullmatch(full_name) is not None
+
+
+def pattern_fault(pattern: str) -> Fault | None:
+    """Return why rcl refuses a pattern, None where it takes it. Only whole parts can be wildcards."""
+    parts = pattern.split("/")
+    offset = 0
+    for index, part in enumerate(parts[:-1]):
+        if not part and index:
+            return Fault("it must not contain '//'", offset)
+        if part and part not in _WILDCARDS and (fault := rmw_namespace_fault(f"/{part}")):
+            return Fault(fault.reason, max(0, offset + fault.offset - 1))
+        offset += len(part) + 1
+    name = parts[-1]
+    if name in _WILDCARDS:
+        return None
+    fault = rmw_node_name_fault(name)
+    return fault and Fault(fault.reason, offset + fault.offset)
+
+
+@cache
+def _expression(pattern: str) -> re.Pattern[str]:
+    """Return the pattern as a regular expression: `/*` is one part of a name, `/**` any number of them."""
+    absolute = pattern if pattern.startswith("/") else f"/{pattern}"
+    parts = {"*": r"/\w+", "**": r"(?:/\w+)*"}
+    return re.compile(
+        "".join(parts.get(part, "/" + re.escape(part)) for part in absolute[1:].split("/")), re.ASCII
+    )

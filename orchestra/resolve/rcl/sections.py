@@ -1,0 +1,42 @@
+"""The parts of a parameter file as rcl sees them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from orchestra.location import Location
+from orchestra.values import ParameterValue
+
+
+@dataclass(frozen=True, slots=True)
+class Entry:
+    """One parameter that a section sets.
+
+    `name` is the whole dotted name, `location` that of the value, `key` that of the name. `value` is None where rcl
+    has the parameter without a value (an empty list or mapping). `slot` is the name under which rcl looks for the
+    place to put it: for what is nested, the name of the mapping around it.
+    """
+
+    name: str
+    value: ParameterValue | None
+    location: Location
+    key: Location
+    slot: str
+
+
+@dataclass(frozen=True, slots=True)
+class Section:
+    """What one `ros__parameters` mapping sets for the nodes that match a pattern.
+
+    The pattern is as rcl keeps it, nested keys joined with `/`: `ns/n` and `/ns/n` match the same nodes but count as
+    two patterns where the order matters. `location` is that of the last key of the pattern.
+    """
+
+    pattern: str
+    entries: tuple[Entry, ...]
+    location: Location
+
+
+def entry(name: str, value: ParameterValue | None, location: Location) -> Entry:
+    """Return an entry that was not read from a file: flat, its name and value written in one place."""
+    return Entry(name, value, location, location, name)

@@ -1,0 +1,94 @@
+"""The scalars of a text that holds one YAML value, by PyYAML's reading (YAML 1.1) and by the core schema of 1.2."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
+
+import yaml
+from yaml.constructor import SafeConstructor
+from yaml.resolver import Resolver
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+Construct: TypeAlias = Callable[[yaml.ScalarEvent], Any]
+
+
+class Plain(str):
+    """A text that stands unquoted and without a tag."""
+
+    __slots__ = ()
+
+
+def read_scalars(text: str, construct: Construct) -> Any:  # noqa: ANN401 - a scalar or a list
+    """Return the scalar or the flat list of scalars that a text holds; None where it holds nothing.
+
+    Raises `ValueError` with the reason: not YAML, a mapping, a list of anything but scalars.
+    """
+    try:
+        events = list(yaml.parse(text, Loader=yaml.SafeLoader))[2:-1]
+    except yaml.YAMLError as error:
+        reason = getattr(error, "problem", None) or str(error).partition("\n")[0]
+        raise ValueError(f"'{text}' is not YAML ({reason}): quote it to mean a text") from None
+    if any(isinstance(event, yaml.DocumentStartEvent) for event in events):
+        raise ValueError(f"'{text}' holds more than one YAML document")
+    if not events:
+        return None
+    first, *rest = events
+    if isinstance(first, yaml.AliasEvent):
+        raise ValueError(f"'{text}' is an alias without an anchor: quote it to mean a text")  # noqa: TRY004
+    if isinstance(first, yaml.ScalarEvent):
+        return construct(first)
+    if not isinstance(first, yaml.SequenceStartEvent):
+        raise ValueError(f"'{text}' is a mapping, which no parameter can be: quote it to mean a text")  # noqa: TRY004
+    return _items(rest[:-2], construct)
+
+
+def _items(events: Sequence[yaml.Event], construct: Construct) -> list[Any]:
+    named: dict[str, yaml.ScalarEvent] = {}
+    items = []
+    for event in events:
+        scalar = named.get(event.anchor or "") if isinstance(event, yaml.AliasEvent) else event
+        if scalar is None:
+            raise ValueError(f"the alias '*{event.anchor}' has no anchor")
+        if not isinstance(scalar, yaml.ScalarEvent):
+            raise ValueError("a list of lists or mappings cannot be a parameter")  # noqa: TRY004
+        if scalar.anchor is not None:
+            named[scalar.anchor] = scalar
+        items.append(construct(scalar))
+    return items
+
+
+def by_pyyaml(event: yaml.ScalarEvent) -> Any:  # noqa: ANN401 - what PyYAML makes of it
+    """Return what `yaml.safe_load` makes of a scalar; plain text as `Plain`. Raises `ValueError`."""
+    tag = event.tag
+    if tag is None or tag == "!":
+        tag = _resolve(yaml.ScalarNode, event.value, event.implicit)
+    try:
+        value = _CONSTRUCTOR.construct_object(yaml.ScalarNode(tag, event.value))
+    except yaml.YAMLError:
+        raise ValueError(f"'{event.value}' means nothing as a parameter: quote it to mean a text") from None
+    return Plain(value) if isinstance(value, str) and event.implicit[0] else value
+
+
+def by_core(event: yaml.ScalarEvent) -> Any:  # noqa: ANN401 - what YAML 1.2 makes of it
+    """Return what the core schema of YAML 1.2 makes of a scalar. Raises `ValueError`."""
+    if not event.implicit[0]:
+        return by_pyyaml(event)
+    return next((read(event.value) for form, read in _CORE if form.fullmatch(event.value)), event.value)
+
+
+_resolve: Final[Callable[..., str]] = Resolver().resolve
+_CONSTRUCTOR: Final = SafeConstructor()
+# YAML 1.2.2, 10.3.2 "Tag Resolution" of the core schema.
+_CORE: Final[tuple[tuple[re.Pattern[str], Callable[[str], Any]], ...]] = (
+    (re.compile(r"null|Null|NULL|~|"), lambda _: None),
+    (re.compile(r"true|True|TRUE|false|False|FALSE"), lambda text: text.lower() == "true"),
+    (re.compile(r"[-+]?[0-9]+"), int),
+    (re.compile(r"0o[0-7]+|0x[0-9a-fA-F]+"), lambda text: int(text, 0)),
+    (re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?"), float),
+    (re.compile(r"[-+]?\.(inf|Inf|INF)"), lambda text: float(text.replace(".", ""))),
+    (re.compile(r"\.(nan|NaN|NAN)"), lambda _: float("nan")),
+)
