@@ -1,0 +1,94 @@
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import pytest
+
+from orchestra.errors import Problem, Problems
+from orchestra.load.grammar import parse_template
+from orchestra.location import Location, Span, point
+from orchestra.resolve.commands import run_command
+from orchestra.resolve.context import POISON, Context, Poison, Value
+from orchestra.resolve.evaluate import evaluate
+from orchestra.resolve.packages import InstalledPackages
+from orchestra.resolve.scope import Ledger, Scope
+from orchestra.resolve.words import split
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from orchestra.description.text import Template
+
+
+@dataclass
+class Place:
+    """One place of a launch file, with what is set there."""
+
+    context: Context
+    scope: Scope
+    text: str = ""
+
+    @property
+    def problems(self) -> Problems:
+        return self.context.problems
+
+    def set(self, name: str, value: str | Poison) -> None:
+        location = Location(point("set.yaml"))
+        self.scope.set(name, value if isinstance(value, Poison) else Value(value, location), location)
+
+    def write(self, text: str) -> Template:
+        self.text = text
+        return parse_template(text, _span, self.problems)
+
+    def value(self, text: str) -> str | None:
+        """Return what a text evaluates to, None for poison."""
+        value = evaluate(self.write(text), self.context)
+        return value.text if isinstance(value, Value) else None
+
+    def words(self, text: str) -> list[str] | None:
+        """Return the words that a text splits into, None for poison."""
+        values = split(self.write(text), self.context)
+        return None if isinstance(values, Poison) else [value.text for value in values]
+
+    def stretch(self, span: Span | None) -> str:
+        """Return what was written at a span of the text written last."""
+        assert span is not None
+        return self.text[span.column - 1 : span.end_column - 1]
+
+    def refusal(self, text: str) -> Problem:
+        """Evaluate a text that has one fault, and return the fault."""
+        assert self.value(text) is None
+        (problem,) = self.problems.errors
+        return problem
+
+
+def _span(start: int, end: int) -> Span:
+    return Span("a.launch.yaml", 1, start + 1, 1, end + 1)
+
+
+@pytest.fixture
+def place(tmp_path: Path) -> Place:
+    """A place where upstream's recorded probes were taken: a few variables, one environment variable, no file."""
+    environment = {"E1": "envval", "PATH": "/usr/bin:/bin", "AMENT_PREFIX_PATH": str(tmp_path / "prefix")}
+    problems = Problems()
+    scope = Scope(problems, Ledger(), environment)
+    context = Context(problems, scope, environment, InstalledPackages(environment), run_command)
+    made = Place(context, scope)
+    for name, value in {"a": "A", "b": "true", "n": "3", "name": "a", "poisoned": POISON}.items():
+        made.set(name, value)
+    return made
+
+
+@pytest.fixture
+def package(tmp_path: Path) -> Path:
+    """The prefix of the ament package `robot_description` with the executable `show_robot`."""
+    prefix = tmp_path / "prefix"
+    marker = prefix / "share/ament_index/resource_index/packages/robot_description"
+    executable = prefix / "lib/robot_description/show_robot"
+    (prefix / "share/robot_description").mkdir(parents=True)
+    for file in (marker, executable):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        file.write_text("#!/bin/sh\n")
+        file.chmod(0o755)
+    return prefix
