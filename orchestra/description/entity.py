@@ -39,6 +39,9 @@ class FaultReader(Protocol):
     def faults(self, mapping: Keyed, errors: Sequence[ErrorDetails], meant: frozenset[str]) -> set[str]:
         """Report what is wrong with the values, return the keys that are concerned."""
 
+    def conflict(self, mapping: Keyed, reason: str) -> None:
+        """Report keys that cannot stand together."""
+
 
 class Entity(BaseModel):
     """Something a user writes: an action, or a part of one."""
@@ -58,6 +61,10 @@ class Entity(BaseModel):
         """Whether a part of the entity was wrong and has been left out."""
         return self._faulty
 
+    def conflict(self) -> str | None:
+        """Return why the keys that stand here cannot stand together, None where they can."""
+        return None
+
     @classmethod
     def known_keys(cls) -> frozenset[str]:
         """Return the keys that a user may write."""
@@ -67,7 +74,10 @@ class Entity(BaseModel):
     @classmethod
     def _read(cls, data: Any, handler: ModelWrapValidatorHandler[Self], info: ValidationInfo) -> Self:  # noqa: ANN401 - whatever stands in the file
         if not isinstance(data, Keyed):
-            return handler(data)
+            entity = handler(data)
+            if (conflict := entity.conflict()) is not None:
+                raise PydanticCustomError("conflict", "{conflict}", {"conflict": conflict})
+            return entity
         reader: FaultReader | None = info.context
         if reader is None:
             raise TypeError("mappings are read with a loader as the validation context")
@@ -81,6 +91,10 @@ class Entity(BaseModel):
         except ValidationError as error:
             faulty = True
             entity = _without(reader.faults(data, _details(error), meant), values, handler)
+        if (conflict := entity.conflict()) is not None:
+            if not faulty:
+                reader.conflict(data, conflict)
+            raise PydanticCustomError(REPORTED, "reported")
         entity._span = data.head  # noqa: SLF001 - its own class
         entity._faulty = faulty  # noqa: SLF001 - its own class
         return entity
@@ -94,11 +108,10 @@ class Action(Entity):
     )
     unless: Flag | None = Field(default=None, description="Carry the action out only if this is false.")
 
-    @model_validator(mode="after")
-    def _one_condition(self) -> Self:
-        if self.if_ is not None and self.unless is not None:
-            raise PydanticCustomError("conflict", "`if` and `unless` cannot stand on one action")
-        return self
+    def conflict(self) -> str | None:
+        """Return a conflict between the two conditions."""
+        both = self.if_ is not None and self.unless is not None
+        return "`if` and `unless` cannot stand on one action" if both else None
 
 
 def _details(error: ValidationError) -> Sequence[ErrorDetails]:

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Self
+from typing import Annotated
 
-from pydantic import Field, PlainValidator, WithJsonSchema, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import Field, PlainValidator, WithJsonSchema
 
 from orchestra.description.entity import Entity
 from orchestra.description.fields import AnyValue, Flag, Integer, Seconds, Text, word
@@ -55,18 +54,16 @@ class Param(Entity):
     from_: Text | None = Field(default=None, alias="from", description="A parameter file.")
     allow_substs: Flag | None = Field(default=None, description="Whether `$(...)` in the file is evaluated.")
 
-    @model_validator(mode="after")
-    def _one_form(self) -> Self:
+    def conflict(self) -> str | None:
+        """Return what keeps this from being one of the three forms."""
         forms = [self.value is not None, self.param is not None, self.from_ is not None]
         if sum(forms) != 1:
-            raise PydanticCustomError("conflict", "a param has one of `value`, `param` and `from`")
+            return "a param has one of `value`, `param` and `from`"
         if (self.name is None) != (self.from_ is not None):
-            raise PydanticCustomError("conflict", "a param has either a `name` or a file (`from`)")
+            return "a param has either a `name` or a file (`from`)"
         if self.allow_substs is not None and self.from_ is None:
-            raise PydanticCustomError("conflict", "`allow_substs` goes with `from`")
-        if self.type is not None and self.value is None:
-            raise PydanticCustomError("conflict", "`type` goes with `value`")
-        return self
+            return "`allow_substs` goes with `from`"
+        return "`type` goes with `value`" if self.type is not None and self.value is None else None
 
 
 class DependsOn(Entity):
@@ -83,11 +80,10 @@ class DependsOn(Entity):
     ) = Field(default=None, description="What is waited for; `started` where nothing is said.")
     timeout: Seconds | None = Field(default=None, description="How long to wait, in seconds.")
 
-    @model_validator(mode="after")
-    def _one_target(self) -> Self:
-        if sum(target is not None for target in (self.node, self.process, self.label)) != 1:
-            raise PydanticCustomError("conflict", "a dependency names one of `node`, `process` and `label`")
-        return self
+    def conflict(self) -> str | None:
+        """Return what keeps this from naming one thing."""
+        targets = sum(target is not None for target in (self.node, self.process, self.label))
+        return None if targets == 1 else "a dependency names one of `node`, `process` and `label`"
 
 
 class Ready(Entity):
@@ -99,11 +95,10 @@ class Ready(Entity):
     )
     timeout: Seconds | None = Field(default=None, description="After so many seconds the run has failed.")
 
-    @model_validator(mode="after")
-    def _one_fact(self) -> Self:
-        if (self.message is None) == (self.log is None):
-            raise PydanticCustomError("conflict", "`ready` has one of `message` and `log`")
-        return self
+    def conflict(self) -> str | None:
+        """Return what keeps this from naming one fact."""
+        one = (self.message is None) != (self.log is None)
+        return None if one else "`ready` has one of `message` and `log`"
 
 
 class Restart(Entity):

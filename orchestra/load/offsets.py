@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from bisect import bisect_right
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
@@ -12,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 _BREAKS = "\n\r\x85\u2028\u2029"
+_PROPERTIES = re.compile(r"([!&]\S*\s+)*")
 _HEXADECIMAL = {"x": 2, "u": 4, "U": 8}
 
 
@@ -60,6 +62,7 @@ def spans_of(
 
 def _aligned(text: str, start: int, end: int, value: str, style: str | None) -> list[int]:
     """Return for each character of the value, and for its end, the offset in the text."""
+    start += len(_PROPERTIES.match(text, start, end)[0])  # type: ignore[index]  # matches nothing at least
     if style in ('"', "'"):
         start, end = start + 1, end - 1
     elif style in ("|", ">"):

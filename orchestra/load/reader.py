@@ -19,7 +19,6 @@ if TYPE_CHECKING:
 
     from orchestra.description.text import Template
 
-_CODES = {"missing": Code.MISSING_KEY, "conflict": Code.CONFLICTING_KEYS, "extra_forbidden": Code.UNKNOWN_KEY}
 _WANTED = {
     "model_type": "a mapping",
     "dict_type": "a mapping",
@@ -80,6 +79,10 @@ class Reader:
                 self._fault(mapping, error)
         return {str(error["loc"][0]) for error in errors if error["loc"]}
 
+    def conflict(self, mapping: Keyed, reason: str) -> None:
+        """Report keys that cannot stand together."""
+        self.error(Code.CONFLICTING_KEYS, reason, mapping.head)
+
     def _fault(self, mapping: Keyed, error: ErrorDetails) -> None:
         kind = error["type"]
         place = error["loc"]
@@ -92,8 +95,7 @@ class Reader:
             message = "expected at least one item"
         else:
             message = error["msg"]
-        span = mapping.head if kind == "conflict" and not place else _at(mapping, place)
-        self.error(_CODES.get(kind, Code.WRONG_TYPE), message, span)
+        self.error(Code.WRONG_TYPE, message, _at(mapping, place))
 
 
 def _at(mapping: Keyed, place: tuple[int | str, ...]) -> Span:
