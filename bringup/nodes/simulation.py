@@ -13,7 +13,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import rclpy
-from orchestra.ros.interfaces import tf_message_type
 from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -28,6 +27,7 @@ from bringup.world.settings import SettingsError
 from bringup.world.simulation import TICK, Simulation
 from bringup.world.topics import LATCHED, QUEUED, RobotTopics
 from bringup.world.window import NoWindowError, open_window
+from orchestra.ros.interfaces import tf_message_type
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -155,9 +155,10 @@ def run(world: World, stop: Stop) -> None:
     executor.add_node(world.node)
     began = now = next_service = time.monotonic()
     next_status = began + world.settings.status_period
-    beat = pace.Pace(began, 0.0, world.settings.speed)
+    speed = world.settings.speed
+    beat = pace.Pace(began, 0.0, speed)
     while not (stop.requested or world.finished):
-        beat = pace.kept(beat, now, world.simulation.time, world.node.get_parameter("speed").value)
+        beat = pace.kept(beat, now, world.simulation.time, speed)
         due = pace.wait(beat, now, world.simulation.time + TICK)
         if due > 0.0:
             time.sleep(min(due, SERVICE_PERIOD))
@@ -168,6 +169,7 @@ def run(world: World, stop: Stop) -> None:
             next_service = now + SERVICE_PERIOD
             executor.spin_once(timeout_sec=0.0)
             world.show()
+            speed = world.node.get_parameter("speed").value
         if now >= next_status:
             next_status = now + world.node.get_parameter("status_period").value
             world.log_status()

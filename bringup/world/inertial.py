@@ -5,8 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 if TYPE_CHECKING:
-    import numpy as np
     from numpy.typing import NDArray
 
 SMALLEST_VARIANCE = 1e-9
@@ -22,12 +23,19 @@ class InertialNoise:
     accelerometer_bias: float = 0.02
 
 
-def measured(
-    true: NDArray[np.float64], noise: float, bias: float, chance: np.random.Generator
-) -> tuple[float, float, float]:
-    """What the sensor reports for a true vector."""
-    x, y, z = (true + bias + noise * chance.standard_normal(3)).tolist()
-    return x, y, z
+class Inertial:
+    """One robot's IMU."""
+
+    def __init__(self, noise: InertialNoise, chance: np.random.Generator) -> None:
+        self._bias = np.repeat([noise.gyro_bias, noise.accelerometer_bias], 3)
+        self._deviation = np.repeat([noise.gyro_noise, noise.accelerometer_noise], 3)
+        self._chance = chance
+
+    def measure(self, true: NDArray[np.float64]) -> list[float]:
+        """What it reports for true turning rates (three, rad/s) and accelerations (three, m/s^2)."""
+        reported = true + self._bias + self._deviation * self._chance.standard_normal(6)
+        values: list[float] = reported.tolist()
+        return values
 
 
 def variance(noise: float, bias: float) -> float:

@@ -94,13 +94,10 @@ def new_imu(robot: str, noise: InertialNoise) -> Imu:
     return message
 
 
-def fill_imu(
-    message: Imu, turning: tuple[float, float, float], acceleration: tuple[float, float, float]
-) -> None:
-    """Put what the IMU has measured into its message."""
+def fill_imu(message: Imu, values: list[float]) -> None:
+    """Put what the IMU has measured into its message: three turning rates, three accelerations."""
     rate, force = message.angular_velocity, message.linear_acceleration
-    rate.x, rate.y, rate.z = turning
-    force.x, force.y, force.z = acceleration
+    rate.x, rate.y, rate.z, force.x, force.y, force.z = values
 
 
 def new_scan(robot: str) -> LaserScan:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -29,7 +30,7 @@ THING = -1
 
 @dataclass(frozen=True, slots=True)
 class Robot:
-    """Where one robot is in the model: indices into MuJoCo's arrays."""
+    """Where one robot is in the model: indices into MuJoCo's arrays. `imu` holds turning rates, then accelerations."""
 
     name: str
     start: Pose
@@ -39,8 +40,7 @@ class Robot:
     velocity: int
     wheels: tuple[int, int]
     motors: tuple[int, int]
-    gyro: slice
-    accelerometer: slice
+    imu: slice
 
 
 @dataclass(frozen=True, slots=True)
@@ -81,8 +81,8 @@ def pose(data: Any, robot: Robot) -> Pose:  # noqa: ANN401 - MjData has no type
 def twist(data: Any, robot: Robot, heading: float) -> tuple[Twist, float]:  # noqa: ANN401 - MjData has no type
     """How the robot moves now, in its own frame, and its velocity to the left in m/s."""
     vx, vy, _, _, _, turn = data.qvel[robot.velocity : robot.velocity + 6].tolist()
-    cos, sin = np.cos(heading), np.sin(heading)
-    return Twist(float(cos * vx + sin * vy), turn), float(cos * vy - sin * vx)
+    cos, sin = math.cos(heading), math.sin(heading)
+    return Twist(cos * vx + sin * vy, turn), cos * vy - sin * vx
 
 
 def wheel_angles(data: Any, robot: Robot) -> tuple[float, float]:  # noqa: ANN401 - MjData has no type
@@ -103,14 +103,14 @@ def _robot(physics: Any, name: str, start: Pose) -> Robot:  # noqa: ANN401 - MjM
         velocity=int(base.dofadr[0]),
         wheels=(int(wheels[0].qposadr[0]), int(wheels[1].qposadr[0])),
         motors=(motors[0].id, motors[1].id),
-        gyro=_sensor(physics, f"{name}/gyro"),
-        accelerometer=_sensor(physics, f"{name}/accelerometer"),
+        imu=_imu(physics, name),
     )
 
 
-def _sensor(physics: Any, name: str) -> slice:  # noqa: ANN401 - MjModel has no type
-    first = int(physics.sensor(name).adr[0])
-    return slice(first, first + 3)
+def _imu(physics: Any, robot: str) -> slice:  # noqa: ANN401 - MjModel has no type
+    """Where the gyroscope's three numbers are; the accelerometer's follow, as in the template."""
+    first = int(physics.sensor(f"{robot}/gyro").adr[0])
+    return slice(first, first + 6)
 
 
 def _owners(physics: Any, robots: list[str]) -> NDArray[np.int64]:  # noqa: ANN401 - MjModel has no type

@@ -22,6 +22,8 @@ SLIP_TIME = 1.0
 # What encoders cannot resolve, as a standard deviation of a wheel's velocity in m/s.
 RESOLUTION = 1e-3
 SMALLEST_VARIANCE = 1e-9
+# (vx, vyaw) from the velocities of the left and the right wheel.
+MOTION = np.array([[0.5, 0.5], [-1 / WHEEL_SEPARATION, 1 / WHEEL_SEPARATION]])
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,7 +62,8 @@ class Odometry:
         self._pose = Pose(0.0, 0.0, 0.0)
         # How the pose depends on each wheel's radius, and the covariance of all that is random.
         self._sensitivity = np.zeros((3, 2))
-        self._walk = np.zeros((3, 3))
+        self._walk = SMALLEST_VARIANCE * np.eye(3)
+        self._radius_variances = np.square([errors.left_scale - 1.0, errors.right_scale - 1.0])
 
     def update(self, angles: tuple[float, float]) -> Estimate:
         """The estimate after `dt` more seconds, from how far the wheels have turned since the start (radians)."""
@@ -69,8 +72,8 @@ class Odometry:
         way, turn = (left + right) / 2, (right - left) / WHEEL_SEPARATION
         heading = self._pose.yaw + turn / 2
         # The chord of the arc; its direction is the heading half way.
-        chord = way * np.sinc(turn / math.tau)
-        dx, dy = float(chord * math.cos(heading)), float(chord * math.sin(heading))
+        chord = way * (math.sin(turn / 2) / (turn / 2) if turn else 1.0)
+        dx, dy = chord * math.cos(heading), chord * math.sin(heading)
         self._spread(left, right, heading, dx, dy)
         self._pose = Pose(self._pose.x + dx, self._pose.y + dy, wrap(self._pose.yaw + turn))
         twist = Twist(way / self._dt, turn / self._dt)
@@ -103,16 +106,12 @@ class Odometry:
         return (self._errors.noise**2 + slip) * way
 
     def _pose_covariance(self) -> NDArray[np.float64]:
-        covariance: NDArray[np.float64] = (self._sensitivity * self._radius_variances()) @ self._sensitivity.T
-        return covariance + self._walk + SMALLEST_VARIANCE * np.eye(3)
-
-    def _radius_variances(self) -> NDArray[np.float64]:
-        return np.square([self._errors.left_scale - 1.0, self._errors.right_scale - 1.0])
+        covariance: NDArray[np.float64] = (self._sensitivity * self._radius_variances) @ self._sensitivity.T
+        return covariance + self._walk
 
     def _twist_covariance(self, left: float, right: float) -> NDArray[np.float64]:
         way = np.abs([left, right])
-        shares = self._radius_variances() + self._errors.slip**2
+        shares = self._radius_variances + self._errors.slip**2
         wheels = (shares * way**2 + self._errors.noise**2 * way) / self._dt**2 + RESOLUTION**2
-        motion = np.array([[0.5, 0.5], [-1 / WHEEL_SEPARATION, 1 / WHEEL_SEPARATION]])
-        covariance: NDArray[np.float64] = (motion * wheels) @ motion.T
+        covariance: NDArray[np.float64] = (MOTION * wheels) @ MOTION.T
         return covariance

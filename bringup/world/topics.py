@@ -17,7 +17,7 @@ from bringup.world import messages
 from bringup.world.drive import STILL, Twist
 from bringup.world.geometry import Pose, compose, relative, wrap
 from bringup.world.inbox import Inbox
-from bringup.world.inertial import measured
+from bringup.world.inertial import Inertial
 from bringup.world.lidar import Lidar, noisy
 from bringup.world.model import TICKS_PER_SECOND, pose, twist, wheel_angles
 from bringup.world.odometry import Odometry
@@ -63,8 +63,9 @@ class RobotTopics:
         self._settings = settings
         # A stream of chance for each sensor: none depends on how often another one speaks.
         seeds = np.random.SeedSequence([settings.seed, number]).spawn(3)
-        self._wheel_chance, self._imu_chance, self._lidar_chance = map(np.random.default_rng, seeds)
-        self._odometry = Odometry(settings.wheels, ODOMETRY_TICKS / TICKS_PER_SECOND, self._wheel_chance)
+        wheels, inertial, self._lidar_chance = map(np.random.default_rng, seeds)
+        self._odometry = Odometry(settings.wheels, ODOMETRY_TICKS / TICKS_PER_SECOND, wheels)
+        self._inertial = Inertial(settings.inertial, inertial)
         self._lidar = Lidar(simulation.model, self.robot)
         self._recent = Recent(KEPT_TICKS)
         self._recent.add(Pose(0.0, 0.0, 0.0))
@@ -116,18 +117,9 @@ class RobotTopics:
         self._filtered = Inbox(node, OdometryMessage, f"{name}/odometry/filtered", NEWEST_OF_ANY)
 
     def _publish_imu(self, ticks: int) -> None:
-        noise, true = self._settings.inertial, self._simulation.data.sensordata
         messages.stamp(self._imu_message.header.stamp, ticks)
-        messages.fill_imu(
-            self._imu_message,
-            measured(true[self.robot.gyro], noise.gyro_noise, noise.gyro_bias, self._imu_chance),
-            measured(
-                true[self.robot.accelerometer],
-                noise.accelerometer_noise,
-                noise.accelerometer_bias,
-                self._imu_chance,
-            ),
-        )
+        true = self._simulation.data.sensordata[self.robot.imu]
+        messages.fill_imu(self._imu_message, self._inertial.measure(true))
         self._imu.publish(self._imu_message)
 
     def _publish_truth(self, ticks: int, here: Pose, local: Pose) -> None:

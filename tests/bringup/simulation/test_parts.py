@@ -9,7 +9,7 @@ import pytest
 from bringup.world import report
 from bringup.world.drive import STILL, Limits
 from bringup.world.geometry import Pose
-from bringup.world.inertial import InertialNoise, measured, variance
+from bringup.world.inertial import Inertial, InertialNoise, variance
 from bringup.world.layout import lay_out
 from bringup.world.model import load
 from bringup.world.odometry import WheelErrors
@@ -21,12 +21,14 @@ from bringup.world.track import MOST_POINTS, Recent, Trail
 DEFAULTS = {setting.name: setting.default for setting in TABLE}
 
 
-def test_the_gyro_errs_as_its_variance_says() -> None:
-    chance = np.random.default_rng(2)
-    true = np.array([0.1, -0.2, 0.7])
-    offs = np.array([measured(true, 0.005, 0.003, chance) for _ in range(5000)]) - true
-    assert offs.mean() == pytest.approx(0.003, abs=2e-4)
-    assert np.mean(offs**2) == pytest.approx(variance(0.005, 0.003), rel=0.05)
+def test_the_imu_errs_as_its_variances_say() -> None:
+    imu = Inertial(InertialNoise(0.005, 0.003, 0.1, -0.05), np.random.default_rng(2))
+    true = np.array([0.1, -0.2, 0.7, 0.0, 1.0, 9.81])
+    offs = np.array([imu.measure(true) for _ in range(5000)]) - true
+    assert offs[:, :3].mean() == pytest.approx(0.003, abs=2e-4)
+    assert offs[:, 3:].mean() == pytest.approx(-0.05, abs=4e-3)
+    assert np.mean(offs[:, :3] ** 2) == pytest.approx(variance(0.005, 0.003), rel=0.05)
+    assert np.mean(offs[:, 3:] ** 2) == pytest.approx(variance(0.1, -0.05), rel=0.05)
 
 
 def test_an_exact_sensor_is_not_marked_as_unknown() -> None:
@@ -39,8 +41,8 @@ def test_gravity_pushes_a_standing_robot_upwards() -> None:
     for _ in range(100):
         simulation.tick([STILL])
     robot = simulation.model.robots[0]
-    assert simulation.data.sensordata[robot.accelerometer] == pytest.approx([0.0, 0.0, 9.81], abs=0.02)
-    assert simulation.data.sensordata[robot.gyro] == pytest.approx([0.0, 0.0, 0.0], abs=1e-3)
+    standing = [0.0, 0.0, 0.0, 0.0, 0.0, 9.81]
+    assert simulation.data.sensordata[robot.imu] == pytest.approx(standing, abs=0.02)
 
 
 def test_ticks_are_due_at_the_speed_that_is_asked_for() -> None:
