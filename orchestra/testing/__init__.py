@@ -17,9 +17,13 @@ __all__ = ["Run", "free_domain", "launched", "planned"]
 
 _HOMES = {"Run": "run", "free_domain": "domain", "launched": "launching", "planned": "planning"}
 
+if not TYPE_CHECKING:  # where types are checked, an unknown name is an error
 
-def __getattr__(name: str) -> object:
-    """Import a public name when it is first asked for."""
-    if name not in _HOMES:
-        raise AttributeError(f"module 'orchestra.testing' has no attribute '{name}'")
-    return getattr(import_module(f"orchestra.testing.{_HOMES[name]}"), name)
+    def __getattr__(name: str) -> object:
+        """Import a public name when it is first asked for."""
+        if name not in _HOMES:
+            raise AttributeError(f"module 'orchestra.testing' has no attribute '{name}'")
+        return getattr(import_module(f"orchestra.testing.{_HOMES[name]}"), name)
+
+    def __dir__() -> list[str]:
+        return [*globals(), *__all__]

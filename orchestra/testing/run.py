@@ -8,7 +8,7 @@ import signal
 import subprocess
 import time
 from contextlib import suppress
-from typing import TYPE_CHECKING, NoReturn, TypeVar
+from typing import TYPE_CHECKING, NoReturn, Self, TypeVar
 
 from orchestra.logs.names import log_stems
 from orchestra.plan import codec
@@ -46,6 +46,12 @@ class Run:
         self._output = output
         self._plan: Plan | None = None
         self._status_seen = False
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_error: object) -> None:
+        self.finish()
 
     @property
     def pid(self) -> int:

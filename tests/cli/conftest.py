@@ -1,0 +1,61 @@
+"""The command as users run it: a process of its own in a folder of its own."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Finished:
+    """What a command has left behind."""
+
+    status: int
+    out: str
+    err: str
+
+
+Orchestra = Callable[..., Finished]
+
+
+@pytest.fixture
+def home(tmp_path: Path) -> Path:
+    """The folder for runs and reports."""
+    return tmp_path / "home"
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """The working directory of the commands."""
+    path = tmp_path / "work"
+    path.mkdir()
+    return path
+
+
+@pytest.fixture
+def orchestra(folder: Path, home: Path) -> Orchestra:
+    """Run `orchestra WORDS` and return what came of it."""
+
+    def run(*words: str, **environment: str) -> Finished:
+        done = subprocess.run(
+            [sys.executable, "-m", "orchestra", *words],
+            cwd=folder,
+            env={**os.environ, "ORCHESTRA_HOME": str(home), "NO_COLOR": "1", **environment},
+            stdin=subprocess.DEVNULL,
+            capture_output=True,
+            text=True,
+            timeout=90,
+            check=False,
+        )
+        return Finished(done.returncode, done.stdout, done.stderr)
+
+    return run
