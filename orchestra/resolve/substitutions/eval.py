@@ -26,7 +26,7 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
     words = texts(call, context, evaluate)
     if words is None:
         return POISON
-    expression, modules = words[0], words[1] if len(words) > 1 else "math"
+    expression, modules = words[0].strip(), words[1] if len(words) > 1 else "math"
     names: dict[str, object] = {}
     try:
         with warnings.catch_warnings(record=True) as doubts:

@@ -68,15 +68,16 @@ def _span(start: int, end: int) -> Span:
 
 
 @pytest.fixture
-def place(tmp_path: Path) -> Place:
-    """A place where upstream's recorded probes were taken: a few variables, one environment variable, no file."""
-    environment = {"E1": "envval", "PATH": "/usr/bin:/bin", "AMENT_PREFIX_PATH": str(tmp_path / "prefix")}
+def place(package: Path) -> Place:
+    """The place where upstream's recorded probes were taken: some variables and environment, no file; a package."""
+    environment = {"E1": "envval", "PATH": "/usr/bin:/bin", "AMENT_PREFIX_PATH": str(package)}
     problems = Problems()
     scope = Scope(problems, Ledger(), environment)
     context = Context(problems, scope, environment, InstalledPackages(environment), run_command)
     made = Place(context, scope)
-    for name, value in {"a": "A", "b": "true", "n": "3", "name": "a", "poisoned": POISON}.items():
+    for name, value in {"a": "A", "b": "true", "n": "3", "name": "a"}.items():
         made.set(name, value)
+    made.set("poisoned", POISON)
     return made
 
 
