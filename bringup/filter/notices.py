@@ -29,6 +29,10 @@ class Notices:
         """Note something that keeps the filter from doing what it was told to."""
         self._notices[key] = (Level.ERROR, text)
 
+    def withdraw(self, key: str) -> None:
+        """Take back what has passed before anybody was told."""
+        self._notices.pop(key, None)
+
     def take(self) -> dict[str, tuple[Level, str]]:
         """Give all notices and start afresh."""
         taken, self._notices = self._notices, {}

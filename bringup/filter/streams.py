@@ -31,11 +31,14 @@ class Surroundings:
 
     def between(self, pair: FramePair, stamp: int, part: str) -> Transform | None:
         """Find the transform to the first frame from the second; what cannot be found is noted."""
-        found = self.frames.between(*pair, stamp)
-        if found is None:
-            target, source = pair
+        target, source = pair
+        key = f"{part}_transform_{source}"
+        found = self.frames.between(target, source, stamp)
+        if found is not None:
+            self.notices.withdraw(key)
+        else:
             text = f"{part}: no transform from {source} to {target}; the measurement is not used"
-            self.notices.error(f"{part}_transform", text)
+            self.notices.error(key, text)
         return found
 
 

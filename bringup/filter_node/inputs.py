@@ -23,6 +23,7 @@ from bringup.filter.localization import Localization
 from bringup.filter.readings import stamp_of, velocity_command
 from bringup.filter.settings import Control, Kind, Settings
 from bringup.filter.transforms import Sample
+from bringup.filter_node import quiet
 from bringup.filter_node.messages import Message
 from bringup.filter_node.visits import Subscription, VisitedSubscriptions
 from orchestra.ros.interfaces import tf_message_type
@@ -56,8 +57,8 @@ class Inputs:
                 partial(self._receive, sensor.name),
                 _sensor_qos(sensor.queue_size),
             )
-        node.create_subscription(PoseWithCovarianceStamped, "set_pose", self._set_pose, _QUEUE)
-        node.create_subscription(tf_message_type(), "/tf_static", self._add_static, _static_qos())
+        self._subscribe(PoseWithCovarianceStamped, "set_pose", self._set_pose, QoSProfile(depth=_QUEUE))
+        self._subscribe(tf_message_type(), "/tf_static", self._add_static, _static_qos())
         if settings.control is not None:
             self._subscribe_commands(settings.control)
 
@@ -78,9 +79,14 @@ class Inputs:
 
     def _subscribe_commands(self, control: Control) -> None:
         if control.stamped:
-            self._node.create_subscription(TwistStamped, "cmd_vel", self._command_stamped, _QUEUE)
+            self._subscribe(TwistStamped, "cmd_vel", self._command_stamped, QoSProfile(depth=_QUEUE))
         else:
-            self._node.create_subscription(Twist, "cmd_vel", self._command, _QUEUE)
+            self._subscribe(Twist, "cmd_vel", self._command, QoSProfile(depth=_QUEUE))
+
+    def _subscribe(
+        self, message_type: type, topic: str, callback: Callable[[Message], None], qos: QoSProfile
+    ) -> None:
+        self._node.create_subscription(message_type, topic, callback, qos, event_callbacks=quiet.SUBSCRIPTION)
 
     def _receive(self, sensor: str, message: Message) -> None:
         self._localization.receive(sensor, message, self._now())

@@ -1,5 +1,7 @@
 """Publishes estimates: `odometry/filtered`, `accel/filtered` and the transform of the base on /tf."""
 
+from typing import Any, TypeAlias
+
 import numpy as np
 from geometry_msgs.msg import AccelWithCovarianceStamped
 from nav_msgs.msg import Odometry
@@ -11,8 +13,11 @@ from bringup.filter.rotation import matrix_from_rpy
 from bringup.filter.settings import Settings
 from bringup.filter.state import ORIENTATION, POSE
 from bringup.filter.transforms import TransformUnavailableError
+from bringup.filter_node import quiet
 from bringup.filter_node.messages import EstimateMessages
 from orchestra.ros.interfaces import tf_message_type
+
+Publisher: TypeAlias = Any
 
 _QUEUE = 10
 _TRANSFORM_QUEUE = 100
@@ -28,13 +33,13 @@ class Outputs:
         self._offset = settings.publication.transform_offset
         self._buffer = localization.frames.buffer
         self._messages = EstimateMessages(settings.frames)
-        self._odometry = node.create_publisher(Odometry, "odometry/filtered", _QUEUE)
+        self._odometry = _publisher(node, Odometry, "odometry/filtered", _QUEUE)
         self._acceleration = self._transforms = None
         if settings.publication.acceleration:
-            self._acceleration = node.create_publisher(AccelWithCovarianceStamped, "accel/filtered", _QUEUE)
+            self._acceleration = _publisher(node, AccelWithCovarianceStamped, "accel/filtered", _QUEUE)
         if settings.publication.transform:
             message_type = tf_message_type()
-            self._transforms = node.create_publisher(message_type, "/tf", _TRANSFORM_QUEUE)
+            self._transforms = _publisher(node, message_type, "/tf", _TRANSFORM_QUEUE)
             self._transform_message = message_type()
 
     def publish(self, estimate: Estimate) -> bool:
@@ -75,3 +80,7 @@ class Outputs:
             text = f"{self._frames.map} -> {self._frames.odom} is not broadcast: {error}"
         self._logger.error(text, throttle_duration_sec=_SECONDS_BETWEEN_COMPLAINTS)
         return None
+
+
+def _publisher(node: Node, message_type: type, topic: str, depth: int) -> Publisher:
+    return node.create_publisher(message_type, topic, depth, event_callbacks=quiet.PUBLISHER)

@@ -1,15 +1,14 @@
 """Runs the filter's node until it is told to end."""
 
 import signal
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from threading import Thread
+from threading import Event, Thread
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
-from rclpy.task import Future
 
 from bringup.filter.parameter_reader import ParameterError
 from bringup.filter_node.node import FilterNode
@@ -42,17 +41,27 @@ def _node() -> Iterator[Node]:
 
 def _spin(node: Node) -> int:
     try:
-        FilterNode(node)
+        running = FilterNode(node)
     except ParameterError as error:
         node.get_logger().fatal(str(error))
         return 1
-    told_to_end = Future()
-    Thread(target=lambda: told_to_end.set_result(signal.sigwait(ENDING)), daemon=True).start()
+    told_to_end = Event()
+    # Its callback does nothing: it makes the executor come back.
+    wake_up = node.create_guard_condition(lambda: None)
+    Thread(target=_wait_for_the_end, args=(told_to_end, wake_up.trigger), daemon=True).start()
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     try:
-        executor.spin_until_future_complete(told_to_end)
+        while not told_to_end.is_set():
+            executor.spin_once()
+            running.update_if_due()
     finally:
         executor.remove_node(node)
         executor.shutdown()
     return 0
+
+
+def _wait_for_the_end(told_to_end: Event, wake_up: Callable[[], None]) -> None:
+    signal.sigwait(ENDING)
+    told_to_end.set()
+    wake_up()

@@ -12,6 +12,8 @@ from rclpy.callback_groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
 
+from bringup.filter_node import quiet
+
 Message: TypeAlias = Any
 Subscription: TypeAlias = Any
 
@@ -41,7 +43,7 @@ class VisitedSubscriptions:
         """Subscribe; the queue is made long enough for the messages between two visits."""
         qos.depth = max(qos.depth, _SHORTEST_QUEUE)
         subscription = self._node.create_subscription(
-            message_type, topic, callback, qos, callback_group=self._group
+            message_type, topic, callback, qos, callback_group=self._group, event_callbacks=quiet.SUBSCRIPTION
         )
         self._subscriptions.append(subscription)
         return subscription
@@ -54,8 +56,8 @@ class VisitedSubscriptions:
     def visit(self) -> None:
         """Hand over everything that has arrived."""
         for subscription in self._subscriptions:
-            callback, kind = subscription.callback, subscription.msg_type
-            with subscription.handle as handle:
+            handle, callback, kind = subscription.handle, subscription.callback, subscription.msg_type
+            with handle:
                 taken = handle.take_message(kind, False)
                 while taken is not None:
                     callback(taken[0])
