@@ -33,7 +33,7 @@ def build(resolved: Resolved, problems: Problems) -> Plan:
         for identity, process in targets.process.items()
     }
     check_cycles(edges, problems)
-    check_given(resolved, ids, problems, complete=complete)
+    check_given(resolved, problems, complete=complete)
     processes = tuple(
         _process(process, identity, edges[identity], resolved, problems)
         for identity, process in targets.process.items()
@@ -63,7 +63,7 @@ def _process(
     resolved: Resolved,
     problems: Problems,
 ) -> Process:
-    parameters = parameters_of(process, identity, resolved.given, problems)
+    parameters = parameters_of(process, resolved.given, problems)
     check_remaps(process, problems)
     planned = Process(
         id=identity,

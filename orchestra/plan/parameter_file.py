@@ -49,6 +49,22 @@ def rendered(pattern: str, parameters: Mapping[str, ParameterValue]) -> str:
     return "\n".join(lines) + "\n"
 
 
+def contents(process: Process) -> dict[str, str]:
+    """Return the files that a process needs, by path as in its plan.
+
+    What is passed on for other nodes in the process stands before the section of the node itself, which thus wins.
+    Where the node's full name is not known, what is passed on is everything. Raises like `render`.
+    """
+    texts: dict[str, str] = {}
+    for file in process.parameter_files:
+        texts[file.path] = texts.get(file.path, "") + file.content
+    own = path(process)
+    named = process.name is not None and process.namespace is not None
+    if process.parameters and (named or own not in texts):
+        texts[own] = texts.get(own, "") + render(process)
+    return texts
+
+
 def file_name(process: Process) -> str:
     """Return the name of the parameter file: `robot1.ekf.yaml` for `/robot1/ekf`; other ids give other names."""
     parts = process.id.strip("/").split("/")

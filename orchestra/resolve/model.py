@@ -172,10 +172,11 @@ class ResolvedSkip:
 
 @dataclass(frozen=True, slots=True)
 class GivenSections:
-    """Parameters of the command line, which win over all others."""
+    """Parameters of the command line, which win over all others. `strict`: it is an error if they are for no node."""
 
     sections: tuple[Section, ...]
     location: Location
+    strict: bool
 
 
 @dataclass(frozen=True, slots=True)
