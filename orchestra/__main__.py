@@ -54,7 +54,7 @@ def _flags_of_run(words: list[str]) -> list[str]:
 
 def _prepare(words: list[str], stream: BinaryIO) -> int:
     """Make the plan and write it to the stream. This is the resolver process, where heavy imports belong."""
-    from orchestra.cli.prepare import prepare
+    from orchestra.cli.main import prepare
 
     return prepare(words, stream)
 

@@ -7,13 +7,11 @@ import sys
 from typing import TYPE_CHECKING
 
 from orchestra.cli import boundary
-from orchestra.cli.checking import problems_in
 from orchestra.cli.inputs import as_errors
 from orchestra.cli.parser import CommandParser
 from orchestra.cli.problems.formats import FORMATS
 from orchestra.cli.targets import targets
 from orchestra.errors import Severity, UsageError
-from orchestra.pipeline import inputs_from
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -45,6 +43,10 @@ def run(options: Namespace) -> int:
         raise UsageError("a file or folder is missing")
     words = [word for word in options.words if ":=" in word]
     found = targets(paths)
+    # Both are heavy, and `--help` does not need them.
+    from orchestra.cli.checking import problems_in  # noqa: PLC0415
+    from orchestra.pipeline import inputs_from  # noqa: PLC0415
+
     problems = problems_in(found, inputs_from(words, environment=os.environ))
     if options.strict:
         problems = as_errors(problems)

@@ -7,7 +7,6 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
-from orchestra import pipeline
 from orchestra.cli import boundary
 from orchestra.errors import DescriptionError, Severity, UsageError
 
@@ -46,6 +45,8 @@ def plan_from(options: Namespace, *, launching: bool, required: bool = True) -> 
     """
     if not options.words:
         raise UsageError("a launch file is missing")
+    from orchestra import pipeline  # noqa: PLC0415 - heavy, and `--help` does not need it
+
     file, words = pipeline.find_launch_file(options.words)
     given = pipeline.inputs_from(words, environment=os.environ, params_files=options.params_file)
     plan = pipeline.make_plan(file, dataclasses.replace(given, launching=launching, required=required))

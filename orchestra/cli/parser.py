@@ -12,9 +12,11 @@ if TYPE_CHECKING:
 
 
 class CommandParser(ArgumentParser):
-    """Reads the words after `orchestra COMMAND`."""
+    """Reads the words after `orchestra COMMAND`; `intermixed` tells whether options may follow other words."""
 
-    def __init__(self, command: str, description: str, epilog: str | None = None) -> None:
+    def __init__(
+        self, command: str, description: str, epilog: str | None = None, *, intermixed: bool = True
+    ) -> None:
         super().__init__(
             prog=f"orchestra {command}",
             description=description,
@@ -22,10 +24,11 @@ class CommandParser(ArgumentParser):
             allow_abbrev=False,
             formatter_class=RawDescriptionHelpFormatter,
         )
+        self._intermixed = intermixed
 
     def read(self, words: Sequence[str]) -> Namespace:
         """Return the options. Raises `UsageError`, or `SystemExit` after `--help`."""
-        return self.parse_intermixed_args(words)
+        return self.parse_intermixed_args(words) if self._intermixed else self.parse_args(words)
 
     def error(self, message: str) -> NoReturn:
         """Raise instead of printing and leaving."""

@@ -6,7 +6,6 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
-from orchestra import pipeline
 from orchestra.cli import boundary, inputs
 from orchestra.cli.handover import add_run_options, hand_over, supervised
 from orchestra.cli.parser import CommandParser
@@ -21,7 +20,7 @@ _EPILOG = "All words after the executable go to the node unchanged."
 
 def parser() -> CommandParser:
     """Return what the command understands."""
-    made = CommandParser("run", "Start one node.", _EPILOG)
+    made = CommandParser("run", "Start one node.", _EPILOG, intermixed=False)
     add_run_options(made)
     made.add_argument(
         "--prefix", default="", metavar="COMMAND", help="a command to run the node with: 'gdb --args'"
@@ -41,6 +40,8 @@ def prepare(options: Namespace, stream: BinaryIO) -> int:
     """Make the plan of the one node and hand it to the supervisor."""
     if len(options.words) < 2:  # noqa: PLR2004 - a package and an executable
         raise UsageError("a package and an executable are wanted")
+    from orchestra import pipeline  # noqa: PLC0415 - heavy, and `--help` does not need it
+
     package, executable, *arguments = options.words
     given = pipeline.inputs_from((), environment=os.environ)
     plan = pipeline.plan_of_node(package, executable, arguments, given, prefix=options.prefix)

@@ -5,26 +5,14 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import pytest
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from pathlib import Path
-
-
-@dataclass(frozen=True)
-class Finished:
-    """What a command has left behind."""
-
-    status: int
-    out: str
-    err: str
-
-
-Orchestra = Callable[..., Finished]
+from subprocess import CompletedProcess
 
 
 @pytest.fixture
@@ -42,11 +30,11 @@ def folder(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def orchestra(folder: Path, home: Path) -> Orchestra:
+def orchestra(folder: Path, home: Path) -> Callable[..., CompletedProcess[str]]:
     """Run `orchestra WORDS` and return what came of it."""
 
-    def run(*words: str, **environment: str) -> Finished:
-        done = subprocess.run(
+    def run(*words: str, **environment: str) -> CompletedProcess[str]:
+        return subprocess.run(
             [sys.executable, "-m", "orchestra", *words],
             cwd=folder,
             env={**os.environ, "ORCHESTRA_HOME": str(home), "NO_COLOR": "1", **environment},
@@ -56,6 +44,5 @@ def orchestra(folder: Path, home: Path) -> Orchestra:
             timeout=90,
             check=False,
         )
-        return Finished(done.returncode, done.stdout, done.stderr)
 
     return run
