@@ -1,14 +1,8 @@
-"""Message classes by name, and those of packages that are not on the package index."""
+"""Message classes by name, and the ones of packages that the package index lacks.
 
-from __future__ import annotations
+Nothing here needs rclpy to be imported first, and rclpy needs nothing from here.
+"""
 
-from typing import Any
+from orchestra.ros.interfaces.names import UnknownMessageTypeError, install, message_type, tf_message_type
 
-
-def tf_message_type() -> Any:
-    """The class of `tf2_msgs/msg/TFMessage`."""
-    try:
-        from tf2_msgs.msg import TFMessage
-    except ModuleNotFoundError:
-        from orchestra.ros.interfaces.tf2 import TFMessage
-    return TFMessage
+__all__ = ["UnknownMessageTypeError", "install", "message_type", "tf_message_type"]

@@ -1,8 +1,8 @@
-"""Between TFMessage objects and what the middleware sends: the functions that rclpy asks a class for.
+"""Messages on their way between Python and the middleware, and the functions that rclpy asks a class for.
 
-rclpy calls these outside the middleware, so they may run bytecode; they may not raise, since ctypes cannot hand
-an exception to the C++ that called. A message that cannot be converted is logged with its traceback, and rclpy
-raises an error of its own (RuntimeError or SystemError).
+For rclpy a message in transit is a pointer that it gets from one of these functions and hands to the others and
+to the middleware. Here the pointer is a reference to a Python object, so that functions of the interpreter itself
+can be four of the five: they report a failure as rclpy expects it, which a function made by ctypes cannot.
 """
 
 from __future__ import annotations
@@ -10,103 +10,104 @@ from __future__ import annotations
 import _thread
 import ctypes
 import logging
-from ctypes import PYFUNCTYPE, c_bool, c_char_p, c_void_p, py_object
-from typing import TYPE_CHECKING, Any
+from ctypes import CFUNCTYPE, PYFUNCTYPE, Structure, c_bool, c_char_p, c_void_p, py_object
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from orchestra.ros.interfaces import layouts, wire
-from orchestra.ros.interfaces.layouts import SerializedMessage
+from orchestra.ros.interfaces.layouts import Bytes, String
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 _log = logging.getLogger(__name__)
-_HEADER = 4  # bytes of the encapsulation; the middleware writes its own
+_HEADER = 4  # bytes of the encapsulation, which the middleware writes itself
 
-# Every message between create and destroy, by address: the middleware's pointer is no reference to Python.
-_alive: dict[int, SerializedMessage] = {}
+_Result = TypeVar("_Result")
 
 
-def capsules(
-    new_message: Callable[[list[Any]], Any], new_transform: Callable[[], Any], finish_string: Any
-) -> dict[str, object]:
-    """The four functions as capsules, by the names under which rclpy looks for them on a metaclass."""
+def _body(message: bytes) -> Bytes:
+    """Return where the body of a serialized message is; the message lives as long as the result."""
+    found = Bytes(layouts.address(c_char_p(message)) + _HEADER, len(message) - _HEADER)
+    vars(found)["message"] = message
+    return found
 
-    def to_py(address: int) -> int:
-        return _new_reference(new_message(wire.decode(_serialized(_alive[address]), new_transform)))
 
-    def destroy(address: int) -> None:
-        message = _alive.pop(address)
-        if message.incoming.data:
-            finish_string(ctypes.byref(message.incoming))
+class MessageInTransit(Structure):
+    """A serialized message, between the middleware and Python.
 
+    `incoming` is what the middleware delivered, header included, in memory of rosidl_runtime_c. `outgoing` is the
+    body that it is to send: until there is one, that of a message without transforms. Calling the object makes
+    the Python message of what came in. `typesupport` adds how it is filled and freed.
+    """
+
+    _fields_ = (("incoming", String),)
+
+    outgoing = _body(wire.encode(()))
+
+    def __call__(self) -> object:
+        """Return what came in as a message; subclasses say of which class."""
+        raise NotImplementedError
+
+    def serialized(self) -> bytes:
+        """Return what came in, header included."""
+        return ctypes.string_at(self.incoming.data, self.incoming.size)
+
+
+def capsules(transit: type[MessageInTransit]) -> dict[str, object]:
+    """Return rclpy's functions as capsules, by the names under which it looks for them on a metaclass."""
+    api = ctypes.pythonapi
     return {
-        "_CREATE_ROS_MESSAGE": _function(PYFUNCTYPE(c_void_p), _create),
-        "_CONVERT_FROM_PY": _function(PYFUNCTYPE(c_bool, py_object, c_void_p), _guarded(_from_py)),
-        "_CONVERT_TO_PY": _function(PYFUNCTYPE(c_void_p, c_void_p), _guarded(to_py)),
-        "_DESTROY_ROS_MESSAGE": _function(PYFUNCTYPE(None, c_void_p), destroy),
+        "_CREATE_ROS_MESSAGE": _capsule_of(CFUNCTYPE(py_object)(transit)),
+        "_CONVERT_FROM_PY": _capsule_of(PYFUNCTYPE(c_bool, py_object, py_object)(_from_py)),
+        "_CONVERT_TO_PY": _capsule_of(api.PyObject_CallNoArgs),
+        "_DESTROY_ROS_MESSAGE": _capsule_of(api.Py_DecRef),
     }
 
 
 def capsule(address: int) -> object:
-    """A pointer as rclpy takes it."""
+    """Wrap an address as rclpy takes it."""
     new = ctypes.pythonapi.PyCapsule_New
     new.argtypes, new.restype = [c_void_p, c_char_p, c_void_p], py_object
     return new(address, None, None)
 
 
-def _function(prototype: Any, function: Callable[..., Any]) -> object:
-    address = ctypes.cast(layouts.immortal(prototype(function)), c_void_p).value
-    assert address is not None
-    return capsule(address)
-
-
-def _guarded(convert: Callable[..., int]) -> Callable[..., int]:
-    """Turn whatever is raised into a zero, which tells rclpy of the failure, and a record in the log."""
-
-    def guarded(*arguments: Any) -> int:
-        try:
-            return convert(*arguments)
-        except KeyboardInterrupt:
-            _thread.interrupt_main()  # once more, where it can be raised
-        except Exception:
-            _log.exception("a TFMessage cannot be converted")
-        return 0
-
-    return guarded
-
-
-def _create() -> int:
-    message = SerializedMessage()
-    address = ctypes.addressof(message)
-    _alive[address] = message
-    return address
-
-
-def _from_py(source: Any, address: int) -> int:
-    message = _alive[address]
-    message.payload = payload = wire.encode(source.transforms)  # held as long as there is a pointer to it
-    start = ctypes.cast(c_char_p(payload), c_void_p).value or 0
-    message.outgoing.data, message.outgoing.size = start + _HEADER, len(payload) - _HEADER
-    return 1
-
-
-def _serialized(message: SerializedMessage) -> bytes:
-    if message.incoming.data:
-        return ctypes.string_at(message.incoming.data, message.incoming.size)
-    return getattr(message, "payload", wire.EMPTY)
-
-
-def _new_reference(value: object) -> int:
-    increase = ctypes.pythonapi.Py_IncRef
-    increase.argtypes, increase.restype = [py_object], None
-    increase(value)
-    return id(value)
-
-
 def address_in(pointer: object) -> int:
-    """The address that a capsule holds."""
+    """Return the address that a capsule holds."""
     get = ctypes.pythonapi.PyCapsule_GetPointer
     get.argtypes, get.restype = [py_object, c_char_p], c_void_p
-    address = get(pointer, None)
-    assert isinstance(address, int)
-    return address
+    return int(get(pointer, None))
+
+
+def uninterrupted(convert: Callable[..., _Result], *arguments: object) -> _Result:
+    """Call a short function that may be repeated, once more if it is interrupted, and pass the interrupt on.
+
+    rclpy does not expect KeyboardInterrupt from a conversion, and would lose it. Another thread repeats it, so
+    that this one notices only when it is out of here.
+    """
+    try:
+        return convert(*arguments)
+    except KeyboardInterrupt:
+        result = convert(*arguments)
+        _thread.start_new_thread(_thread.interrupt_main, ())
+        return result
+
+
+def _capsule_of(function: object) -> object:
+    return capsule(layouts.address(layouts.immortal(function)))
+
+
+def _from_py(source: Any, message: MessageInTransit) -> bool:  # noqa: ANN401  # whatever is published
+    """Prepare a message for sending; False where it cannot be sent, which rclpy turns into a RuntimeError.
+
+    The reason goes to the log: ctypes has no way to hand the exception on.
+    """
+    try:
+        uninterrupted(_prepare, source, message)
+    except Exception:  # noqa: BLE001  # any field may be of any class; all is told below
+        _log.exception("this TFMessage cannot be sent")
+        return False
+    return True
+
+
+def _prepare(source: Any, message: MessageInTransit) -> None:  # noqa: ANN401  # as above
+    message.outgoing = _body(wire.encode(source.transforms))

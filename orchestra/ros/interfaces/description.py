@@ -30,7 +30,7 @@ SOURCE = b"geometry_msgs/TransformStamped[] transforms\n"
 
 
 def describe(element: TypeDescription) -> TypeDescription:
-    """The description of TFMessage, given that of its element; it shares the element's tables."""
+    """Describe TFMessage, given that of its element; it shares the element's tables."""
     nested = FieldType(type_id=_NESTED_TYPE_UNBOUNDED_SEQUENCE, nested_type_name=text(ELEMENT))
     fields = [Field(text(b"transforms"), nested, text(b""))]
     referenced = [*_items(element.referenced_type_descriptions, IndividualType), element.type_description]
@@ -41,14 +41,14 @@ def describe(element: TypeDescription) -> TypeDescription:
 
 
 def sources(element: String) -> String:
-    """The sequence of definition files: that of TFMessage, then those that its element needs."""
+    """Return the sequence of definition files: that of TFMessage, then those that its element needs."""
     return sequence(
         TypeSource, [TypeSource(text(NAME), text(b"msg"), text(SOURCE)), *_items(element, TypeSource)]
     )
 
 
 def type_hash(description: TypeDescription) -> TypeHash:
-    """The RIHS01 hash: SHA-256 over the description as JSON, without default values."""
+    """Return the RIHS01 hash: SHA-256 over the description as JSON, without default values."""
     content = {
         "type_description": _individual_type(description.type_description),
         "referenced_type_descriptions": [

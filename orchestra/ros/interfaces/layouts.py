@@ -1,4 +1,4 @@
-"""The C structures of ROS 2 Jazzy that a type support is made of, and the one message that we add.
+"""The C structures of ROS 2 Jazzy that a type support is made of.
 
 Sources: the headers `message_type_support_struct.h`, `type_hash.h` and `type_description/*__struct.h` of
 rosidl_runtime_c, `message_introspection.h` of rosidl_typesupport_introspection_c, `message_type_support.h` of
@@ -10,85 +10,84 @@ from __future__ import annotations
 
 import ctypes
 from ctypes import POINTER, Structure, c_bool, c_char_p, c_size_t, c_uint8, c_uint32, c_uint64, c_void_p
-from typing import TYPE_CHECKING, Any, ClassVar, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 _Value = TypeVar("_Value")
-_Fields = ClassVar[list[tuple[str, Any]]]
 
 
 class Bytes(Structure):
     """A pointer and a length."""
 
-    _fields_: _Fields = [("data", c_void_p), ("size", c_size_t)]
+    _fields_ = (("data", c_void_p), ("size", c_size_t))
 
 
 class String(Structure):
     """`rosidl_runtime_c__String`; also what every sequence looks like."""
 
-    _fields_: _Fields = [("data", c_void_p), ("size", c_size_t), ("capacity", c_size_t)]
+    _fields_ = (("data", c_void_p), ("size", c_size_t), ("capacity", c_size_t))
 
 
 class TypeHash(Structure):
     """`rosidl_type_hash_t`."""
 
-    _fields_: _Fields = [("version", c_uint8), ("value", c_uint8 * 32)]
+    _fields_ = (("version", c_uint8), ("value", c_uint8 * 32))
 
 
 class FieldType(Structure):
     """`rosidl_runtime_c__type_description__FieldType`."""
 
-    _fields_: _Fields = [
+    _fields_ = (
         ("type_id", c_uint8),
         ("capacity", c_uint64),
         ("string_capacity", c_uint64),
         ("nested_type_name", String),
-    ]
+    )
 
 
 class Field(Structure):
     """`rosidl_runtime_c__type_description__Field`."""
 
-    _fields_: _Fields = [("name", String), ("type", FieldType), ("default_value", String)]
+    _fields_ = (("name", String), ("type", FieldType), ("default_value", String))
 
 
 class IndividualType(Structure):
     """`rosidl_runtime_c__type_description__IndividualTypeDescription`."""
 
-    _fields_: _Fields = [("type_name", String), ("fields", String)]
+    _fields_ = (("type_name", String), ("fields", String))
 
 
 class TypeDescription(Structure):
     """`rosidl_runtime_c__type_description__TypeDescription`."""
 
-    _fields_: _Fields = [("type_description", IndividualType), ("referenced_type_descriptions", String)]
+    _fields_ = (("type_description", IndividualType), ("referenced_type_descriptions", String))
 
 
 class TypeSource(Structure):
     """`rosidl_runtime_c__type_description__TypeSource`."""
 
-    _fields_: _Fields = [("type_name", String), ("encoding", String), ("raw_file_contents", String)]
+    _fields_ = (("type_name", String), ("encoding", String), ("raw_file_contents", String))
 
 
 class Handle(Structure):
     """`rosidl_message_type_support_t`."""
 
-    _fields_: _Fields = [
+    _fields_ = (
         ("typesupport_identifier", c_char_p),
         ("data", c_void_p),
         ("func", c_void_p),
         ("get_type_hash_func", c_void_p),
         ("get_type_description_func", c_void_p),
         ("get_type_description_sources_func", c_void_p),
-    ]
+    )
 
 
 class Callbacks(Structure):
     """`message_type_support_callbacks_t` of rosidl_typesupport_fastrtps_cpp."""
 
-    _fields_: _Fields = [
+    _fields_ = (
         ("message_namespace", c_char_p),
         ("message_name", c_char_p),
         ("cdr_serialize", c_void_p),
@@ -96,13 +95,13 @@ class Callbacks(Structure):
         ("get_serialized_size", c_void_p),
         ("max_serialized_size", c_void_p),
         ("key_callbacks", c_void_p),
-    ]
+    )
 
 
 class Member(Structure):
     """`rosidl_typesupport_introspection_c__MessageMember`."""
 
-    _fields_: _Fields = [
+    _fields_ = (
         ("name", c_char_p),
         ("type_id", c_uint8),
         ("string_upper_bound", c_size_t),
@@ -119,13 +118,13 @@ class Member(Structure):
         ("fetch_function", c_void_p),
         ("assign_function", c_void_p),
         ("resize_function", c_void_p),
-    ]
+    )
 
 
 class Members(Structure):
     """`rosidl_typesupport_introspection_c__MessageMembers`."""
 
-    _fields_: _Fields = [
+    _fields_ = (
         ("message_namespace", c_char_p),
         ("message_name", c_char_p),
         ("member_count", c_uint32),
@@ -134,29 +133,19 @@ class Members(Structure):
         ("members", POINTER(Member)),
         ("init_function", c_void_p),
         ("fini_function", c_void_p),
-    ]
+    )
 
 
 class FastBuffer(Structure):
     """`eprosima::fastcdr::FastBuffer`: its virtual table, then the memory that it stands for."""
 
-    _fields_: _Fields = [("virtual_table", c_void_p), ("bytes", Bytes), ("is_internal", c_bool)]
+    _fields_ = (("virtual_table", c_void_p), ("bytes", Bytes), ("is_internal", c_bool))
 
 
 class Cdr(Structure):
     """The head of `eprosima::fastcdr::Cdr`: seven pointers to member functions, then its buffer."""
 
-    _fields_: _Fields = [("coders", c_void_p * 14), ("buffer", POINTER(FastBuffer))]
-
-
-class SerializedMessage(Structure):
-    """The memory of one message between Python and the middleware: its serialized form, nothing else.
-
-    `incoming` is what the middleware delivered, encapsulation header included, owned by rosidl_runtime_c;
-    `outgoing` is what the middleware is to send, without that header, owned by Python.
-    """
-
-    _fields_: _Fields = [("incoming", String), ("outgoing", Bytes)]
+    _fields_ = (("coders", c_void_p * 14), ("buffer", POINTER(FastBuffer)))
 
 
 _IMMORTAL: list[object] = []
@@ -168,12 +157,17 @@ def immortal(value: _Value) -> _Value:
     return value
 
 
+def address(pointer: Any) -> int:  # noqa: ANN401  # each pointer and function has a class of its own
+    """Return where a pointer or function of ctypes points to."""
+    return ctypes.cast(pointer, c_void_p).value or 0
+
+
 def text(value: bytes) -> String:
-    """A rosidl string over bytes that live as long as the process."""
-    return String(ctypes.cast(immortal(value), c_void_p).value, len(value), len(value) + 1)
+    """Return a rosidl string over bytes that live as long as the process."""
+    return String(address(c_char_p(immortal(value))), len(value), len(value) + 1)
 
 
 def sequence(kind: type[Structure], items: Sequence[Structure]) -> String:
-    """A rosidl sequence over copies of the items that live as long as the process."""
+    """Return a rosidl sequence over copies of the items that live as long as the process."""
     array = immortal((kind * len(items))(*items))
     return String(ctypes.addressof(array), len(items), len(items))

@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
-import ctypes
 import os
-from collections.abc import Sequence, Set
+from collections.abc import Sequence
+from collections.abc import Set as AbstractSet
 from typing import Any
 
 from geometry_msgs.msg import TransformStamped
 from rosidl_parser.definition import NamespacedType, UnboundedSequence
 
-from orchestra.ros.interfaces import conversion, typesupport
+from orchestra.ros.interfaces import conversion, typesupport, wire
 
 _CHECK_FIELDS = os.environ.get("ROS_PYTHON_CHECK_FIELDS") == "1"
+
+Transforms = Any  # a sequence of a class without type information
 
 
 class TFMessageType(type):
@@ -26,15 +28,17 @@ class TFMessageType(type):
 
     @classmethod
     def __import_type_support__(cls) -> None:
-        """Make the type support; rclpy calls this when the class is first used."""
+        """Make the type support, once; rclpy calls this when the class is first used."""
+        if cls._TYPE_SUPPORT is not None:
+            return
         element = type(TransformStamped)
-        if element._TYPE_SUPPORT is None:
+        if element._TYPE_SUPPORT is None:  # noqa: SLF001  # the convention of every ROS message
             element.__import_type_support__()
-        finish_string = ctypes.PyDLL("librosidl_runtime_c.so").rosidl_runtime_c__String__fini
-        functions = conversion.capsules(_from_transforms, TransformStamped, finish_string)
-        for name, function in functions.items():
+        of_element = element._TYPE_SUPPORT  # noqa: SLF001  # as above
+        support = typesupport.build(conversion.address_in(of_element), _TFMessageInTransit)
+        for name, function in conversion.capsules(_TFMessageInTransit).items():
             setattr(cls, name, function)
-        cls._TYPE_SUPPORT = conversion.capsule(typesupport.build(conversion.address_in(element._TYPE_SUPPORT)))
+        cls._TYPE_SUPPORT = conversion.capsule(support)
 
 
 class TFMessage(metaclass=TFMessageType):
@@ -42,15 +46,16 @@ class TFMessage(metaclass=TFMessageType):
 
     __slots__ = ("_check_fields", "_transforms")
 
-    _fields_and_field_types = {"transforms": "sequence<geometry_msgs/TransformStamped>"}
+    _fields_and_field_types = {"transforms": "sequence<geometry_msgs/TransformStamped>"}  # noqa: RUF012  # as in every message class
 
+    # Generic tools (message to YAML and back) read the fields' types here.
     SLOT_TYPES = (UnboundedSequence(NamespacedType(["geometry_msgs", "msg"], "TransformStamped")),)
 
-    def __init__(self, **fields: Any) -> None:
-        self._check_fields: bool = fields.pop("check_fields", _CHECK_FIELDS)
-        if self._check_fields:
-            unknown = sorted(fields.keys() - self._fields_and_field_types)
-            assert not unknown, f"Invalid arguments passed to constructor: {', '.join(unknown)}"
+    def __init__(self, *, check_fields: bool = _CHECK_FIELDS, **fields: Transforms) -> None:
+        self._check_fields = check_fields
+        unknown = sorted(fields.keys() - self._fields_and_field_types)
+        if check_fields and unknown:
+            raise AssertionError(f"Invalid arguments passed to constructor: {', '.join(unknown)}")
         self.transforms = fields.get("transforms", [])
 
     def __repr__(self) -> str:
@@ -59,32 +64,40 @@ class TFMessage(metaclass=TFMessageType):
     def __eq__(self, other: object) -> bool:
         return isinstance(other, TFMessage) and bool(self._transforms == other._transforms)
 
-    __hash__ = None  # type: ignore[assignment]  # as every ROS message: equal by value and mutable
+    __hash__ = None  # type: ignore[assignment]  # equal by value and mutable, as every ROS message
 
     @classmethod
     def get_fields_and_field_types(cls) -> dict[str, str]:
-        """Each field's name and type, in order."""
+        """Return each field's type by its name."""
         return dict(cls._fields_and_field_types)
 
     @property
-    def transforms(self) -> Any:
+    def transforms(self) -> Transforms:
         """Message field 'transforms'."""
         return self._transforms
 
     @transforms.setter
-    def transforms(self, value: Any) -> None:
-        if self._check_fields:
-            assert (
-                isinstance(value, (Sequence, Set))
-                and not isinstance(value, str)
-                and all(isinstance(item, TransformStamped) for item in value)
-            ), "The 'transforms' field must be a set or sequence and each value of type 'TransformStamped'"
+    def transforms(self, value: Transforms) -> None:
+        if self._check_fields and not _is_transforms(value):
+            raise AssertionError(
+                "The 'transforms' field must be a set or sequence and each value of type 'TransformStamped'"
+            )
         self._transforms = value
 
 
-# Generic tools (message to YAML, `topic list -t`) read the package from the module's name.
+# Generic tools read a message's package from here; there need be no such module.
 TFMessage.__module__ = "tf2_msgs.msg._tf_message"
 
 
-def _from_transforms(transforms: list[Any]) -> TFMessage:
-    return TFMessage(transforms=transforms)
+class _TFMessageInTransit(conversion.MessageInTransit):
+    def __call__(self) -> TFMessage:
+        transforms = conversion.uninterrupted(wire.decode, self.serialized(), TransformStamped)
+        return TFMessage(transforms=transforms)
+
+
+def _is_transforms(value: object) -> bool:
+    return (
+        isinstance(value, (Sequence, AbstractSet))
+        and not isinstance(value, str)
+        and all(isinstance(item, TransformStamped) for item in value)
+    )

@@ -3,9 +3,9 @@
 The middleware calls a message's type support while it holds a lock of the writer or reader, in a thread that
 holds the interpreter's lock. Were such a callback to run bytecode, another thread could get the interpreter's
 lock there and wait for the middleware's: both would wait for ever. So nothing below runs bytecode: each callback
-is a callable written in C (an operator, an `attrgetter`, a bound method of a dictionary or an iterator) that ends
-in a function of a library, called without releasing the interpreter's lock. An interrupt (Ctrl-C) is not taken
-there for the same reason, so none is lost. What does need bytecode happens in `conversion`, before and after.
+is a callable written in C (an operator, an `attrgetter`, a method of a dictionary or an iterator) that ends in a
+function of a library, called without releasing the interpreter's lock. No interrupt (Ctrl-C) is taken there
+either, so none is lost. What does need bytecode happens in `conversion`, before and after.
 
 Rejected: calling the compiled serializers of the element from a Python loop (bytecode under a lock, and a C++
 exception for malformed data would cross Python's frames); a process-wide lock around publish and take (does not
@@ -19,13 +19,16 @@ import operator
 from ctypes import CFUNCTYPE, POINTER, c_bool, c_char_p, c_int, c_size_t, c_uint32, c_void_p, py_object
 from itertools import repeat
 from operator import attrgetter
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
+from orchestra.errors import RunError
 from orchestra.ros.interfaces import description, layouts
-from orchestra.ros.interfaces.layouts import Bytes, Callbacks, Cdr, FastBuffer, Handle, SerializedMessage
+from orchestra.ros.interfaces.layouts import Bytes, Callbacks, Cdr, FastBuffer, Handle
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from orchestra.ros.interfaces.conversion import MessageInTransit
 
 _FAST_CDR = "libfastcdr.so.2"
 _RUNTIME = "librosidl_runtime_c.so"
@@ -37,7 +40,7 @@ _TYPE_NAME = b"TFMessage"
 _ROS_TYPE_MESSAGE = 18  # rosidl_typesupport_introspection_c/field_types.h
 
 
-class UnsupportedInstallationError(RuntimeError):
+class UnsupportedInstallationError(RunError):
     """The installed ROS libraries are not laid out as in ROS 2 Jazzy."""
 
 
@@ -53,11 +56,13 @@ class _Buffer:
 class _Outgoing:
     """Argument converter: what a message sends, as pointer and length."""
 
-    from_param = attrgetter("contents.outgoing")
+    from_param = attrgetter("outgoing")
 
 
-def build(element: int) -> int:
-    """Make the type support of TFMessage from the handle of TransformStamped; returns its address.
+def build(element: int, transit: type[MessageInTransit]) -> int:
+    """Make the type support of TFMessage from the handle of TransformStamped; return its address.
+
+    `transit` is the class of the objects that stand for messages; it learns to take bytes and to free them.
 
     Raises:
         UnsupportedInstallationError: the libraries are not those of ROS 2 Jazzy.
@@ -65,38 +70,37 @@ def build(element: int) -> int:
     runtime = ctypes.PyDLL(_RUNTIME)
     fast_cdr = ctypes.PyDLL(_FAST_CDR)
     _check_layout(fast_cdr)
+    _give_memory(transit, runtime)
     find = runtime.get_message_typesupport_handle
     find.argtypes, find.restype = [c_void_p, c_char_p], POINTER(Handle)
     table: dict[bytes, int] = {}
     dispatch = _callback(CFUNCTYPE(c_void_p, _handle_in(table), c_char_p), operator.getitem)
     common = (dispatch, *_description_functions(find(element, _FASTRTPS).contents))
     for identifier, data in (
-        (_FASTRTPS, _callbacks(find(element, _FASTRTPS).contents, runtime, fast_cdr)),
-        (_INTROSPECTION, _members(find(element, _INTROSPECTION))),
+        (_FASTRTPS, _callbacks(find(element, _FASTRTPS).contents, fast_cdr)),
+        (_INTROSPECTION, _members(find(element, _INTROSPECTION).contents)),
     ):
         handle = layouts.immortal(Handle(identifier, ctypes.addressof(data), *common))
         table[identifier] = ctypes.addressof(handle)
     return table[_FASTRTPS]
 
 
-def _callback(prototype: Any, function: Callable[..., Any]) -> int:  # noqa: ANN401  # made by ctypes at run time
-    address = ctypes.cast(layouts.immortal(prototype(function)), c_void_p).value
-    assert address is not None
-    return address
+def _callback(prototype: Callable[..., object], function: Callable[..., object]) -> int:
+    return layouts.address(layouts.immortal(prototype(function)))
 
 
 def _handle_in(table: dict[bytes, int]) -> type[c_void_p]:
-    """The type of a handle for which `handle[identifier]` is the address of the type support of that name."""
+    """Return the type of a handle for which `handle[identifier]` is the address of the type support of that name."""
     return type("HandleReference", (c_void_p,), {"__getitem__": table.get})
 
 
 def _constant(address: int) -> int:
-    """A C function that returns this address, whatever it is given."""
+    """Return a C function that returns this address, whatever it is given."""
     return _callback(CFUNCTYPE(c_void_p), repeat(address).__next__)
 
 
 def _description_functions(element: Handle) -> list[int]:
-    """The functions of a handle that return the type's hash, description and sources."""
+    """Return the functions of a handle that return the type's hash, description and sources."""
     prototype = ctypes.PYFUNCTYPE(c_void_p, c_void_p)
     of_element = layouts.TypeDescription.from_address(prototype(element.get_type_description_func)(None))
     sources = layouts.String.from_address(prototype(element.get_type_description_sources_func)(None))
@@ -105,50 +109,57 @@ def _description_functions(element: Handle) -> list[int]:
     return [_constant(ctypes.addressof(layouts.immortal(value))) for value in values]
 
 
-def _callbacks(element: Handle, runtime: ctypes.PyDLL, fast_cdr: ctypes.PyDLL) -> Callbacks:
-    """What rmw_fastrtps calls to send and to receive; `a >> b` means that b takes its bytes from a."""
-    message, cdr = POINTER(SerializedMessage), POINTER(Cdr)
+def _give_memory(transit: type[MessageInTransit], runtime: ctypes.PyDLL) -> None:
+    """Let messages take what comes in, `cdr >> message`, and free it in the end."""
     receive = runtime.rosidl_runtime_c__String__assignn
-    receive.argtypes, receive.restype = [message, _Buffer], c_bool
+    receive.restype = c_bool
+    receive.argtypes = [POINTER(transit), _Buffer]  # type: ignore[list-item]  # converting is all it takes
+    free = runtime.rosidl_runtime_c__String__fini
+    free.argtypes, free.restype = [POINTER(transit)], None
+    transit.__rrshift__ = _method(receive)  # type: ignore[attr-defined]  # a method from a library
+    transit.__del__ = _method(free)  # type: ignore[attr-defined]  # as above
+
+
+def _callbacks(element: Handle, fast_cdr: ctypes.PyDLL) -> Callbacks:
+    """Return what rmw_fastrtps calls to send, `message >> cdr`, and to receive, `cdr >> message`."""
+    cdr = POINTER(Cdr)
     send = fast_cdr._ZN8eprosima7fastcdr3Cdr15serialize_arrayEPKcm  # noqa: SLF001  # a C++ name, not a private one
-    send.argtypes, send.restype = [cdr, _Outgoing], c_void_p
-    message.__rrshift__ = _method(receive)  # type: ignore[attr-defined]  # the class is made by ctypes
-    cdr.__rrshift__ = _method(send)  # type: ignore[attr-defined]  # as above
+    send.restype = c_void_p
+    send.argtypes = [cdr, _Outgoing]  # type: ignore[list-item]  # converting is all it takes
+    cdr.__rrshift__ = _method(send)  # type: ignore[attr-defined]  # a method from a library
     return layouts.immortal(
         Callbacks(
             _CXX_NAMESPACE,
             _TYPE_NAME,
-            _callback(CFUNCTYPE(c_bool, message, cdr), operator.rshift),
-            _callback(CFUNCTYPE(c_bool, cdr, message), operator.rshift),
-            _callback(CFUNCTYPE(c_uint32, message), attrgetter("contents.outgoing.size")),
+            _callback(CFUNCTYPE(c_bool, py_object, cdr), operator.rshift),
+            _callback(CFUNCTYPE(c_bool, cdr, py_object), operator.rshift),
+            _callback(CFUNCTYPE(c_uint32, py_object), attrgetter("outgoing.size")),
             # Says "unbounded" and a size to begin with: so does the element's own function.
             Callbacks.from_address(element.data).max_serialized_size,
         )
     )
 
 
-def _method(function: Callable[..., Any]) -> object:
-    """A function that binds to the instance when it is found in a class, as those written in Python do."""
+def _method(function: Callable[..., object]) -> object:
+    """Return a function that binds to the instance when it is found in a class, as those written in Python do."""
     bind = ctypes.pythonapi.PyInstanceMethod_New
     bind.argtypes, bind.restype = [py_object], py_object
     return bind(function)
 
 
-def _members(element: Any) -> layouts.Members:  # noqa: ANN401  # a pointer made by ctypes
-    """The names and types of the fields, which the middleware makes its own type object from.
+def _members(element: Handle) -> layouts.Members:
+    """Return the names and types of the fields, which the middleware makes its own type object from.
 
-    The functions of the member stay null: they would reach into a message as the C generator lays it out, and
-    ours is serialized. Whoever tried would be told by the null pointer, not by a wrong value.
+    The functions that reach into a message stay null: a message in transit is serialized.
     """
     member = layouts.Member(
         name=b"transforms",
         type_id=_ROS_TYPE_MESSAGE,
-        members=ctypes.addressof(element.contents),
+        members=ctypes.addressof(element),
         is_array=True,
     )
-    size = ctypes.sizeof(SerializedMessage)
     return layouts.immortal(
-        layouts.Members(_NAMESPACE, _TYPE_NAME, 1, size, False, ctypes.pointer(member))  # noqa: FBT003  # no keywords in C
+        layouts.Members(_NAMESPACE, _TYPE_NAME, member_count=1, members=ctypes.pointer(member))
     )
 
 
@@ -163,7 +174,7 @@ def _check_layout(fast_cdr: ctypes.PyDLL) -> None:
     make_buffer(ctypes.addressof(buffer), ctypes.addressof(memory), len(memory))
     make_cdr(ctypes.addressof(cdr), ctypes.addressof(buffer), 1, 1)
     found: Bytes = buffer.bytes
-    reference = ctypes.cast(Cdr.from_buffer(cdr).buffer, c_void_p).value
+    reference = layouts.address(Cdr.from_buffer(cdr).buffer)
     expected = (ctypes.addressof(memory), len(memory), ctypes.addressof(buffer))
     if (found.data, found.size, reference) != expected:
         raise UnsupportedInstallationError(

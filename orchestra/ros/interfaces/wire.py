@@ -55,7 +55,9 @@ def _encode_transform(item: Any, phase: int) -> bytes:  # noqa: ANN401  # a geom
             move.x, move.y, move.z, turn.x, turn.y, turn.z, turn.w,
         )  # fmt: skip
     except struct.error as error:
-        raise TypeError(f"transform from {item.header.frame_id!r} to {item.child_frame_id!r}: {error}") from error
+        raise TypeError(
+            f"transform from {item.header.frame_id!r} to {item.child_frame_id!r}: {error}"
+        ) from error
 
 
 @lru_cache(maxsize=1024)
@@ -72,7 +74,7 @@ def _c_string(value: str) -> bytes:
 
 
 def decode(message: bytes, new_transform: Callable[[], Any]) -> list[Any]:
-    """The transforms of a serialized message, header included, in either byte order.
+    """Return the transforms of a serialized message, header included, in either byte order.
 
     Raises:
         MalformedMessageError: the bytes end too early, a length is impossible or the encoding is another one.
