@@ -1,0 +1,61 @@
+"""What happened in a run: one event is one line of JSON, and the stream of them tells the whole run."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict, dataclass, field
+from typing import Any, Literal, TypeAlias
+
+Kind: TypeAlias = Literal[
+    "run_started",  # data: run, name, directory, file
+    "run_stopping",  # cause says why
+    "run_ended",  # data: status, reason, failed; always the last event
+    "process_waiting",
+    "process_starting",
+    "process_running",  # the program runs; data: start, which counts from 1
+    "process_ready",
+    "process_stopping",
+    "process_restarting",  # data: delay, short_runs
+    "process_exited",  # for good, as it should; data: code, signal, uptime
+    "process_failed",  # for good, not as it should; data as above, reason where it never ran
+    "process_skipped",
+    "process_ended",  # one run of it is over, whatever follows; data: code, signal, reason, uptime
+    "signal_sent",  # data: signal
+    "descendant_adopted",  # a child of a process detached itself; data: command
+    "left_behind",  # something outlived its process or the run; data: command
+    "trigger_fired",  # data: on, target, do
+    "message",  # what the user was told; data: text
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Event:
+    """One thing that happened.
+
+    `time` is in seconds since the epoch, `monotonic` in seconds of the machine's monotonic clock. `process` is the id
+    in the plan, None for what concerns the run as a whole.
+    """
+
+    time: float
+    monotonic: float
+    kind: Kind
+    process: str | None = None
+    pid: int | None = None
+    cause: str | None = None
+    data: dict[str, Any] = field(default_factory=dict)
+
+
+def dumps(event: Event) -> str:
+    """Return the event as one line of JSON, without its newline."""
+    return json.dumps(asdict(event), ensure_ascii=False)
+
+
+def loads(line: str | bytes) -> Event:
+    """Read one line of an event stream. Raises `ValueError` where it is none."""
+    document = json.loads(line)
+    if not isinstance(document, dict):
+        raise ValueError("an event is a JSON object")  # noqa: TRY004 - a fault of the text, not of a type
+    try:
+        return Event(**document)
+    except TypeError as error:
+        raise ValueError(f"not an event: {error}") from error

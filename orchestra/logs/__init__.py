@@ -1,0 +1,1 @@
+"""Output of processes: bytes to lines, lines to the screen and to files."""

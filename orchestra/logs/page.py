@@ -1,0 +1,31 @@
+"""Puts the output of several sources on one page: each line begins with the prefix of its source."""
+
+from __future__ import annotations
+
+
+class Page:
+    """Composes text for a screen or a file. It remembers whose unfinished line stands at the end."""
+
+    def __init__(self) -> None:
+        self._open: object | None = None
+
+    def compose(self, source: object, prefix: str, text: str) -> str:
+        """Return what to write for a piece of a source's output.
+
+        A piece that continues the source's own unfinished line continues it here; the unfinished line of another is
+        ended first.
+        """
+        if not text:
+            return ""
+        before = "" if self._open is None or self._open == source else "\n"
+        first = "" if self._open is not None and self._open == source else prefix
+        finished = text.endswith("\n")
+        body = text[:-1] if finished else text
+        self._open = None if finished else source
+        return before + first + body.replace("\n", "\n" + prefix) + ("\n" if finished else "")
+
+    def end(self) -> str:
+        """Return what ends the page: a newline where a line is unfinished."""
+        ending = "" if self._open is None else "\n"
+        self._open = None
+        return ending

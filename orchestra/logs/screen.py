@@ -1,0 +1,146 @@
+"""The user's terminal, or whatever stands in its place: it may be slow, blocked or closed, and never holds us up.
+
+Descriptors 1 and 2 are shared with the shell and others, so O_NONBLOCK must not be set on them: it would be set for
+all. They are opened anew through /proc/self/fd, which gives a file description of our own. Where that is not possible (a
+socket, a terminal of another user) they are written to in small pieces when poll(2) says that it will not block.
+A regular file is used as it is: it cannot block for long, and opened anew would be written from its begin.
+"""
+
+from __future__ import annotations
+
+import os
+import select
+import stat
+from collections import deque
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+# What is kept for a screen that does not take it; beyond that, text is dropped and counted.
+BACKLOG = 4 * 1024 * 1024
+# A pipe that poll(2) calls writable takes this much without blocking (PIPE_BUF).
+_CAREFUL_PIECE = 512
+
+
+class Screen:
+    """Writes text without ever blocking. `watch` is called with True when it wants to be told that it can go on."""
+
+    def __init__(self, descriptor: int, watch: Callable[[bool], None]) -> None:
+        self._watch = watch
+        self._waiting: deque[bytes] = deque()
+        self._size = 0
+        self._dropped = 0
+        self.closed = False
+        self.descriptor, self._careful = _open_anew(descriptor)
+        self._own = self.descriptor != descriptor
+
+    @property
+    def pending(self) -> int:
+        """The number of bytes that the screen has not taken yet."""
+        return self._size
+
+    def write(self, text: str) -> None:
+        """Write now what the screen takes, and keep the rest. The text should consist of whole lines where it can."""
+        if self.closed:
+            return
+        data = text.encode("utf-8", "replace")
+        if self._size + len(data) > BACKLOG:
+            self._dropped += max(1, data.count(b"\n"))
+            return
+        if self._dropped:
+            data = self._confession() + data
+        self._keep(data)
+        if len(self._waiting) == 1:
+            self._push()
+            if self._waiting:
+                self._watch(True)
+
+    def writable(self) -> None:
+        """Go on writing: the screen takes more."""
+        self._push()
+        if not self._waiting:
+            if self._dropped and not self.closed:
+                self._keep(self._confession())
+                self._push()
+            if not self._waiting:
+                self._watch(False)
+
+    def finish(self, patience: float) -> None:
+        """Write what is left, as long as the screen takes some of it within `patience` seconds."""
+        poll = select.poll()
+        poll.register(self.descriptor, select.POLLOUT)
+        while self._waiting:
+            before = self._size
+            if not poll.poll(patience * 1000):
+                break
+            self.writable()
+            if self._size == before:
+                break
+
+    def close(self) -> None:
+        """Give the descriptor back."""
+        if self._waiting:
+            self._waiting.clear()
+            self._watch(False)
+        if self._own:
+            os.close(self.descriptor)
+        self.closed = True
+
+    def _keep(self, data: bytes) -> None:
+        self._waiting.append(data)
+        self._size += len(data)
+
+    def _confession(self) -> bytes:
+        text = f"[orchestra] {self._dropped} lines are not shown: the screen was too slow; the log files have them\n"
+        self._dropped = 0
+        return text.encode()
+
+    def _push(self) -> None:
+        while self._waiting:
+            data = self._waiting[0]
+            try:
+                written = os.write(self.descriptor, self._piece(data))
+            except BlockingIOError:
+                return
+            except OSError:  # hung up: nobody sees it any more, and the log files have it
+                self._give_up()
+                return
+            self._size -= written
+            if written == len(data):
+                self._waiting.popleft()
+            else:
+                self._waiting[0] = data[written:]
+
+    def _piece(self, data: bytes) -> bytes:
+        if not self._careful:
+            return data
+        poll = select.poll()
+        poll.register(self.descriptor, select.POLLOUT)
+        if not poll.poll(0):
+            raise BlockingIOError
+        return data[:_CAREFUL_PIECE]
+
+    def _give_up(self) -> None:
+        self.closed = True
+        self._waiting.clear()
+        self._size = 0
+
+
+def _open_anew(descriptor: int) -> tuple[int, bool]:
+    """Return a descriptor to write to, and whether it must be written to with care."""
+    try:
+        if stat.S_ISREG(os.fstat(descriptor).st_mode):
+            return descriptor, False
+        flags = os.O_WRONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC
+        return os.open(f"/proc/self/fd/{descriptor}", flags), False
+    except OSError:
+        return descriptor, True
+
+
+def same_file(one: int, other: int) -> bool:
+    """Tell whether two descriptors lead to the same terminal, pipe or file."""
+    try:
+        return os.path.sameopenfile(one, other)
+    except OSError:
+        return False

@@ -1,0 +1,31 @@
+"""Ready when a line of output matches a regular expression."""
+
+from __future__ import annotations
+
+import re
+
+from orchestra.logs.terminal_text import plain
+
+# A program that never ends its line must not make us search ever more text.
+_LONGEST_LINE = 65536
+
+
+class LogProbe:
+    """Searches each line of both streams, the unfinished one as far as it has come. Colours do not count."""
+
+    request = None
+
+    def __init__(self, pattern: str) -> None:
+        self._pattern = re.compile(pattern)
+        self._unfinished: dict[str, str] = {}
+
+    @property
+    def words(self) -> str:
+        """What is awaited."""
+        return f"a line of its output that matches {self._pattern.pattern!r}"
+
+    def read(self, stream: str, text: str) -> bool:
+        """Take a piece of output; tell whether a line matches."""
+        *lines, rest = (self._unfinished.get(stream, "") + plain(text)).split("\n")
+        self._unfinished[stream] = rest[-_LONGEST_LINE:]
+        return any(self._pattern.search(line.removesuffix("\r")) for line in (*lines, rest))

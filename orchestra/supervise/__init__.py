@@ -1,0 +1,1 @@
+"""Runs a plan: the only stage that starts, signals or waits. Standard library only."""

@@ -1,0 +1,47 @@
+"""The outermost function of the supervisor: what it returns is the exit status, whatever happens inside."""
+
+from __future__ import annotations
+
+import os
+import sys
+import time
+import traceback
+from typing import TYPE_CHECKING
+
+from orchestra.supervise.conduct import conduct
+from orchestra.supervise.directory import state_folder
+from orchestra.supervise.keeper import say
+from orchestra.supervise.outcome import BUG
+from orchestra.supervise.resolving import Refused
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from orchestra.supervise.beginnings import Beginnings
+
+
+def guarded_run(beginnings: Beginnings) -> int:
+    """Run and return the exit status. After a bug the keeper ends what is left."""
+    try:
+        return conduct(beginnings)
+    except Refused as refusal:
+        if refusal.message:
+            say(refusal.message)
+        return refusal.status
+    except Exception as error:  # noqa: BLE001 - whatever else comes here is a bug, and this is where it is shown
+        say(
+            f"this is a bug in Orchestra: {type(error).__name__}: {error}; please report it with {_report(error)}"
+        )
+        return BUG
+
+
+def _report(error: Exception) -> str:
+    """Write what is known to a file and return its path; the text itself where no file can be written."""
+    text = f"python {sys.version}\ncommand {sys.argv}\n\n{''.join(traceback.format_exception(error))}"
+    path: Path = state_folder() / "crash" / f"{time.strftime('%Y-%m-%dT%H-%M-%S')}-{os.getpid()}.txt"
+    try:
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text, "utf-8")
+    except OSError:
+        return f"this:\n{text}"
+    return f"the file {path}"

@@ -1,0 +1,117 @@
+"""The stages of a run, in the supervisor: collect the plan, furnish the directory, run, clear up, tell the outcome."""
+
+from __future__ import annotations
+
+import os
+import signal
+from dataclasses import replace
+from typing import TYPE_CHECKING
+
+from orchestra.plan import codec
+from orchestra.supervise import directory
+from orchestra.supervise.attention import Attention
+from orchestra.supervise.kin import Kin, send_to_groups
+from orchestra.supervise.leftovers import end_leftovers
+from orchestra.supervise.loop import Loop
+from orchestra.supervise.outcome import FAILED, judge
+from orchestra.supervise.resolving import Collection, Refused
+from orchestra.supervise.setting import surroundings
+from orchestra.supervise.spec import RUN_FOLDER, located, parameter_texts
+from orchestra.supervise.system import DEADLINE, System
+
+if TYPE_CHECKING:
+    from orchestra.plan.model import Plan
+    from orchestra.supervise.beginnings import Beginnings
+    from orchestra.supervise.directory import RunDirectory
+    from orchestra.supervise.document import Document
+    from orchestra.supervise.outcome import Outcome
+    from orchestra.supervise.surroundings import Surroundings
+
+
+def conduct(beginnings: Beginnings) -> int:
+    """Carry out a run and return its exit status. Raises `Refused` where there is nothing to run."""
+    loop = Loop()
+    collection = Collection(beginnings.resolver, loop)
+    attention = Attention(loop, beginnings.signals, collection.stop_signal)
+    document = _collect(loop, collection)
+    runs = directory.state_folder() / "runs"
+    try:
+        run_directory = directory.create(runs, document.options.name)
+        plan = _furnish(document.plan, run_directory)
+    except OSError as error:
+        raise Refused(FAILED, f"the run directory cannot be written: {error}") from error
+    outcome = _run(beginnings, attention, loop, run_directory, document._replace(plan=plan))
+    run_directory.release()
+    directory.prune(runs)
+    return outcome.status
+
+
+def _collect(loop: Loop, collection: Collection) -> Document:
+    """Wait for the plan. What the resolver started and left behind ends here: it was not asked for."""
+    try:
+        while not collection.done:
+            loop.run_once()
+        return collection.result()
+    finally:
+        kin = Kin("")
+        kin.refresh()
+        send_to_groups([adopted.pid for adopted in kin.of(None)], signal.SIGKILL)
+
+
+def _furnish(plan: Plan, run_directory: RunDirectory) -> Plan:
+    """Write the plan and the parameter files; return the plan with the run directory filled in."""
+    folder = str(run_directory.path)
+    (run_directory.path / "plan.json").write_text(
+        codec.dumps(plan, indent=2) + "\n", "utf-8", "surrogatepass"
+    )
+    for process in plan.processes:
+        for path, text in parameter_texts(process).items():
+            with open(path.replace(RUN_FOLDER, folder), "w", encoding="utf-8") as file:  # noqa: PTH123 - may be any path
+                file.write(text)
+    return replace(plan, processes=tuple(located(process, folder) for process in plan.processes))
+
+
+def _run(
+    beginnings: Beginnings, attention: Attention, loop: Loop, run_directory: RunDirectory, document: Document
+) -> Outcome:
+    plan, options = document
+    with surroundings(
+        loop,
+        run_directory,
+        plan,
+        options,
+        run_id=beginnings.run_id,
+        failed=lambda reason: system.failed(reason),  # noqa: PLW0108 - it is bound below,
+    ) as around:
+        system = System(plan, options, around)
+        attention.on_child = system.look
+        attention.on_stop = system.stop_signal
+        around.recorder.record(
+            "run_started",
+            pid=os.getpid(),
+            run=beginnings.run_id,
+            name=options.name,
+            directory=str(run_directory.path),
+            file=plan.file,
+        )
+        around.journal.say(f"{len(plan.processes)} processes; logs in {run_directory.logs}")
+        system.begin()
+        while not system.over:
+            loop.run_once()
+        system.finish()
+        return _conclude(system, around, beginnings)
+
+
+def _conclude(system: System, around: Surroundings, beginnings: Beginnings) -> Outcome:
+    """Look for leftovers, and tell how it all ended: the last line and the last event."""
+    around.observers.leave()
+    while around.observers.alive:
+        around.loop.run_once()
+    polite = 1.0 if system.stopped_at is None else system.stopped_at + DEADLINE - around.loop.clock()
+    left = end_leftovers(around, beginnings.run_id, polite=polite)
+    outcome = judge(system.facts(unstoppable=(*system.stuck, *left)))
+    if os.getppid() != beginnings.keeper:
+        around.journal.say("the keeper was killed")
+    around.journal.say(f"run ended with status {outcome.status}: {outcome.reason}")
+    around.recorder.record("run_ended", status=outcome.status, reason=outcome.reason)
+    return outcome

@@ -1,0 +1,96 @@
+"""The environment of a node: the caller's, what the wheels and the run need, what the description says, the marks.
+
+Later entries win, so a description can overrule everything but the marks.
+
+PATH gets the interpreter's folder in front only where that is a virtual environment that is not on it: a script with
+`#!/usr/bin/env python3` then finds the interpreter that has rclpy, as if the environment had been activated, and
+whoever chose an order keeps it. RCUTILS_LOGGING_BUFFERED_STREAM stays as it is: unset, rcutils hands over each message in one
+write; set to 1 it takes three (rcutils of Jazzy, counted on a packet socket).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from orchestra.supervise.marks import PROCESS, RUN
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+_WHEELS_GUARD = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
+# Whoever sets one of these has said where discovery is to reach.
+_DISCOVERY = ("ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY", "ROS_DISCOVERY_SERVER")
+# The variables that decide with whom a participant talks, and how.
+_MIDDLEWARE_PREFIXES = ("ROS_", "RMW_", "FASTDDS_", "FASTRTPS_", "CYCLONEDDS_", "ZENOH_", "SKIP_DEFAULT_XML")
+
+
+@dataclass(frozen=True, slots=True)
+class Host:
+    """What the interpreter offers to nodes.
+
+    `prefix` is its installation, `path` the folder of its executables where it is a virtual environment, `libraries`
+    the folders of the wheels' shared libraries (none where the wheels do not bootstrap), `ament` whether it has an
+    ament index.
+    """
+
+    prefix: str
+    path: str | None
+    libraries: tuple[str, ...]
+    ament: bool
+
+
+def node_environment(
+    caller: Mapping[str, str],
+    host: Host,
+    description: Mapping[str, str | None],
+    *,
+    log_folder: str,
+    colour: bool,
+    marks: tuple[str, str],
+) -> dict[str, str]:
+    """Return the environment of a process; `marks` are the ids of the run and of the process."""
+    environment = {**caller, **_for_run(caller, log_folder, colour=colour), **_for_wheels(caller, host)}
+    for name, value in description.items():
+        if value is None:
+            environment.pop(name, None)
+        else:
+            environment[name] = value
+    environment[RUN], environment[PROCESS] = marks
+    return environment
+
+
+def middleware(environment: Mapping[str, str]) -> dict[str, str]:
+    """Return the part of an environment that decides with whom a participant can talk."""
+    return {name: value for name, value in environment.items() if name.startswith(_MIDDLEWARE_PREFIXES)}
+
+
+def _for_run(caller: Mapping[str, str], log_folder: str, *, colour: bool) -> dict[str, str]:
+    wanted = {"PYTHONUNBUFFERED": "1", "PYTHONFAULTHANDLER": "1"}
+    if not any(caller.get(name) for name in _DISCOVERY):
+        wanted["ROS_AUTOMATIC_DISCOVERY_RANGE"] = "LOCALHOST"
+    if not caller.get("ROS_HOME"):
+        wanted["ROS_LOG_DIR"] = log_folder
+    if colour:
+        wanted["RCUTILS_COLORIZED_OUTPUT"] = "1"
+    return {name: value for name, value in wanted.items() if not caller.get(name)}
+
+
+def _for_wheels(caller: Mapping[str, str], host: Host) -> dict[str, str]:
+    """Do what `ros_wheels_bootstrapper` does, so that it need not start each interpreter a second time."""
+    found: dict[str, str] = {}
+    if host.libraries:
+        found["LD_LIBRARY_PATH"] = _joined(host.libraries, caller.get("LD_LIBRARY_PATH"))
+        found[_WHEELS_GUARD] = "1"
+    if host.ament:
+        # Last: packages that the user has sourced come before those of the wheels.
+        prefixes = [entry for entry in caller.get("AMENT_PREFIX_PATH", "").split(":") if entry]
+        found["AMENT_PREFIX_PATH"] = ":".join(dict.fromkeys([*prefixes, host.prefix]))
+    if host.path and host.path not in caller.get("PATH", "").split(":"):
+        found["PATH"] = _joined((host.path,), caller.get("PATH"))
+    return found
+
+
+def _joined(first: tuple[str, ...], rest: str | None) -> str:
+    entries = [entry for entry in (rest or "").split(":") if entry]
+    return ":".join(dict.fromkeys([*first, *entries]))

@@ -1,0 +1,40 @@
+"""Requests to Linux that the standard library has no call for."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+
+# From linux/prctl.h.
+_SET_PDEATHSIG = 1
+_SET_NAME = 15
+_SET_CHILD_SUBREAPER = 36
+
+_LIBC = ctypes.CDLL(None, use_errno=True)
+
+
+def become_subreaper() -> None:
+    """Make this process the parent of every descendant that loses its own (prctl(2), PR_SET_CHILD_SUBREAPER)."""
+    _prctl(_SET_CHILD_SUBREAPER, 1)
+
+
+def die_with_parent(signal_number: int, parent: int) -> None:
+    """Ask for a signal when the parent ends; end at once where it has ended before we could ask.
+
+    The signal comes when the *thread* that forked ends (prctl(2), PR_SET_PDEATHSIG), so fork from the main thread.
+    """
+    _prctl(_SET_PDEATHSIG, signal_number)
+    if os.getppid() != parent:
+        os._exit(1)
+
+
+def set_name(name: str) -> None:
+    """Set what `ps -o comm` shows: at most 15 bytes."""
+    buffer = ctypes.create_string_buffer(name.encode()[:15])
+    _prctl(_SET_NAME, ctypes.addressof(buffer))
+
+
+def _prctl(option: int, value: int) -> None:
+    if _LIBC.prctl(option, ctypes.c_ulong(value), 0, 0, 0):
+        code = ctypes.get_errno()
+        raise OSError(code, f"prctl({option}): {os.strerror(code)}")

@@ -1,0 +1,122 @@
+"""Whose child is whose: finds what detached itself from a process and became ours, and says to whom it belongs.
+
+The supervisor is a subreaper, so a descendant that loses its parent becomes its child. Nothing tells us when that
+happens, but whatever becomes of such a process later does: its end is a SIGCHLD. So the list of our children is read
+at each SIGCHLD, at the end of a program, and when something is to be stopped; never else.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from orchestra.supervise import proc
+from orchestra.supervise.marks import PROCESS, RUN
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+
+@dataclass(frozen=True, slots=True)
+class Adopted:
+    """A descendant that became our child. `owner` is the process it belongs to, None where nothing tells."""
+
+    pid: int
+    owner: str | None
+    command: str
+
+
+class Kin:
+    """Our children: those that we started ourselves, and those that became ours."""
+
+    def __init__(self, run_id: str) -> None:
+        self._run_id = run_id
+        self._own: dict[int, str | None] = {}
+        self._adopted: dict[int, Adopted] = {}
+
+    def add(self, pid: int, owner: str | None) -> None:
+        """Take note of a child that we started; `owner` None for one of our own tools."""
+        self._own[pid] = owner
+
+    def remove(self, pid: int) -> None:
+        """Forget a child that we have reaped ourselves."""
+        del self._own[pid]
+
+    def refresh(self) -> tuple[list[Adopted], list[Adopted]]:
+        """Look at our children: return who is new among us, and who has ended. The latter are reaped."""
+        new = []
+        for pid in proc.children(os.getpid()):
+            if pid not in self._own and pid not in self._adopted:
+                self._adopted[pid] = adopted = Adopted(pid, self._owner(pid), proc.command(pid))
+                new.append(adopted)
+        ended = [adopted for adopted in self._adopted.values() if _reaped(adopted.pid)]
+        for adopted in ended:
+            del self._adopted[adopted.pid]
+        return new, ended
+
+    def of(self, owner: str | None) -> list[Adopted]:
+        """Return the living adopted descendants of a process, or those that belong to none."""
+        return [adopted for adopted in self._adopted.values() if adopted.owner == owner]
+
+    def group(self, pid: int) -> int | None:
+        """Return the process group of a child, None where it has gone."""
+        facts = proc.stat(pid)
+        return facts.group if facts else None
+
+    def _owner(self, pid: int) -> str | None:
+        """Tell by the marks, else by the session, which a child shares with the program unless it made its own."""
+        run, process = proc.marks(pid, (RUN, PROCESS))
+        if run == self._run_id and process is not None:
+            return process
+        facts = proc.stat(pid)
+        return self._own.get(facts.session) if facts else None
+
+
+def _reaped(pid: int) -> bool:
+    try:
+        return os.waitpid(pid, os.WNOHANG)[0] == pid
+    except ChildProcessError:
+        return True
+
+
+def send_to_groups(pids: Iterable[int], number: int) -> None:
+    """Signal the process groups of children of ours that have not been reaped.
+
+    Such a child keeps its group's number from being given to others. Stopped processes are woken, since they could not
+    act on the signal otherwise; KILL needs no waking, and reaches whole trees, for it cannot be handed on.
+    """
+    pids = list(pids)
+    for group in {os.getpgid(pid) for pid in pids if _exists(pid)} - {os.getpgrp()}:
+        _quietly(os.killpg, group, number)
+        if number != signal.SIGKILL:
+            _quietly(os.killpg, group, signal.SIGCONT)
+    if number == signal.SIGKILL:
+        for pid in pids:
+            for descendant in _tree(pid):
+                _quietly(os.kill, descendant, number)
+
+
+def _tree(root: int) -> list[int]:
+    """Return what is below a process, by the children files: only its own branch is read."""
+    found, todo = [root], [root]
+    while todo:
+        below = proc.children(todo.pop())
+        found.extend(below)
+        todo.extend(below)
+    return found
+
+
+def _exists(pid: int) -> bool:
+    try:
+        os.getpgid(pid)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def _quietly(send: Callable[[int, int], None], target: int, number: int) -> None:
+    with contextlib.suppress(ProcessLookupError, PermissionError):
+        send(target, number)

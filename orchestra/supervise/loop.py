@@ -1,0 +1,90 @@
+"""One thread, one selector, one heap of timers: waits until something happens, and for nothing else."""
+
+from __future__ import annotations
+
+import heapq
+import itertools
+import selectors
+import time
+from collections.abc import Callable
+from typing import TypeAlias
+
+Callback: TypeAlias = Callable[[], object]
+
+
+class Timer:
+    """A call that is due at a time; `cancel` takes it back."""
+
+    __slots__ = ("_callback", "due")
+
+    def __init__(self, due: float, callback: Callback) -> None:
+        self.due = due
+        self._callback: Callback | None = callback
+
+    @property
+    def cancelled(self) -> bool:
+        """Whether it was taken back, or has been made."""
+        return self._callback is None
+
+    def cancel(self) -> None:
+        """Take the call back; harmless where it has been made."""
+        self._callback = None
+
+    def fire(self) -> None:
+        """Make the call, once."""
+        callback, self._callback = self._callback, None
+        if callback:
+            callback()
+
+
+class Loop:
+    """Calls back when a descriptor can be read or written, or when a time has come. `clock` is in seconds."""
+
+    def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
+        self.clock = clock
+        self._selector = selectors.DefaultSelector()
+        self._timers: list[tuple[float, int, Timer]] = []
+        self._order = itertools.count()
+
+    def call_later(self, delay: float, callback: Callback) -> Timer:
+        """Call once after `delay` seconds; with 0 in the next round, after what is ready now."""
+        timer = Timer(self.clock() + delay, callback)
+        heapq.heappush(self._timers, (timer.due, next(self._order), timer))
+        return timer
+
+    def on_readable(self, descriptor: int, callback: Callback) -> None:
+        """Call whenever the descriptor can be read."""
+        self._selector.register(descriptor, selectors.EVENT_READ, callback)
+
+    def on_writable(self, descriptor: int, callback: Callback) -> None:
+        """Call whenever the descriptor can be written."""
+        self._selector.register(descriptor, selectors.EVENT_WRITE, callback)
+
+    def forget(self, descriptor: int) -> None:
+        """Call no more for this descriptor; do it before the descriptor is closed."""
+        self._selector.unregister(descriptor)
+
+    def run_once(self) -> None:
+        """Wait for the next thing to happen and make its calls."""
+        timeout = self._until_next_timer()
+        for key, _ in self._selector.select(timeout):
+            # An earlier call of this round may have forgotten a later descriptor, and opened the number anew.
+            if self._selector.get_map().get(key.fd) is key:
+                key.data()
+        self._fire(self.clock())
+
+    def close(self) -> None:
+        """Give the selector back."""
+        self._selector.close()
+
+    def _until_next_timer(self) -> float | None:
+        while self._timers and self._timers[0][2].cancelled:
+            heapq.heappop(self._timers)
+        return max(0.0, self._timers[0][0] - self.clock()) if self._timers else None
+
+    def _fire(self, now: float) -> None:
+        due: list[Timer] = []
+        while self._timers and self._timers[0][0] <= now:
+            due.append(heapq.heappop(self._timers)[2])
+        for timer in due:
+            timer.fire()

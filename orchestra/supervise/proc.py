@@ -1,0 +1,97 @@
+"""Facts about processes from /proc (proc(5)). A process that has gone is None or missing, never an error."""
+
+from __future__ import annotations
+
+import os
+
+
+class Stat:
+    """What matters here of /proc/PID/stat."""
+
+    __slots__ = ("group", "parent", "pid", "session", "state")
+
+    def __init__(self, pid: int, state: str, parent: int, group: int, session: int) -> None:
+        self.pid = pid
+        self.state = state
+        self.parent = parent
+        self.group = group
+        self.session = session
+
+
+def stat(pid: int) -> Stat | None:
+    """Return the facts of a process; None where it has been reaped."""
+    content = _read(f"/proc/{pid}/stat")
+    if content is None:
+        return None
+    # The name is in parentheses and may itself contain spaces and parentheses.
+    state, parent, group, session = content.rpartition(b")")[2].split()[:4]
+    return Stat(pid, state.decode(), int(parent), int(group), int(session))
+
+
+def pids() -> list[int]:
+    """Return every process on the machine."""
+    return [int(name) for name in os.listdir("/proc")  # noqa: PTH208 - as above
+     if name.isdigit()]
+
+
+def children(pid: int) -> list[int]:
+    """Return the children of all threads of a process, ended ones that nobody has reaped included."""
+    found: list[int] = []
+    try:
+        threads = os.listdir(f"/proc/{pid}/task")  # noqa: PTH208 - pathlib is slow to import and this runs in the keeper
+    except OSError:
+        return found
+    for thread in threads:
+        content = _read(f"/proc/{pid}/task/{thread}/children")
+        if content is None and _read(f"/proc/self/task/{os.getpid()}/children") is None:
+            return _children_by_scan(pid)
+        found.extend(int(word) for word in (content or b"").split())
+    return found
+
+
+def descendants(root: int) -> list[int]:
+    """Return every living descendant of a process, nearest first; ended ones count only for what is below them."""
+    below: dict[int, list[Stat]] = {}
+    for pid in pids():
+        facts = stat(pid)
+        if facts:
+            below.setdefault(facts.parent, []).append(facts)
+    found: list[int] = []
+    layer = [root]
+    while layer:
+        facts_of_layer = [facts for parent in layer for facts in below.get(parent, ())]
+        found.extend(facts.pid for facts in facts_of_layer if facts.state not in "ZX")
+        layer = [facts.pid for facts in facts_of_layer]
+    return found
+
+
+def marks(pid: int, names: tuple[str, ...]) -> tuple[str | None, ...]:
+    """Return the values of environment variables with which a process was started; None where one is missing."""
+    content = _read(f"/proc/{pid}/environ") or b""
+    entries = dict(entry.partition(b"=")[::2] for entry in content.split(b"\0"))
+    return tuple(_text(entries.get(name.encode())) for name in names)
+
+
+def command(pid: int) -> str:
+    """Return the command line for people, the name where there is none."""
+    content = _read(f"/proc/{pid}/cmdline") or b""
+    words = content.rstrip(b"\0").replace(b"\0", b" ") or _read(f"/proc/{pid}/comm") or b"?"
+    return words.decode("utf-8", "replace").strip()
+
+
+def _children_by_scan(parent: int) -> list[int]:
+    """Do without the `children` files: not every kernel has them (CONFIG_PROC_CHILDREN)."""
+    everything = (stat(pid) for pid in pids())
+    return [facts.pid for facts in everything if facts and facts.parent == parent]
+
+
+def _read(path: str) -> bytes | None:
+    try:
+        with open(path, "rb") as file:  # noqa: PTH123 - pathlib is slow to import and this runs in the keeper
+            return file.read()
+    except OSError:
+        return None
+
+
+def _text(value: bytes | None) -> str | None:
+    return None if value is None else os.fsdecode(value)

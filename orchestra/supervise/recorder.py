@@ -1,0 +1,45 @@
+"""Writes the event stream."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any
+
+from orchestra import events
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from orchestra.events import Kind
+    from orchestra.logs.files import LogFile
+
+
+class Recorder:
+    """Turns what happened into events with both times, and appends them to a file."""
+
+    def __init__(
+        self,
+        file: LogFile,
+        wall: Callable[[], float] = time.time,
+        monotonic: Callable[[], float] = time.monotonic,
+    ) -> None:
+        self._file = file
+        self._wall = wall
+        self._monotonic = monotonic
+
+    def record(
+        self,
+        kind: Kind,
+        process: str | None = None,
+        *,
+        pid: int | None = None,
+        cause: str | None = None,
+        **data: Any,  # noqa: ANN401 - JSON
+    ) -> None:
+        """Append an event."""
+        event = events.Event(self._wall(), self._monotonic(), kind, process, pid, cause, data)
+        self._file.write(events.dumps(event) + "\n")
+
+    def close(self) -> None:
+        """Close the stream."""
+        self._file.close()

@@ -1,0 +1,100 @@
+"""Waits for the resolver's document; a stop signal ends the wait, and the resolver."""
+
+from __future__ import annotations
+
+import os
+import signal
+from typing import TYPE_CHECKING
+
+from orchestra.supervise import document
+from orchestra.supervise.ending import Ending, signal_name
+from orchestra.supervise.kin import send_to_groups
+
+if TYPE_CHECKING:
+    from orchestra.supervise.document import Document
+    from orchestra.supervise.loop import Loop
+    from orchestra.supervise.resolver import Resolver
+
+_READ_SIZE = 1 << 20
+_SIGNALLED = 128
+
+
+class Refused(Exception):  # noqa: N818 - nothing is wrong with the run: there is none
+    """There is nothing to run. `status` is the exit status; the message is None where the user has been told."""
+
+    def __init__(self, status: int, message: str | None = None) -> None:
+        super().__init__(message)
+        self.status = status
+        self.message = message
+
+
+class Collection:
+    """Reads what the resolver writes until it has ended, or somebody wants no run any more."""
+
+    def __init__(self, resolver: Resolver, loop: Loop) -> None:
+        self._resolver = resolver
+        self._loop = loop
+        self._content = bytearray()
+        self._open = True
+        self._ending: Ending | None = None
+        self._signal: int | None = None
+        self._pidfd = os.pidfd_open(resolver.pid)
+        loop.on_readable(resolver.descriptor, self._read)
+        loop.on_readable(self._pidfd, self._exited)
+
+    def stop_signal(self, number: int) -> None:
+        """End it all: nothing has been started yet."""
+        self._signal = number if self._signal is None else self._signal
+        send_to_groups([self._resolver.pid], signal.SIGKILL)
+
+    @property
+    def done(self) -> bool:
+        """Whether there is an answer."""
+        return self._ending is not None
+
+    def result(self) -> Document:
+        """Return the document. Raises `Refused` where there is none."""
+        ending = self._ending
+        if self._signal is not None:
+            raise Refused(
+                _SIGNALLED + self._signal,
+                f"stopped by {signal_name(self._signal)} before anything was started",
+            )
+        if ending is None or ending.signal is not None:
+            raise Refused(
+                1, f"the resolver, which reads the launch files, was ended by {ending}; nothing was started"
+            )
+        if ending.code:
+            raise Refused(ending.code)
+        try:
+            return document.loads(bytes(self._content))
+        except ValueError as error:
+            raise Refused(
+                3, f"this is a bug in Orchestra: the resolver handed over no plan: {error}"
+            ) from error
+
+    def _read(self) -> bool:
+        try:
+            data = os.read(self._resolver.descriptor, _READ_SIZE)
+        except BlockingIOError:
+            return False
+        self._content += data
+        if not data:
+            self._close()
+        return bool(data)
+
+    def _close(self) -> None:
+        if self._open:
+            self._open = False
+            self._loop.forget(self._resolver.descriptor)
+            os.close(self._resolver.descriptor)
+
+    def _exited(self) -> None:
+        """What it wrote is in the pipe; whoever else holds the pipe open is not waited for."""
+        while self._open and self._read():
+            pass
+        self._close()
+        self._loop.forget(self._pidfd)
+        os.close(self._pidfd)
+        code = os.waitstatus_to_exitcode(os.waitpid(self._resolver.pid, 0)[1])
+        self._ending = Ending(code=code) if code >= 0 else Ending(signal=-code)

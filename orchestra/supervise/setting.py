@@ -1,0 +1,122 @@
+"""Opens what a run needs around it, and closes it at the end: log files, screens, the event stream."""
+
+from __future__ import annotations
+
+import os
+from contextlib import ExitStack, contextmanager
+from typing import TYPE_CHECKING
+
+from orchestra.logs.files import LogFile
+from orchestra.logs.journal import Journal, Sheet, Sheets
+from orchestra.logs.screen import Screen, same_file
+from orchestra.logs.terminal_text import wants_colour
+from orchestra.supervise.environment import node_environment
+from orchestra.supervise.host import this_host
+from orchestra.supervise.kin import Kin
+from orchestra.supervise.observation import Observers
+from orchestra.supervise.recorder import Recorder
+from orchestra.supervise.surroundings import Surroundings
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+    from orchestra.plan.model import Plan, Process
+    from orchestra.supervise.directory import RunDirectory
+    from orchestra.supervise.loop import Loop
+    from orchestra.supervise.options import RunOptions
+
+_STDOUT, _STDERR = 1, 2
+# A screen that takes nothing for so long gets no more, in seconds.
+_SCREEN_PATIENCE = 0.5
+
+
+@contextmanager
+def surroundings(
+    loop: Loop,
+    run_directory: RunDirectory,
+    plan: Plan,
+    options: RunOptions,
+    *,
+    run_id: str,
+    failed: Callable[[str], None],
+) -> Iterator[Surroundings]:
+    """Open everything for a run. `failed` hears when the run cannot go on because a tool of ours died."""
+    with ExitStack() as opened:
+        sheets = opened.enter_context(_screens(loop, options))
+        warn = _Warning()
+        words = {process.id: process.output for process in plan.processes}
+        journal = Journal(run_directory.logs, words, sheets, warn)
+        warn.say = journal.say
+        opened.callback(_close_journal, journal)
+        recorder = Recorder(LogFile(run_directory.events, warn))
+        opened.callback(recorder.close)
+        kin = Kin(run_id)
+        yield Surroundings(
+            loop=loop,
+            kin=kin,
+            journal=journal,
+            recorder=recorder,
+            observers=Observers(loop, kin, lambda text: journal.say(f"observer: {text.rstrip()}"), failed),
+            environment=_environment(run_directory, run_id, colour=sheets.output.colour),
+        )
+
+
+class _Warning:
+    """Tells about files that cannot be written: once for all of them, since the cause is one."""
+
+    def __init__(self) -> None:
+        self.say: Callable[[str], None] | None = None
+
+    def __call__(self, path: Path, error: OSError) -> None:
+        say, self.say = self.say, None
+        if say:
+            say(f"logs are incomplete: {path} cannot be written: {error.strerror}")
+
+
+def _close_journal(journal: Journal) -> None:
+    if journal.lost:
+        journal.say(f"{journal.lost} bytes of logs could not be written")
+    journal.close()
+
+
+def _environment(
+    run_directory: RunDirectory, run_id: str, *, colour: bool
+) -> Callable[[Process], dict[str, str]]:
+    host, caller, ros_logs = this_host(), dict(os.environ), str(run_directory.logs / "ros")
+
+    def environment(process: Process) -> dict[str, str]:
+        return node_environment(
+            caller, host, process.environment, log_folder=ros_logs, colour=colour, marks=(run_id, process.id)
+        )
+
+    return environment
+
+
+@contextmanager
+def _screens(loop: Loop, options: RunOptions) -> Iterator[Sheets]:
+    """Open standard output for processes and standard error for ourselves; one sheet where both are the same."""
+    with ExitStack() as opened:
+        output = opened.enter_context(_sheet(loop, _STDOUT, options))
+        if same_file(_STDOUT, _STDERR):
+            yield Sheets(output, output)
+        else:
+            yield Sheets(output, opened.enter_context(_sheet(loop, _STDERR, options)))
+
+
+@contextmanager
+def _sheet(loop: Loop, descriptor: int, options: RunOptions) -> Iterator[Sheet]:
+    colour = wants_colour(asked=options.colour, terminal=os.isatty(descriptor), environment=dict(os.environ))
+
+    def watch(wanted: bool) -> None:
+        if wanted:
+            loop.on_writable(screen.descriptor, screen.writable)
+        else:
+            loop.forget(screen.descriptor)
+
+    screen = Screen(descriptor, watch)
+    try:
+        yield Sheet(screen, colour=colour)
+    finally:
+        screen.finish(_SCREEN_PATIENCE)
+        screen.close()

@@ -1,0 +1,284 @@
+"""One process of the plan in action: carries out what its state machine decides, and tells it what happens."""
+
+from __future__ import annotations
+
+import signal
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from orchestra.logs.names import shown
+from orchestra.logs.tail import Tail
+from orchestra.values import Stop
+from orchestra.probes.table import probe_for
+from orchestra.supervise import life
+from orchestra.supervise.ending import Ending, unstartable
+from orchestra.supervise.kin import send_to_groups
+from orchestra.supervise.life import LIVE, Phase, Rules, State
+from orchestra.supervise.machine import ladder, succeeded, transition
+from orchestra.supervise.order import Life
+from orchestra.supervise.spawn import spawn
+from orchestra.supervise.spec import Spec, argv
+from orchestra.supervise.stream import Stream
+
+if TYPE_CHECKING:
+    from orchestra.plan.model import Process
+    from orchestra.probes.protocol import Probe
+    from orchestra.supervise.kin import Adopted
+    from orchestra.supervise.loop import Timer
+    from orchestra.supervise.spawn import Child
+    from orchestra.supervise.surroundings import Listener, Surroundings
+
+
+def rules_of(process: Process) -> Rules:
+    """Return what the plan says about the life of a process."""
+    return Rules(
+        restart=process.restart,
+        stop=process.stop or Stop(),
+        success=frozenset({0} if process.success_exit_codes is None else process.success_exit_codes),
+        awaits_ready=process.ready is not None,
+        ready_timeout=process.ready.timeout if process.ready else None,
+    )
+
+
+class Unit:
+    """A process of the plan from its first wait to its last end."""
+
+    def __init__(self, process: Process, surroundings: Surroundings, listener: Listener) -> None:
+        self.process = process
+        self.id = process.id
+        self.name = shown(process.id)
+        self.rules = rules_of(process)
+        self.state = State()
+        self.tail = Tail()
+        self._around = surroundings
+        self._listener = listener
+        self._child: Child | None = None
+        self._streams: list[Stream] = []
+        self._probe: Probe | None = None
+        self._timers: dict[str, Timer] = {}
+        self._sending = False
+
+    @property
+    def standing(self) -> Life:
+        """What the others may know."""
+        return Life(self.rules, self.state)
+
+    @property
+    def pid(self) -> int | None:
+        """The pid of the program; it may have ended already."""
+        return self._child.pid if self._child else None
+
+    @property
+    def awaits_message(self) -> bool:
+        """Whether it needs the observer, now or at its next start."""
+        settled = self.state.phase in life.FINAL or self.state.phase in (Phase.READY, Phase.STOPPING)
+        ready = self.process.ready
+        return not settled and ready is not None and probe_for(ready).request is not None
+
+    @property
+    def awaited(self) -> str:
+        """What its readiness waits for, in words."""
+        return probe_for(self.process.ready).words if self.process.ready else "its start"
+
+    def handle(self, event: life.Event) -> None:
+        """Let something happen to it."""
+        before = self.state
+        self.state, effects = transition(self.rules, before, event)
+        if self.state.phase is not before.phase:
+            self._entered(event)
+        for effect in effects:
+            self._perform(effect)
+        if self.state.phase is not before.phase:
+            self._listener.changed()
+
+    def adopted(self, adopted: Adopted) -> None:
+        """Take note of a descendant that detached itself. While stopping, it gets the signal that the others had."""
+        record = self._around.recorder.record
+        record("descendant_adopted", self.id, pid=adopted.pid, command=adopted.command)
+        if self.state.phase is Phase.STOPPING:
+            if not self._sending:
+                self._signal_late(adopted)
+        elif self.state.phase not in LIVE:
+            record("left_behind", self.id, pid=adopted.pid, command=adopted.command)
+            send_to_groups([adopted.pid], signal.SIGTERM)
+
+    def nothing_left(self) -> None:
+        """The last adopted descendant has ended."""
+        if self._child and self.state.phase is Phase.STOPPING and self.state.ending and self._child.ended():
+            self._bury()
+            self.handle(life.Gone(self._around.loop.clock()))
+
+    def _perform(self, effect: life.Effect) -> None:
+        match effect:
+            case life.Spawn():
+                self._spawn()
+            case life.Watch(timeout):
+                self._watch(timeout)
+            case life.Unwatch():
+                self._unwatch()
+            case life.Send():
+                self._send(effect)
+            case life.Pause(delay):
+                self._pause(delay)
+            case life.Settle():
+                self._cancel("rung")
+                self._cancel("pause")
+            case life.Missed():
+                self._missed()
+
+    def _pause(self, delay: float) -> None:
+        self._around.journal.say(f"{self.name} starts again" + (f" in {delay:g} s" if delay else ""))
+        self._set_timer("pause", delay, life.DelayOver())
+
+    def _spawn(self) -> None:
+        process = self.process
+        environment = self._around.environment(process)
+        tty, stdin = bool(process.emulate_tty), bool(process.stdin)
+        try:
+            child = spawn(Spec(self.id, argv(process), environment, process.cwd, tty, stdin))
+        except OSError as error:
+            self._not_started(unstartable(error))
+            return
+        self._child = child
+        self._around.kin.add(child.pid, self.id)
+        self._streams = [
+            Stream(self._around.loop, descriptor, partial(self._output, name))
+            for name, descriptor in child.outputs.items()
+        ]
+        self._around.loop.on_readable(child.pidfd, self._exited)
+        self.handle(life.Started(self._around.loop.clock()))
+
+    def _not_started(self, ending: Ending) -> None:
+        self._around.journal.say(f"{self.name} {ending}")
+        self._around.recorder.record("process_ended", self.id, **_facts(ending), uptime=0.0)
+        self._listener.ended(self.id)
+        self.handle(life.Unstartable(ending, self._around.loop.clock()))
+
+    def _exited(self) -> None:
+        """The program itself has ended; what it started may have not."""
+        child = self._child
+        ended = child.ended() if child else None
+        if child is None or ended is None:
+            return
+        self._around.loop.forget(child.pidfd)
+        for stream in self._streams:
+            stream.drain()
+        self._listener.look()
+        remains = bool(self._around.kin.of(self.id))
+        ending = Ending(*ended)
+        self._tell(ending, remains=remains)
+        if not remains:
+            self._bury()
+        self._listener.ended(self.id)
+        self.handle(life.Ended(ending, remains, self._around.loop.clock()))
+
+    def _bury(self) -> None:
+        """Nothing of this run is left: read the rest of its output, and give everything back."""
+        for stream in self._streams:
+            stream.close()
+        self._streams = []
+        if self._child:
+            self._around.kin.remove(self._child.pid)
+            self._child.reap()
+        self._child = None
+        self._around.journal.rest(self.id)
+
+    def _output(self, stream: str, text: str) -> None:
+        self._around.journal.output(self.id, stream, text)
+        self.tail.feed(text)
+        if self._probe and self._probe.read(stream, text):
+            self.handle(life.Satisfied())
+
+    def _watch(self, timeout: float | None) -> None:
+        if self.process.ready is None:
+            return
+        self._probe = probe_for(self.process.ready)
+        self._around.journal.say(f"waiting for {self.name}: {self._probe.words}")
+        if timeout is not None:
+            self._set_timer("ready", timeout, life.ReadyExpired())
+        if self._probe.request:
+            environment = self._around.environment(self.process)
+            self._around.observers.watch(self.id, self._probe.request, environment, self._observed)
+
+    def _observed(self, problem: str | None) -> None:
+        if problem is None:
+            self.handle(life.Satisfied())
+        else:
+            self._listener.failed(f"cannot tell whether {self.name} is ready: {problem}")
+
+    def _unwatch(self) -> None:
+        self._probe = None
+        self._cancel("ready")
+        self._around.observers.forget(self.id)
+
+    def _missed(self) -> None:
+        timeout = self.rules.ready_timeout
+        self._listener.failed(
+            f"{self.name} was not ready within {timeout:g} s: waited for {self.awaited}", self.id
+        )
+
+    def _send(self, step: life.Send) -> None:
+        number = signal.Signals[step.signal]
+        if step.rung > life.POLITE:
+            self._around.journal.say(f"{self.name} has not ended yet: {step.signal}")
+        self._sending = True
+        self._listener.look()
+        self._sending = False
+        members = [adopted.pid for adopted in self._around.kin.of(self.id)]
+        self._around.recorder.record("signal_sent", self.id, pid=self.pid, signal=step.signal)
+        send_to_groups([*([self.pid] if self.pid else []), *members], number)
+        self._cancel("rung")
+        if step.timeout is not None:
+            self._set_timer("rung", step.timeout, life.RungExpired(step.rung))
+
+    def _signal_late(self, adopted: Adopted) -> None:
+        """Signal what came out of the process only now; its own group has had the signal already."""
+        step = ladder(self.rules.stop, self.state.rung)
+        if step.rung == life.KILL or self._around.kin.group(adopted.pid) != self.pid:
+            send_to_groups([adopted.pid], signal.Signals[step.signal])
+
+    def _set_timer(self, name: str, delay: float, event: life.Event) -> None:
+        self._cancel(name)
+        self._timers[name] = self._around.loop.call_later(delay, lambda: self.handle(event))
+
+    def _cancel(self, name: str) -> None:
+        timer = self._timers.pop(name, None)
+        if timer:
+            timer.cancel()
+
+    def _entered(self, event: life.Event) -> None:
+        """Record the new phase, and tell the user what he should know."""
+        phase, ending = self.state.phase, self.state.ending
+        data = _facts(ending) if ending and phase in life.FINAL else {}
+        if phase is Phase.RUNNING:
+            data = {"start": self.state.starts}
+        self._around.recorder.record(
+            f"process_{phase}",  # type: ignore[arg-type] # there is a kind for every phase
+            self.id,
+            pid=self.pid,
+            cause=type(event).__name__,
+            **data,
+        )
+        if phase is Phase.FAILED and self.rules.restart and self.rules.restart.policy != "no":
+            self._around.journal.say(f"{self.name} is not started again: too many short runs in a row")
+        if phase is Phase.READY:
+            uptime = self._around.loop.clock() - self.state.started_at
+            self._around.journal.say(f"{self.name} is ready after {uptime:.1f} s")
+
+    def _tell(self, ending: Ending, *, remains: bool) -> None:
+        uptime = self._around.loop.clock() - self.state.started_at
+        record = self._around.recorder.record
+        record("process_ended", self.id, pid=self.pid, **_facts(ending), uptime=round(uptime, 6))
+        if self.state.phase is Phase.STOPPING:
+            return
+        verb = "ended" if succeeded(self.rules, ending) else "failed"
+        self._around.journal.say(f"{self.name} {verb} ({ending}) after {uptime:.1f} s")
+        for adopted in self._around.kin.of(self.id) if remains else ():
+            record("left_behind", self.id, pid=adopted.pid, command=adopted.command)
+            self._around.journal.say(
+                f"{self.name} left a process behind: {adopted.command} (pid {adopted.pid})"
+            )
+
+
+def _facts(ending: Ending) -> dict[str, Any]:
+    return {"code": ending.code, "signal": ending.signal, "reason": ending.reason}

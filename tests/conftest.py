@@ -1,0 +1,54 @@
+"""What holds for every test: nothing that a session started outlives it."""
+
+from __future__ import annotations
+
+import os
+import time
+import uuid
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+# Inherited by every process that a test starts, directly or through Orchestra.
+_SESSION = "ORCHESTRA_TEST_SESSION"
+_MARK = b"ORCHESTRA_RUN="
+# As long as Orchestra itself may take to end everything.
+_PATIENCE = 6.0
+
+
+def pytest_configure() -> None:
+    os.environ[_SESSION] = uuid.uuid4().hex
+
+
+@pytest.fixture(scope="session", autouse=True)
+def nothing_outlives_the_session() -> Iterator[None]:
+    """Fail where a process with the mark of a run that this session started is left at its end."""
+    yield
+    deadline = time.monotonic() + _PATIENCE
+    while (left := _survivors()) and time.monotonic() < deadline:
+        time.sleep(0.1)
+    assert not left, f"left by runs of this session: {left}"
+
+
+def _survivors() -> list[str]:
+    session = f"{_SESSION}={os.environ[_SESSION]}".encode()
+    return [
+        f"{pid}: {_read(pid, 'cmdline').replace(bytes(1), b' ').decode('utf-8', 'replace')}"
+        for pid in os.listdir("/proc")  # noqa: PTH208 - names are all that is needed
+        if pid.isdigit() and int(pid) != os.getpid() and _belongs(_read(pid, "environ").split(b"\0"), session)
+    ]
+
+
+def _belongs(environment: list[bytes], session: bytes) -> bool:
+    return session in environment and any(entry.startswith(_MARK) for entry in environment)
+
+
+def _read(pid: str, name: str) -> bytes:
+    try:
+        return Path(f"/proc/{pid}/{name}").read_bytes()
+    except OSError:
+        return b""

@@ -1,0 +1,107 @@
+"""Stands in for a node: does what its words say, in order, and says when it has.
+
+    ignore=INT,TERM     ignore these signals
+    polite=3            on SIGINT or SIGTERM say "bye" and exit with 3
+    child               start a stand-in that ignores nothing in the own group
+    child=ignore        ... that ignores INT and TERM
+    escape              start one in a session of its own (setsid); escape=ignore as above
+    daemon              start one as a daemon (double fork and setsid); daemon=ignore as above
+    anonymous           start a daemon without any environment
+    say=TEXT            write a line to standard output
+    complain=TEXT       write a line to standard error
+    partial=TEXT        write text without an end of line
+    bytes=N             write N bytes of numbered lines
+    show=NAME           write the value of an environment variable
+    disposition         write which signals are ignored and blocked
+    terminal            write whether standard input, output and error are terminals
+    exit=N, kill=NAME   end
+    linger              wait for ever, without being woken by anything periodic
+"""
+
+import os
+import signal
+import subprocess
+import sys
+
+
+def write(text: str, descriptor: int = 1) -> None:
+    data = memoryview(text.encode("utf-8", "surrogateescape"))
+    while data:
+        data = data[os.write(descriptor, data) :]
+
+
+def numbers(words: str) -> list[signal.Signals]:
+    return [signal.Signals[f"SIG{word}"] for word in words.split(",") if word]
+
+
+def bid_farewell(status: int) -> None:
+    def end(_number: int, _frame: object) -> None:
+        write("bye\n")
+        os._exit(status)
+
+    for number in (signal.SIGINT, signal.SIGTERM):
+        signal.signal(number, end)
+
+
+def start(kind: str, stubborn: bool) -> None:
+    """Start another stand-in and wait until it is there."""
+    words = [sys.executable, "-S", "-E", __file__, *(["ignore=INT,TERM"] if stubborn else []), "say=up", "linger"]
+    script = {"child": words, "escape": words}.get(kind)
+    read, told = os.pipe()
+    if script:
+        subprocess.Popen(script, stdout=told, start_new_session=kind == "escape")
+    elif os.fork() == 0:
+        os.setsid()
+        environment = {} if kind == "anonymous" else None
+        subprocess.Popen(words, stdout=told, env=environment)
+        os._exit(0)
+    else:
+        os.wait()
+    os.close(told)
+    os.read(read, 3)
+
+
+def linger() -> None:
+    while True:
+        signal.pause()
+
+
+def act(word: str) -> None:
+    name, _, value = word.partition("=")
+    match name:
+        case "ignore":
+            for number in numbers(value):
+                signal.signal(number, signal.SIG_IGN)
+        case "polite":
+            bid_farewell(int(value or 0))
+        case "child" | "escape" | "daemon" | "anonymous":
+            start(name, value == "ignore")
+        case "say":
+            write(value + "\n")
+        case "complain":
+            write(value + "\n", 2)
+        case "partial":
+            write(value)
+        case "bytes":
+            lines = "".join(f"{number:011d}\n" for number in range(int(value) // 12))
+            write(lines)
+        case "show":
+            write(f"{value}={os.environ.get(value)}\n")
+        case "disposition":
+            with open("/proc/self/status") as status:
+                write("".join(line for line in status if line.startswith(("SigBlk", "SigIgn"))))
+        case "terminal":
+            write(" ".join(str(os.isatty(descriptor)) for descriptor in range(3)) + "\n")
+        case "exit":
+            os._exit(int(value))
+        case "kill":
+            os.kill(os.getpid(), signal.Signals[f"SIG{value}"])
+        case "linger":
+            linger()
+        case _:
+            raise SystemExit(f"unknown word {word}")
+
+
+signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback
+for given in sys.argv[1:]:
+    act(given)
