@@ -1,4 +1,4 @@
 """The simulated world of the bringup: layout, physics, sensors and picture.
 
-Only `inbox`, `messages`, `parameters` and `topics` know ROS.
+Only `inbox`, `messages`, `parameters`, `topics` and `running` know ROS.
 """

@@ -18,7 +18,7 @@ class InertialNoise:
     """Standard deviation per sample and bias on every axis, in rad/s and m/s^2."""
 
     gyro_noise: float = 0.005
-    gyro_bias: float = 0.0005
+    gyro_bias: float = 0.0002
     accelerometer_noise: float = 0.05
     accelerometer_bias: float = 0.02
 

@@ -105,7 +105,7 @@ TABLE = (
         "wheel_noise", 0.002, "Standard deviation of a wheel's counted travel after 1 m, in m.", 0.0, 0.5
     ),
     Setting("gyro_noise", 0.005, "Standard deviation of each turning rate, in rad/s.", 0.0, 1.0),
-    Setting("gyro_bias", 0.0005, "Constant error of each turning rate, in rad/s.", -1.0, 1.0),
+    Setting("gyro_bias", 0.0002, "Constant error of each turning rate, in rad/s.", -1.0, 1.0),
     Setting("accelerometer_noise", 0.05, "Standard deviation of each acceleration, in m/s^2.", 0.0, 10.0),
     Setting("accelerometer_bias", 0.02, "Constant error of each acceleration, in m/s^2.", -10.0, 10.0),
     Setting("lidar_noise", 0.01, "Standard deviation of each range, in m.", 0.0, 1.0),

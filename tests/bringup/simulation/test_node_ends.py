@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 import signal
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -12,7 +13,6 @@ import pytest
 if TYPE_CHECKING:
     from collections.abc import Callable
     from contextlib import AbstractContextManager
-    from pathlib import Path
 
     Start = Callable[..., AbstractContextManager[Any]]
 
@@ -33,6 +33,17 @@ def test_a_signal_ends_the_run_as_if_it_were_over(start: Start, number: int, tmp
     assert picture.exists()
     # It takes a third of a second; the bound allows for a machine that has other things to do.
     assert took < 5.0
+
+
+def test_a_signal_during_the_imports_is_an_end_too(start: Start) -> None:
+    with start(DOMAIN) as run:
+        maps = Path(f"/proc/{run.process.pid}/maps")
+        deadline = time.monotonic() + 60.0
+        while "rclpy" not in maps.read_text():
+            assert time.monotonic() < deadline
+        run.process.send_signal(signal.SIGINT)
+        status, said = run.end()
+    assert (status, "Traceback" in said) == (0, False)
 
 
 @pytest.mark.parametrize(
