@@ -29,9 +29,8 @@ def main() -> None:
     """Run the ordered command to its end or until the caller lets go, end what is left, report."""
     report = int(sys.argv[1])
     os.set_inheritable(report, False)
-    signal.signal(
-        signal.SIGCHLD, signal.SIG_DFL
-    )  # where a caller ignores it, no status would be left to wait for
+    # Where the caller ignores it, there would be no status to wait for.
+    signal.signal(signal.SIGCHLD, signal.SIG_DFL)
     _prctl(_PR_SET_CHILD_SUBREAPER, 1)
     argv, environment = marshal.load(sys.stdin.buffer)  # noqa: S302 - the caller is this same program
     leader = os.fork()
