@@ -50,9 +50,11 @@ def _items(events: Sequence[yaml.Event], construct: Construct) -> list[Any]:
     named: dict[str, yaml.ScalarEvent] = {}
     items = []
     for event in events:
-        scalar = named.get(event.anchor or "") if isinstance(event, yaml.AliasEvent) else event
-        if scalar is None:
-            raise ValueError(f"the alias '*{event.anchor}' has no anchor")
+        scalar: yaml.Event | None = event
+        if isinstance(event, yaml.AliasEvent):
+            scalar = named.get(event.anchor or "")
+            if scalar is None:
+                raise ValueError(f"the alias '*{event.anchor}' has no anchor")
         if not isinstance(scalar, yaml.ScalarEvent):
             raise ValueError("a list of lists or mappings cannot be a parameter")  # noqa: TRY004
         if scalar.anchor is not None:

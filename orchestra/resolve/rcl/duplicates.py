@@ -1,0 +1,48 @@
+"""What one parameter file sets twice for the same pattern."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code
+from orchestra.resolve.rcl.table import Slot, found, place
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from orchestra.errors import Problems
+    from orchestra.resolve.rcl.sections import Entry, Section
+
+
+def report_duplicates(sections: Sequence[Section], problems: Problems) -> None:
+    """Report every parameter that gets a second value for a pattern, and every value that a group displaces."""
+    table: dict[str, list[Slot]] = {}
+    for section in sections:
+        slots = table.setdefault(section.pattern, [])
+        for entry in section.entries:
+            before = found(slots, entry.slot)
+            displaced = before.entry if before is not None and before.name != entry.name else None
+            earlier = next((slot.entry for slot in slots if slot.name == entry.name and slot.entry), None)
+            slot = place(slots, entry)
+            if displaced is not None:
+                _report_displaced(entry, displaced, problems)
+            elif earlier is not None and entry.value is not None:
+                _report_duplicate(section.pattern, entry, earlier, slot, problems)
+
+
+def _report_duplicate(pattern: str, entry: Entry, earlier: Entry, slot: Slot, problems: Problems) -> None:
+    counts = "this value counts" if slot.entry is entry else f"rcl keeps the one at {earlier.location}"
+    problems.warning(
+        Code.DUPLICATE_PARAMETER,
+        f"'{entry.name}' is set twice for '{pattern}'; {counts}",
+        entry.key,
+        notes=[f"set first at {earlier.location}"],
+    )
+
+
+def _report_displaced(entry: Entry, displaced: Entry, problems: Problems) -> None:
+    problems.warning(
+        Code.DUPLICATE_PARAMETER,
+        f"rcl drops the value of '{displaced.name}' at {displaced.location} for the sake of '{entry.name}'",
+        entry.key,
+    )

@@ -1,0 +1,101 @@
+"""Which value of a parameter counts in a node.
+
+rcl merges everything on the command line into one table by pattern. A node applies the patterns that match it in the
+order in which each appeared first, a later pattern over an earlier one; within one pattern the last value counts.
+Measured: `tests/data/rcl-probes.jsonl`.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from orchestra.resolve.rcl.patterns import matches
+from orchestra.resolve.rcl.sections import Entry, Section
+from orchestra.resolve.rcl.table import kind_of, tabulated
+from orchestra.values import ParameterValue
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from orchestra.location import Location
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """A value that somebody wrote for a parameter of the node; `won` marks the one that counts."""
+
+    pattern: str
+    entry: Entry
+    won: bool
+
+    @property
+    def value(self) -> ParameterValue | None:
+        """What was written."""
+        return self.entry.value
+
+    @property
+    def location(self) -> Location:
+        """Where it was written."""
+        return self.entry.location
+
+
+@dataclass(frozen=True, slots=True)
+class Setting:
+    """A parameter of a node: its value, all that was written for it in order, and why this value counts.
+
+    `value` is None where rcl hands the node a parameter without a type (an empty list or mapping), which makes it
+    fail. `overruled` is the value that plain "last wins" would have chosen, where that is another one.
+    """
+
+    name: str
+    value: ParameterValue | None
+    written: tuple[Written, ...]
+    rule: str
+    overruled: Written | None
+
+
+def effective(sections: Iterable[Section], full_name: str) -> dict[str, Setting]:
+    """Return the parameters of the node by name, given all sections in the order of its command line."""
+    matching = [section for section in sections if matches(section.pattern, full_name)]
+    winners: dict[str, tuple[str, Entry | None]] = {}
+    for pattern, slots in tabulated(matching).items():
+        for slot in slots:
+            winners[slot.name] = (pattern, slot.entry)
+    written: dict[str, list[tuple[str, Entry]]] = {name: [] for name in winners}
+    for section in matching:
+        for entry in section.entries:
+            if entry.name in written and entry.value is not None:
+                written[entry.name].append((section.pattern, entry))
+    return {name: _setting(name, *winners[name], written[name]) for name in winners}
+
+
+def _setting(name: str, pattern: str, winner: Entry | None, written: list[tuple[str, Entry]]) -> Setting:
+    candidates = tuple(Written(where, entry, entry is winner) for where, entry in written)
+    last = candidates[-1] if candidates else None
+    overruled = last is not None and winner is not None and repr(last.value) != repr(winner.value)
+    return Setting(
+        name,
+        None if winner is None else winner.value,
+        candidates,
+        _rule(pattern, winner, candidates),
+        last if overruled else None,
+    )
+
+
+def _rule(pattern: str, winner: Entry | None, candidates: tuple[Written, ...]) -> str:
+    """Return why the winner counts, as half a sentence."""
+    if winner is None or winner.value is None:
+        return f"'{pattern}' gives it no value"
+    if len(candidates) == 1:
+        return f"set for '{pattern}'"
+    others = list(
+        dict.fromkeys(candidate.pattern for candidate in candidates if candidate.pattern != pattern)
+    )
+    if others:
+        return (
+            f"'{pattern}' is the matching pattern that appears last for the first time, after '{others[-1]}'"
+        )
+    if candidates[-1].won:
+        return f"the last value for '{pattern}'"
+    return f"of values of several types for '{pattern}', rcl takes the {kind_of(winner.value)}"

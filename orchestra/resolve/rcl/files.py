@@ -1,0 +1,70 @@
+"""Parameter files as rcl reads them.
+
+rcl runs a small state machine over libyaml's events instead of building a tree, and what it makes of unusual files
+follows from that machine; so the same states are kept here (`_Reader`), beside what the file plainly says, and a
+warning is given where the two part. Source: `rcl_yaml_param_parser` (`parse_file_events`) of Jazzy; measured in
+`tests/data/rcl-probes.jsonl` and tested against the real one.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import yaml
+
+from orchestra.errors import Code
+from orchestra.location import Location, Span
+from orchestra.resolve.rcl.duplicates import report_duplicates
+from orchestra.resolve.rcl.reader import Reader, Unreadable
+from orchestra.resolve.rcl.values import LOADER
+
+if TYPE_CHECKING:
+    from orchestra.errors import Problems
+    from orchestra.resolve.rcl.sections import Section
+
+
+def read_parameter_file(
+    text: str, file: str, problems: Problems, included_from: tuple[Span, ...] = ()
+) -> tuple[Section, ...]:
+    """Return the sections of a parameter file in order.
+
+    Everything that rcl refuses is reported as an error (`PARAMETER_SYNTAX`, `PARAMETER_TYPE`), what it takes in a
+    way that nobody means as a warning, what is set twice as `DUPLICATE_PARAMETER`. After an error the sections are
+    those that could be read all the same.
+    """
+    reader = Reader(file, problems, included_from)
+    try:
+        for event in yaml.parse(text.removeprefix("\ufeff"), Loader=LOADER):
+            reader.take(event)
+    except yaml.YAMLError as error:
+        at = Location(_span(file, error), included_from)
+        problems.error(Code.PARAMETER_SYNTAX, f"not YAML: {_reason(text, error)}", at)
+    except UnicodeEncodeError:
+        at = Location(Span(file, 1, 1, 1, 1), included_from)
+        problems.error(Code.PARAMETER_SYNTAX, "not YAML: a lone surrogate", at)
+    except Unreadable:
+        pass  # the reader has reported why it cannot go on
+    sections = reader.sections()
+    report_duplicates(sections, problems)
+    return sections
+
+
+def _span(file: str, error: yaml.YAMLError) -> Span:
+    mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
+    if mark is None:
+        return Span(file, 1, 1, 1, 1)
+    line, column = mark.line + 1, mark.column + 1
+    return Span(file, line, column, line, column + 1)
+
+
+def _reason(text: str, error: yaml.YAMLError) -> str:
+    problem = getattr(error, "problem", None) or getattr(error, "reason", None) or str(error)
+    mark = getattr(error, "problem_mark", None)
+    lines = text.splitlines()
+    if (
+        mark is not None
+        and mark.line < len(lines)
+        and lines[mark.line][mark.column : mark.column + 1] == "\t"
+    ):
+        return "a tab cannot indent"
+    return str(problem).strip()

@@ -1,0 +1,39 @@
+"""What the reader of parameter files has open at a time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import yaml
+
+from orchestra.location import Location
+from orchestra.resolve.rcl.sections import Entry
+from orchestra.values import Scalar
+
+
+@dataclass(slots=True)
+class OpenParameter:
+    """The key that was read last: rcl's name for it, and the name under which it looks for its slot."""
+
+    name: str
+    slot: str
+    key: Location
+
+
+@dataclass(slots=True)
+class OpenSection:
+    """A section that is being read; one with a faulty pattern is left out."""
+
+    pattern: str
+    location: Location
+    sound: bool
+    entries: list[Entry] = field(default_factory=list)
+
+
+@dataclass(slots=True)
+class OpenList:
+    """A list that is being read; `items` is None once an inner list has ended."""
+
+    start: yaml.Event
+    items: list[Scalar] | None = field(default_factory=list)
+    sound: bool = True

@@ -1,0 +1,273 @@
+"""The states of rcl's parser of parameter files, event by event."""
+
+from __future__ import annotations
+
+import copy
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+import yaml
+
+from orchestra.errors import Code, Problems
+from orchestra.location import Location, Span
+from orchestra.resolve.rcl.joined import Joined, joined
+from orchestra.resolve.rcl.opened import OpenList, OpenParameter, OpenSection
+from orchestra.resolve.rcl.patterns import pattern_fault
+from orchestra.resolve.rcl.sections import Entry, Section
+from orchestra.resolve.rcl.table import kind_of
+from orchestra.resolve.rcl.values import scalar, terminated
+
+if TYPE_CHECKING:
+    from orchestra.values import ParameterValue, Scalar
+
+_KEY = "ros__parameters"
+
+
+class Unreadable(Exception):  # noqa: N818 - no fault of the program
+    """What follows cannot be made sense of; why has been reported."""
+
+
+@dataclass(slots=True)
+class Reader:
+    """Takes the events of a file one by one; `sections` returns what they came to.
+
+    `inside` (a `ros__parameters` mapping), `fresh` (a mapping whose first key is to come), `depth`, `node` and
+    `group` are rcl's states. `keys` are the keys of the open mappings: what the file plainly says.
+    """
+
+    file: str
+    problems: Problems
+    included_from: tuple[Span, ...]
+    inside: bool = False
+    expects_key: bool = True
+    fresh: bool = False
+    depth: int = 0
+    node: Joined = field(default_factory=lambda: Joined("/"))
+    group: Joined = field(default_factory=lambda: Joined("."))
+    keys: list[str] = field(default_factory=list)
+    node_depth: int = 0  # how many of `keys` lead to the section
+    last_key: str = ""
+    before_key: Joined = field(default_factory=lambda: Joined("/"))
+    parameter: OpenParameter | None = None
+    lists: list[OpenList] = field(default_factory=list)
+    emptied: Location | None = None
+    found: list[OpenSection] = field(default_factory=list)
+
+    def sections(self) -> tuple[Section, ...]:
+        """Return the sections read so far."""
+        sound = (section for section in self.found if section.sound)
+        return tuple(Section(section.pattern, tuple(section.entries), section.location) for section in sound)
+
+    def take(self, event: yaml.Event) -> None:
+        """Go on by one event. Raises `Unreadable` where there is no going on."""
+        if isinstance(event, yaml.ScalarEvent):
+            if self.expects_key:
+                self.key(event)
+            else:
+                self.value(event)
+        elif isinstance(event, yaml.MappingStartEvent):
+            self.open_mapping(event)
+        elif isinstance(event, yaml.MappingEndEvent):
+            self.close_mapping(event)
+        elif isinstance(event, yaml.SequenceStartEvent):
+            self.open_list(event)
+        elif isinstance(event, yaml.SequenceEndEvent):
+            self.close_list(event)
+        elif isinstance(event, yaml.AliasEvent):
+            self.alias(event)
+
+    def key(self, event: yaml.ScalarEvent) -> None:
+        """Take a key: of a node, of the section, of a parameter."""
+        name = terminated(event.value)
+        if not name:
+            raise self.unreadable("a key must not be empty", event)
+        if self.lists and self.lists[-1].items is None:
+            raise self.unreadable("a parameter cannot be a list of lists", event)
+        if self.inside:
+            self.parameter_key(name, event)
+        elif name.startswith(_KEY):
+            self.open_section(name, event)
+        else:
+            self.before_key = copy.copy(self.node)
+            self.node.grow(name)
+        self.last_key = name
+        self.expects_key = False
+
+    def open_section(self, name: str, event: yaml.ScalarEvent) -> None:
+        """Take the key `ros__parameters`: rcl looks only at how it begins."""
+        at = self.at(event)
+        if not self.node.count:
+            raise self.unreadable(f"'{_KEY}' must stand below the name of a node", event)
+        pattern, said = self.node.text, joined("/", self.keys[1:])
+        fault = pattern_fault(pattern)
+        if fault is not None:
+            self.error(f"'{pattern}' cannot be the name of a node: {fault.reason}", at)
+        elif pattern != said:
+            self.surprise(f"rcl reads this as the section of '{pattern}', not of '{said}'", at)
+        if name != _KEY:
+            self.surprise(f"rcl reads '{name}' as '{_KEY}'", at)
+        self.found.append(OpenSection(pattern, at, sound=fault is None))
+        self.before_key = copy.copy(self.node)
+        self.node.shrink()
+        self.node_depth = len(self.keys)
+        self.inside, self.parameter = True, None
+
+    def parameter_key(self, name: str, event: yaml.ScalarEvent) -> None:
+        """Take the name of a parameter or of a group of them."""
+        if self.fresh and self.parameter is not None:
+            self.group.replace(self.parameter.name)
+            self.fresh = False
+        slot = self.group.text if self.group.count else name
+        whole = f"{slot}.{name}" if self.group.count else name
+        said = ".".join([*self.keys[self.node_depth + 1 :], name])
+        if whole != said:
+            self.surprise(f"rcl reads this as the parameter '{whole}', not '{said}'", self.at(event))
+        self.parameter = OpenParameter(whole, slot, self.at(event))
+
+    def value(self, event: yaml.ScalarEvent) -> None:
+        """Take a scalar that is no key: a value, or an item of a list."""
+        if self.parameter is None or not self.inside:
+            self.misplaced(event)
+            return
+        try:
+            read = scalar(event)
+        except ValueError:
+            self.error(f"the parameter '{self.parameter.name}' has no value", self.at(event))
+            self.drop()
+            return
+        if self.lists:
+            self.item(read, event)
+        else:
+            self.emit(read, self.at(event))
+            self.expects_key = True
+
+    def item(self, read: Scalar, event: yaml.ScalarEvent) -> None:
+        """Take an item of a list, which must be of the type of the first."""
+        current = self.lists[-1]
+        items = current.items if current.items is not None else []
+        if current.sound and items and type(items[0]) is not type(read):
+            message = f"a list must hold values of one type, not {kind_of(items[0])} and {kind_of(read)}"
+            self.problems.error(Code.PARAMETER_TYPE, message, self.at(event))
+            current.sound = False
+        items.append(read)
+        current.items = items
+
+    def drop(self) -> None:
+        """Leave out the value at hand, which has been reported."""
+        if self.lists:
+            self.lists[-1].sound = False
+        else:
+            self.expects_key = True
+
+    def misplaced(self, event: yaml.Event) -> None:
+        """Report a value above the parameters, and go on as if its key were not there."""
+        if self.inside:
+            message = f"'{_KEY}' must hold a mapping from names to values"
+        elif self.depth == 0:
+            raise self.unreadable("a parameter file must be a mapping from nodes to parameters", event)
+        else:
+            empty = isinstance(event, yaml.ScalarEvent) and not event.value
+            reason = "is empty" if empty else f"stands outside '{_KEY}'"
+            message = f"'{self.last_key}' {reason}: parameters belong below '{_KEY}' of a node"
+        notes = (
+            [] if self.emptied is None else [f"the empty mapping at {self.emptied} ends the section for rcl"]
+        )
+        self.problems.error(Code.PARAMETER_SYNTAX, message, self.at(event), notes=notes)
+        self.node = self.before_key
+        self.inside, self.expects_key = False, True
+
+    def open_mapping(self, event: yaml.MappingStartEvent) -> None:
+        """Take the beginning of a mapping: of the file, of a node, of the parameters, of a group."""
+        if self.depth and self.expects_key:
+            raise self.unreadable("a mapping cannot be a key", event)
+        if self.lists:
+            self.surprise("a list of mappings is no parameter; rcl takes the mapping apart", self.at(event))
+        self.keys.append(self.last_key if self.depth else "")
+        self.depth += 1
+        section = self.inside and self.depth == self.node.count + 3
+        if self.inside and not section and self.parameter is not None:
+            self.emit(None, self.parameter.key)
+        self.fresh = not section
+        self.expects_key = True
+
+    def close_mapping(self, event: yaml.MappingEndEvent) -> None:
+        """Take the end of a mapping. An empty group ends the section for rcl: it has no level of its own to leave."""
+        if self.inside:
+            if self.group.count:
+                self.group.shrink()
+            else:
+                self.inside = False
+                if len(self.keys) > self.node_depth + 1:
+                    self.emptied = self.at(event)
+        elif self.depth == self.node.count + 1:
+            self.node.shrink()
+        self.depth -= 1
+        self.keys.pop()
+
+    def open_list(self, event: yaml.SequenceStartEvent) -> None:
+        """Take the beginning of a list; to rcl an inner list is a new beginning of the outer one."""
+        if self.expects_key:
+            what = "a parameter cannot be a list of lists" if self.lists else "a list cannot be a key"
+            raise self.unreadable(what if self.depth else "a parameter file must be a mapping", event)
+        if self.parameter is None or not self.inside:
+            raise self.unreadable(f"a list cannot stand above the parameters of '{_KEY}'", event)
+        if self.lists:
+            self.surprise("a list of lists is no parameter; rcl takes one of the inner lists", self.at(event))
+            self.flush(event)
+        self.lists.append(OpenList(event))
+
+    def close_list(self, event: yaml.SequenceEndEvent) -> None:
+        """Take the end of a list."""
+        self.flush(event)
+        self.lists.pop()
+        if self.lists:
+            self.lists[-1].items = None
+        self.expects_key = True
+
+    def flush(self, event: yaml.Event) -> None:
+        """Set the list as far as it was read. An empty one has no type: the parameter stays without a value."""
+        current = self.lists[-1]
+        if current.items is None or not current.sound:
+            return
+        value: ParameterValue | None = tuple(current.items) or None  # type: ignore[assignment] # of one type
+        self.emit(value, self.at(current.start, event))
+
+    def emit(self, value: ParameterValue | None, location: Location) -> None:
+        """Set the parameter at hand. A second value for it looks for the slot by the name it has by then."""
+        parameter = self.parameter
+        assert parameter is not None  # noqa: S101 - a value comes behind its key
+        self.found[-1].entries.append(Entry(parameter.name, value, location, parameter.key, parameter.slot))
+        parameter.slot = parameter.name
+
+    def alias(self, event: yaml.AliasEvent) -> None:
+        """Report an alias, and go on as if a faulty value stood there."""
+        message = f"rcl does not take aliases ('*{event.anchor}'): repeat the value"
+        if self.expects_key:
+            raise self.unreadable(message, event)
+        self.error(message, self.at(event))
+        if self.inside and self.parameter is not None:
+            self.drop()
+        else:
+            self.node = self.before_key
+            self.inside, self.expects_key = False, True
+
+    def at(self, first: yaml.Event, last: yaml.Event | None = None) -> Location:
+        """Return the place of an event, or from one to another."""
+        start, end = first.start_mark, (last or first).end_mark
+        assert start is not None  # noqa: S101 - events of a parser have marks
+        assert end is not None  # noqa: S101
+        span = Span(self.file, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
+        return Location(span, self.included_from)
+
+    def error(self, message: str, at: Location) -> None:
+        """Report what rcl refuses."""
+        self.problems.error(Code.PARAMETER_SYNTAX, message, at)
+
+    def surprise(self, message: str, at: Location) -> None:
+        """Report what rcl reads in another way than it stands there."""
+        self.problems.warning(Code.PARAMETER_SYNTAX, message, at)
+
+    def unreadable(self, message: str, event: yaml.Event) -> Unreadable:
+        """Report what rcl refuses and what leaves nothing to go on with; raise what is returned."""
+        self.error(message, self.at(event))
+        return Unreadable(message)

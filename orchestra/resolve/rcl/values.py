@@ -1,0 +1,34 @@
+"""From YAML events to values, as rcl's parser does it over libyaml."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+import yaml
+
+from orchestra.resolve.rcl.scalars import typed
+
+if TYPE_CHECKING:
+    from orchestra.values import Scalar
+
+# libyaml where PyYAML has it, because that is what rcl reads with; its pure twin elsewhere.
+LOADER: Final = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
+
+_STRING_TAG = "tag:yaml.org,2002:str"
+
+
+def scalar(event: yaml.ScalarEvent) -> Scalar:
+    """Return the value of a scalar: text where it is quoted or tagged `!!str`, else as `typed`; no other tag counts.
+
+    Raises `ValueError` where a value is missing.
+    """
+    quoted = event.style in ("'", '"')
+    if not event.value and not quoted:
+        raise ValueError("a value is missing")
+    text = terminated(event.value)
+    return text if quoted or event.tag == _STRING_TAG else typed(text)
+
+
+def terminated(text: str) -> str:
+    """Return the text up to its first NUL, where a C string ends."""
+    return text.partition("\0")[0]
