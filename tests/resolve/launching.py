@@ -50,7 +50,11 @@ class Outcome:
 
 
 def outcome(
-    folder: Path, files: dict[str, str] | str, *words: str, environment: dict[str, str] | None = None
+    folder: Path,
+    files: dict[str, str] | str,
+    *words: str,
+    environment: dict[str, str] | None = None,
+    params_files: tuple[str, ...] = (),
 ) -> Outcome:
     """Write launch files (the first is the one that is launched), resolve and plan them."""
     if isinstance(files, str):
@@ -60,7 +64,11 @@ def outcome(
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(text)
     problems = Problems()
-    inputs = inputs_from(words, environment=dict(os.environ) if environment is None else environment)
+    inputs = inputs_from(
+        words,
+        environment=dict(os.environ) if environment is None else environment,
+        params_files=params_files,
+    )
     description = load(str(folder / next(iter(files))), problems)
     assert description is not None, list(problems)
     packages = InstalledPackages(inputs.environment)

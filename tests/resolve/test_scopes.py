@@ -215,4 +215,4 @@ def test_a_faulty_value_is_reported_once_however_often_it_is_used(tmp_path: Path
         + SAY
         + "\n- log: {message: a, if: $(var t)}"
     )
-    assert [fault[2:] for fault in outcome(tmp_path, text).faults] == [(2, 30)]
+    assert [fault[2:] for fault in outcome(tmp_path, text).faults] == [(2, 31)]
