@@ -118,7 +118,7 @@ def test_a_process_in_full() -> None:
         "        parameters  rate: 2.0\n"
         '                    name: "yes"\n'
         "                    list: [1, 2]\n"
-        "        passed on   ${run}/params/x.yaml\n"
+        "        files       ${run}/params/x.yaml\n"
         "        remaps      chatter -> /chatter\n"
         "                    a -> b\n"
         "        output      screen\n"
@@ -169,6 +169,7 @@ def test_arguments_components_triggers_and_what_was_left_out() -> None:
             Argument("world", "arena", "big maze", "which", ("arena", "big maze"), _at(1)),
             Argument("speed", "1.0", "1.0", None, None, _at(2)),
             Argument("robot", None, None, None, None, _at(2)),
+            Argument("log", "$(dirname)/log", "/x/log", None, None, _at(2)),
         ),
         components=(
             Component(
@@ -189,6 +190,7 @@ def test_arguments_components_triggers_and_what_was_left_out() -> None:
         "  world := 'big maze'  (default arena)\n"
         "  speed := 1.0\n"
         "  robot := (no value)\n"
+        "  log   := /x/log\n"
         "\n"
         "components\n"
         "  /r/camera: image/image::Camera in /r/box hz=3\n"

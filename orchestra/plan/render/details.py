@@ -29,7 +29,7 @@ def process_details(process: Process) -> Iterator[str]:
     yield from _labelled(
         "parameters", [f"{name}: {scalar(value)}" for name, value in process.parameters.items()]
     )
-    yield from _labelled("passed on", [file.path for file in process.parameter_files])
+    yield from _labelled("files", [file.path for file in process.parameter_files])
     yield from _labelled("remaps", [f"{old} -> {new}" for old, new in process.remappings])
     yield from _labelled("output", [process.output] if process.output else [])
     yield from _labelled("after", map(_dependency, process.depends_on))

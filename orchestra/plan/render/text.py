@@ -60,6 +60,9 @@ def _arguments(arguments: tuple[Argument, ...]) -> Iterator[str]:
 
 
 def _origin(argument: Argument) -> str:
+    """Return the default, unless the value may be what the default comes to."""
+    if argument.default is not None and "$(" in argument.default:
+        return ""
     return "  (required)" if argument.default is None else f"  (default {shlex.quote(argument.default)})"
 
 

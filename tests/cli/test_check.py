@@ -1,0 +1,131 @@
+"""`orchestra check`: all that is wrong in files and folders, on standard output."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from subprocess import CompletedProcess
+from typing import TYPE_CHECKING
+
+import pytest
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+Command = Callable[..., CompletedProcess[str]]
+
+_ROBOT = """\
+launch:
+  - arg: {name: robot}
+  - executable: {cmd: "echo $(var robot) $(var fleet)", name: hello}
+"""
+_FLEET = """\
+launch:
+  - let: {name: fleet, value: north}
+  - include: {file: robot.launch.yaml, arg: [{name: robot, value: r1}]}
+  - include: {file: robot.launch.yaml, arg: [{name: robot, value: r2}]}
+"""
+
+
+def _write(folder: Path, **files: str) -> None:
+    for name, text in files.items():
+        (folder / f"{name}.launch.yaml").write_text(text)
+
+
+def _told(found: CompletedProcess[str]) -> list[tuple[str, str, int]]:
+    return [(problem["code"], problem["file"], problem["line"]) for problem in json.loads(found.stdout)]
+
+
+def test_nothing_wrong(orchestra: Command, folder: Path) -> None:
+    _write(folder, fine="launch: [log: {message: hello}]\n")
+    found = orchestra("check", ".")
+    assert (found.returncode, found.stderr, found.stdout) == (0, "", "no problems in 1 file\n")
+    assert orchestra("check", ".", "--format", "json").stdout == "[]\n"
+
+
+def test_an_included_file_is_judged_by_how_it_is_used(orchestra: Command, folder: Path) -> None:
+    _write(folder, robot=_ROBOT, fleet=_FLEET)
+    found = orchestra("check", ".")
+    assert (found.returncode, found.stdout) == (0, "no problems in 2 files\n")
+
+
+def test_the_same_file_alone_lacks_its_argument(orchestra: Command, folder: Path) -> None:
+    _write(folder, robot=_ROBOT)
+    found = orchestra("check", "robot.launch.yaml", "--format", "json")
+    assert found.returncode == 2
+    assert ("ORC022", "robot.launch.yaml", 2) in _told(found)
+
+
+def test_arguments_can_be_given(orchestra: Command, folder: Path) -> None:
+    _write(folder, one="launch:\n  - arg: {name: robot}\n  - log: {message: $(var robot)}\n")
+    assert orchestra("check", ".").returncode == 2
+    assert orchestra("check", ".", "robot:=r1").returncode == 0
+
+
+def test_a_problem_of_an_included_file_is_told_once(orchestra: Command, folder: Path) -> None:
+    _write(folder, robot=_ROBOT.replace("name: hello", "nmae: hello"), fleet=_FLEET)
+    found = orchestra("check", ".", "--format", "json")
+    assert _told(found) == [("ORC004", "robot.launch.yaml", 3)]
+    (problem,) = json.loads(found.stdout)
+    assert [place["file"] for place in problem["included_from"]] == ["fleet.launch.yaml"]
+
+
+def test_files_that_include_each_other_are_both_looked_at(orchestra: Command, folder: Path) -> None:
+    _write(
+        folder,
+        a="launch:\n  - include: {file: b.launch.yaml}\n  - lgo: {}\n",
+        b="launch:\n  - include: {file: a.launch.yaml}\n  - nod: {}\n",
+    )
+    found = orchestra("check", ".", "--format", "json")
+    assert found.returncode == 2
+    assert {file for code, file, _ in _told(found) if code == "ORC007"} == {"a.launch.yaml", "b.launch.yaml"}
+    assert "ORC028" in {code for code, _, _ in _told(found)}
+
+
+def test_parameter_files_are_read_as_rcl_does(orchestra: Command, folder: Path) -> None:
+    (folder / "good.yaml").write_text("/talker:\n  ros__parameters:\n    rate: 1\n")
+    assert orchestra("check", ".").stdout == "no problems in 1 file\n"
+    (folder / "bad.yaml").write_text("/talker:\n  ros__parameters:\n    rate: [1, two]\n")
+    found = orchestra("check", ".", "--format", "json")
+    assert found.returncode == 2
+    assert {(file, line) for _, file, line in _told(found)} == {("bad.yaml", 3)}
+
+
+def test_all_mistakes_of_a_folder_are_told_at_once(orchestra: Command, folder: Path) -> None:
+    _write(folder, a="launch:\n  - executable: {cdm: x}\n", b="launch:\n  - log: {message: $(vra x)}\n")
+    found = orchestra("check", ".")
+    assert found.returncode == 2
+    assert "a.launch.yaml:2:" in found.stdout
+    assert "b.launch.yaml:2:" in found.stdout
+    assert "help: did you mean 'cmd'?" in found.stdout
+    assert "help: did you mean 'var'?" in found.stdout
+    assert found.stderr == ""
+
+
+_LEAKING = "launch:\n  - include: {file: fine.launch.yaml, arg: [{name: nobody, value: x}]}\n"
+
+
+@pytest.mark.parametrize(("words", "status"), [((), 0), (("--strict",), 2)])
+def test_warnings_are_mistakes_where_that_is_asked_for(
+    orchestra: Command, folder: Path, words: tuple[str, ...], status: int
+) -> None:
+    _write(folder, fine="launch: [log: {message: hello}]\n", leaking=_LEAKING)
+    found = orchestra("check", ".", *words)
+    assert found.returncode == status
+    assert ("1 error" if status else "1 warning") in found.stdout
+
+
+@pytest.mark.parametrize("name", ["github", "sarif"])
+def test_other_formats(orchestra: Command, folder: Path, name: str) -> None:
+    _write(folder, a="launch:\n  - executable: {cdm: x}\n")
+    found = orchestra("check", ".", "--format", name)
+    assert (found.returncode, found.stderr) == (2, "")
+    assert "a.launch.yaml" in found.stdout
+    assert "ORC004" in found.stdout
+
+
+def test_a_missing_package_is_only_a_warning_about_this_host(orchestra: Command, folder: Path) -> None:
+    _write(folder, a="launch:\n  - node: {pkg: qqqqqqqqqq, exec: zzzzzz}\n")
+    found = orchestra("check", ".", "--format", "json")
+    assert found.returncode == 0
+    assert [problem["severity"] for problem in json.loads(found.stdout)] == ["warning"]
