@@ -73,7 +73,7 @@ class FilterNode:
         # The first update also pays for what is loaded at first use.
         if took > self._period and self._updates > 1:
             text = f"failed to meet update rate: an update took {took:.4f} s of {self._period:.4f} s"
-            self._logger.error(text, throttle_duration_sec=1.0)
+            self._logger.error(text, throttle_duration_sec=5.0)
 
     def _keep_house(self, now: int) -> None:
         self._inputs.follow_moving_transforms()

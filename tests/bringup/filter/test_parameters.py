@@ -1,0 +1,203 @@
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+import yaml
+
+import bringup
+from bringup.filter.checks import doubts
+from bringup.filter.parameter_reader import ParameterError
+from bringup.filter.parameters import DEFAULT_PROCESS_NOISE, read_settings
+from bringup.filter.settings import NANOSECONDS, Settings
+
+ON = [True] * 15
+VX = [index == 6 for index in range(15)]
+
+
+def test_nothing_set_means_the_documented_defaults(settings_of: Callable[..., Settings]) -> None:
+    settings = settings_of()
+    assert settings.sensors == ()
+    assert settings.timing.frequency == 30.0
+    assert settings.timing.sensor_timeout == round(NANOSECONDS / 30)
+    assert (settings.estimation.process_noise == np.diag(DEFAULT_PROCESS_NOISE)).all()
+    assert (settings.estimation.initial_covariance == np.eye(15) * 1e-9).all()
+    assert settings.publication.transform
+    assert not settings.estimation.two_d_mode
+    assert settings.control is None
+
+
+def test_the_shipped_file_fuses_wheel_speed_and_turning_rate(complaints: Any) -> None:
+    text = (Path(bringup.__file__).parent / "params" / "ekf.yaml").read_text()
+    parameters = yaml.safe_load(text)["/**/ekf"]["ros__parameters"]
+    settings, _ = read_settings(parameters, complaints)
+    assert (complaints.warnings, complaints.errors) == ([], [])
+    odometry, imu = settings.sensors
+    assert (odometry.topic, imu.topic) == ("wheel/odometry", "imu/data")
+    assert odometry.twist is not None
+    assert odometry.twist.flags == (True, True, False, False, False, False)
+    assert odometry.pose is None
+    assert imu.twist is not None
+    assert imu.twist.flags == (False,) * 5 + (True,)
+    assert settings.timing.frequency == 50.0
+    assert settings.estimation.two_d_mode
+    assert list(doubts(settings)) == []
+
+
+def test_whole_numbers_count_as_doubles(settings_of: Callable[..., Settings]) -> None:
+    settings = settings_of(frequency=30, sensor_timeout=1, initial_state=[1] * 15, process_noise_covariance=[2] * 15)
+    assert settings.timing.frequency == 30.0
+    assert settings.timing.sensor_timeout == NANOSECONDS
+    assert (settings.estimation.process_noise == np.eye(15) * 2.0).all()
+
+
+def test_a_full_covariance_is_read_row_by_row(settings_of: Callable[..., Settings]) -> None:
+    values = np.arange(225.0)
+    settings = settings_of(initial_estimate_covariance=list(values))
+    assert (settings.estimation.initial_covariance == values.reshape(15, 15)).all()
+
+
+@pytest.mark.parametrize("name", ["process_noise_covariance", "initial_estimate_covariance"])
+def test_a_covariance_of_another_size_stops_the_start(complaints: Any, name: str) -> None:
+    with pytest.raises(ParameterError, match=f"{name} has 14 entries; it needs 15"):
+        read_settings({name: [0.1] * 14}, complaints)
+
+
+def test_sensors_are_counted_up_to_the_first_gap(complaints: Any) -> None:
+    parameters = {f"odom{number}": f"topic{number}" for number in (0, 1, 3)}
+    configs = {f"odom{number}_config": ON for number in (0, 1, 3)}
+    settings, _ = read_settings({**parameters, **configs}, complaints)
+    assert [sensor.topic for sensor in settings.sensors] == ["topic0", "topic1"]
+    assert any("odom3" in warning for warning in complaints.warnings)
+
+
+def test_every_kind_fuses_the_parts_it_measures(settings_of: Callable[..., Settings]) -> None:
+    names = ("odom0", "pose0", "twist0")
+    settings = settings_of(**{name: name for name in names}, **{f"{name}_config": ON for name in names})
+    parts = {sensor.name: (sensor.pose, sensor.twist, sensor.acceleration) for sensor in settings.sensors}
+    named = {name: [part.name if part else None for part in found] for name, found in parts.items()}
+    assert named == {
+        "odom0": ["odom0_pose", "odom0_twist", None],
+        "pose0": ["pose0", None, None],
+        "twist0": [None, "twist0", None],
+    }
+
+
+def test_thresholds_and_modes_reach_their_parts(settings_of: Callable[..., Settings]) -> None:
+    settings = settings_of(
+        odom0="odom",
+        odom0_config=ON,
+        odom0_queue_size=3,
+        odom0_differential=True,
+        odom0_pose_rejection_threshold=2,
+        odom0_twist_rejection_threshold=3.5,
+        odom0_pose_use_child_frame=True,
+    )
+    (sensor,) = settings.sensors
+    assert sensor.pose is not None
+    assert sensor.twist is not None
+    assert sensor.queue_size == 3
+    assert (sensor.pose.threshold, sensor.twist.threshold) == (2.0, 3.5)
+    assert sensor.pose.differential
+    assert sensor.pose.use_child_frame
+
+
+@pytest.mark.parametrize(
+    ("parameters", "error"),
+    [
+        ({"frequency": "fast"}, "frequency must be a number, not 'fast'; 30.0 is used"),
+        ({"frequency": 0.0}, "frequency must be greater than zero"),
+        ({"two_d_mode": 1}, "two_d_mode must be true or false"),
+        ({"odom0": 5}, "odom0 must be a string"),
+        ({"odom0": "o", "odom0_config": [True] * 14}, "it must be a list of 15 booleans"),
+        ({"odom0": "o", "odom0_config": [1] * 15}, "it must be a list of 15 booleans"),
+        ({"odom0": "o"}, "odom0_config enables nothing that o measures; it is not subscribed"),
+        ({"pose0": "p", "pose0_config": VX}, "pose0_config enables nothing"),
+        ({"odom0": "o", "odom0_config": VX, "odom0_queue_size": 0}, "odom0_queue_size must be a whole number"),
+        (
+            {"odom0": "o", "odom0_config": ON, "odom0_differential": True, "odom0_relative": True},
+            "only differential is used",
+        ),
+        ({"initial_state": [0.0] * 3}, "initial_state has 3 entries, not 15"),
+        ({"initial_state": "zero"}, "initial_state must be a list of numbers"),
+        ({"map_frame": "odom"}, "map_frame, odom_frame and base_link_frame must differ"),
+        ({"base_link_frame_output": "odom"}, "base_link_frame_output odom must differ"),
+        ({"world_frame": "mars"}, "world_frame mars must be the odom_frame odom or the map_frame map"),
+        ({"smooth_lagged_data": True, "history_length": -2.0}, "history_length is negative"),
+        ({"history_length": 2.0}, "no effect without smooth_lagged_data"),
+        ({"use_control": True}, "control_config is missing"),
+        ({"use_control": True, "control_config": [True] * 5}, "a list of 6 booleans"),
+        (
+            {"use_control": True, "control_config": [True] * 6, "acceleration_limits": [1.0]},
+            "acceleration_limits needs 6 numbers",
+        ),
+    ],
+)
+def test_what_is_wrong_is_an_error_that_names_it(
+    complaints: Any, parameters: Mapping[str, object], error: str
+) -> None:
+    read_settings(parameters, complaints)
+    assert any(error in told for told in complaints.errors), complaints.errors
+
+
+@pytest.mark.parametrize(
+    ("parameters", "warning"),
+    [
+        ({"frequencie": 30.0}, "frequencie is unknown and has no effect; did you mean frequency?"),
+        ({"debug": True}, "debug is not supported and has no effect"),
+        ({"reset_on_time_jump": True}, "reset_on_time_jump has no effect without use_sim_time"),
+        ({"imu0": "i", "imu0_config": ON}, "imu0_config enables positions or linear velocities"),
+        ({"odom1": "o"}, "odom1 is unknown"),
+    ],
+)
+def test_what_has_no_effect_is_a_warning(
+    complaints: Any, parameters: Mapping[str, object], warning: str
+) -> None:
+    read_settings(parameters, complaints)
+    assert any(warning in told for told in complaints.warnings), complaints.warnings
+
+
+def test_differential_wins_over_relative(complaints: Any) -> None:
+    both = {"odom0": "o", "odom0_config": ON, "odom0_differential": True, "odom0_relative": True}
+    settings, _ = read_settings(both, complaints)
+    pose = settings.sensors[0].pose
+    assert pose is not None
+    assert (pose.differential, pose.relative) == (True, False)
+
+
+def test_frames_take_a_prefix_and_lose_leading_slashes(settings_of: Callable[..., Settings]) -> None:
+    frames = settings_of(tf_prefix="robot1", odom_frame="/odom", base_link_frame="base").frames
+    assert (frames.odom, frames.world, frames.base_link) == ("robot1/odom", "robot1/odom", "robot1/base")
+    assert frames.base_link_output == "robot1/base"
+
+
+def test_controlled_axes_that_an_imu_measures_are_left_to_it(complaints: Any) -> None:
+    settings, _ = read_settings(
+        {
+            "use_control": True,
+            "control_config": [True] * 6,
+            "imu0": "imu",
+            "imu0_config": [index == 12 for index in range(15)],
+        },
+        complaints,
+    )
+    assert settings.control is not None
+    assert settings.control.axes == (False, True, True, True, True, True)
+    assert complaints.errors == ["imu0 measures the acceleration along x; its control is off"]
+
+
+def test_defaults_in_force_are_told(complaints: Any) -> None:
+    _, in_force = read_settings({"frequency": 10, "odom0": "o", "odom0_config": VX}, complaints)
+    assert in_force["frequency"] == 10.0
+    assert in_force["sensor_timeout"] == 0.1
+    assert in_force["odom0_queue_size"] == 10
+    assert in_force["process_noise_covariance"] == list(DEFAULT_PROCESS_NOISE)
+
+
+def test_doubts_name_variables_measured_twice_or_never(settings_of: Callable[..., Settings]) -> None:
+    x_and_vx = [index in {0, 6} for index in range(15)]
+    settings = settings_of(odom0="a", odom0_config=x_and_vx, pose0="b", pose0_config=x_and_vx, two_d_mode=True)
+    found = {key: text for _, key, text in doubts(settings)}
+    assert set(found) == {"X_configuration", "Y_configuration", "YAW_configuration"}
+    assert "odom0, pose0" in found["X_configuration"]
