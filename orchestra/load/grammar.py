@@ -33,6 +33,9 @@ _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _KEPT_QUOTES = re.compile(r"""(['"])([^'" ()$\\]*)\1(?=[ )])""")
 _ESCAPE = re.compile(r"\\(.)", re.DOTALL)
 _QUOTES = ("'", '"')
+# Characters without a meaning anywhere, and those without one outside an argument or in a quoted one.
+_PLAIN = re.compile(r"""[^$\\'" ()]+""")
+_QUOTED_PLAIN = re.compile(r"""[^$\\'"]+""")
 
 
 def parse_template(
@@ -74,7 +77,7 @@ class _Reader:
             if self.opens:
                 found.substitution(within, depth)
             else:
-                found.character()
+                found.text(_QUOTED_PLAIN)
         return found.finished()
 
     def call(self, within: str, depth: int) -> tuple[Part, ...]:
@@ -180,7 +183,7 @@ class _Reader:
                 wrong = wrong or "an argument is quoted as a whole or not at all"
             elif self.text.startswith("\\ ", self.at):
                 wrong = wrong or "a backslash does not join words: quote the argument"
-            found.character()
+            found.text(_PLAIN)
         if wrong and not self.lost:
             self.fault(
                 start, self.at, wrong, suggestion=None if within or glued else self.in_quotes(start, self.at)
@@ -261,9 +264,16 @@ class _Parts:
         self._characters: list[str] = []
         self._begin = reader.at
 
-    def character(self) -> None:
-        """Take the next character, or the one behind a backslash; a backslash at the very end is itself."""
+    def text(self, plain: re.Pattern[str]) -> None:
+        """Take a run of plain characters, else the next one, or the one behind a backslash.
+
+        A backslash at the very end is itself.
+        """
         reader = self._reader
+        if match := plain.match(reader.text, reader.at):
+            self._characters.append(match[0])
+            reader.at = match.end()
+            return
         if reader.here == "\\" and reader.at + 1 < len(reader.text):
             reader.at += 1
         self._characters.append(reader.here)
