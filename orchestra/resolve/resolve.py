@@ -71,7 +71,7 @@ def _check_given_arguments(run: Resolution) -> None:
             continue
         message = f"there is no launch argument '{given.name}'"
         suggestion = nearest(given.name, ledger.declared)
-        if run.found.hidden_include or run.found.incomplete:
+        if run.found.hidden_include or (run.found.incomplete and suggestion is None):
             message += " in what was read; a part was left out"
             run.problems.warning(Code.UNREAD_ARGUMENT, message, given.span, suggestion=suggestion)
         else:

@@ -67,7 +67,7 @@ def test_two_nodes_with_one_name_are_refused_where_the_second_is(tmp_path: Path)
     assert outcome(tmp_path, text).faults == [(Code.DUPLICATE_NODE, "main.yaml", 4, 25)]
 
 
-PARAMETERS = {
+PARAMETERS: dict[str, tuple[str, dict[str, str], dict[str, object]]] = {
     "inline values keep their types": (
         "[{name: a, value: 1}, {name: b, value: 1.5}, {name: c, value: 'yes'}, {name: d, value: yes}, "
         "{name: e, value: [1, 2]}, {name: f, value: text}, {name: g, value: 1.0}]",

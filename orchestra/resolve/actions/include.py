@@ -99,9 +99,11 @@ def _check_unread(action: Include, ledger: Ledger, description: Description, run
     """Report arguments that the file neither declares nor reads."""
     for pair in _pairs(action):
         name = pair.name.constant
-        if name is None or name in ledger.declared or name in ledger.read or description.incomplete:
+        if name is None or name in ledger.declared or name in ledger.read:
             continue
         meant = nearest(name, ledger.defaulted)
+        if description.incomplete and meant is None:
+            continue
         at = run.at(pair.name.span)
         message = f"{description.file} has no argument '{name}'"
         if meant is not None:
