@@ -1,11 +1,14 @@
 """The small pure parts: inertial noise, pace, tracks, settings and the lines of the report."""
 
 import math
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
+import yaml
 
+import bringup
 from bringup.world import report
 from bringup.world.drive import STILL, Limits
 from bringup.world.geometry import Pose
@@ -105,6 +108,14 @@ def test_every_default_is_within_its_range() -> None:
             assert setting.low <= setting.default <= setting.high
             assert isinstance(setting.default, bool) or math.isfinite(setting.high)
         assert setting.description.endswith(".")
+
+
+def test_the_parameter_file_knows_only_settings_and_says_their_defaults() -> None:
+    """A node ignores what it does not declare, so a misspelt line would go unnoticed."""
+    path = Path(bringup.__file__).parent / "params" / "simulation.yaml"
+    told = yaml.safe_load(path.read_text())["/**/simulation"]["ros__parameters"]
+    defaults = {name: list(value) if isinstance(value, tuple) else value for name, value in DEFAULTS.items()}
+    assert told == {name: defaults[name] for name in told}
 
 
 def test_start_poses_come_as_triples() -> None:
