@@ -8,6 +8,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.plan import codec
+from orchestra.plan.parameter_file import contents
 from orchestra.supervise import directory
 from orchestra.supervise.attention import Attention
 from orchestra.supervise.kin import Kin, send_to_groups
@@ -16,7 +17,7 @@ from orchestra.supervise.loop import Loop
 from orchestra.supervise.outcome import FAILED, judge
 from orchestra.supervise.resolving import Collection, Refused
 from orchestra.supervise.setting import surroundings
-from orchestra.supervise.spec import RUN_FOLDER, located, parameter_texts
+from orchestra.supervise.spec import RUN_FOLDER, located
 from orchestra.supervise.system import DEADLINE, System
 
 if TYPE_CHECKING:
@@ -64,11 +65,12 @@ def _furnish(plan: Plan, run_directory: RunDirectory) -> Plan:
     (run_directory.path / "plan.json").write_text(
         codec.dumps(plan, indent=2) + "\n", "utf-8", "surrogatepass"
     )
-    for process in plan.processes:
-        for path, text in parameter_texts(process).items():
+    processes = tuple(located(process, folder) for process in plan.processes)
+    for process in processes:
+        for path, text in contents(process).items():
             with open(path.replace(RUN_FOLDER, folder), "w", encoding="utf-8") as file:  # noqa: PTH123 - may be any path
                 file.write(text)
-    return replace(plan, processes=tuple(located(process, folder) for process in plan.processes))
+    return replace(plan, processes=processes)
 
 
 def _run(

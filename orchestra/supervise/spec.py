@@ -2,17 +2,16 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
-from orchestra.plan.parameter_file import render
-
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from orchestra.plan.model import Process
+    from orchestra.values import ParameterValue
 
 RUN_FOLDER = "${run}"
-_PARAMETER_FILE = re.compile(re.escape(RUN_FOLDER) + r"/params/[^\s'\"]+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +27,7 @@ class Spec:
 
 
 def located(process: Process, folder: str) -> Process:
-    """Return the process with `${run}` replaced by the run directory in everything that is executed."""
+    """Return the process with `${run}` replaced by the run directory in all that it is told."""
 
     def fill(text: str) -> str:
         return text.replace(RUN_FOLDER, folder)
@@ -41,21 +40,18 @@ def located(process: Process, folder: str) -> Process:
         },
         cwd=fill(process.cwd) if process.cwd is not None else None,
         arguments=tuple(fill(word) for word in process.arguments),
+        parameters={name: _filled(value, fill) for name, value in process.parameters.items()},
     )
+
+
+def _filled(value: ParameterValue, fill: Callable[[str], str]) -> ParameterValue:
+    if isinstance(value, str):
+        return fill(value)
+    if isinstance(value, tuple):
+        return tuple(fill(item) if isinstance(item, str) else item for item in value)  # type: ignore[return-value] # as before
+    return value
 
 
 def argv(process: Process) -> tuple[str, ...]:
     """Return the words to execute; with `shell` they are one line for it."""
     return ("/bin/sh", "-c", " ".join(process.command)) if process.shell else process.command
-
-
-def parameter_texts(process: Process) -> dict[str, str]:
-    """Return the parameter files of a process, path to content; paths still begin with `${run}`.
-
-    What is passed on for other nodes stands in the plan word by word; the remaining file that the command names is the
-    node's own.
-    """
-    texts = {file.path: file.content for file in process.parameter_files}
-    named = [path for word in process.command for path in _PARAMETER_FILE.findall(word)]
-    own = {path: render(process) for path in named if path not in texts}
-    return {**texts, **own}
