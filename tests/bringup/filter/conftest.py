@@ -56,7 +56,23 @@ def filter_of(settings_of: Callable[..., Settings]) -> Callable[..., Localizatio
 @pytest.fixture
 def config() -> Callable[..., list[bool]]:
     """A `_config` with the named variables on."""
-    names = ("x", "y", "z", "roll", "pitch", "yaw", "vx", "vy", "vz", "vroll", "vpitch", "vyaw", "ax", "ay", "az")
+    names = (
+        "x",
+        "y",
+        "z",
+        "roll",
+        "pitch",
+        "yaw",
+        "vx",
+        "vy",
+        "vz",
+        "vroll",
+        "vpitch",
+        "vyaw",
+        "ax",
+        "ay",
+        "az",
+    )
 
     def flags(*wanted: str) -> list[bool]:
         assert set(wanted) <= set(names)
@@ -155,7 +171,7 @@ def imu() -> Callable[..., Any]:
 
 
 @pytest.fixture
-def feed() -> Callable[..., None]:
+def feed() -> Callable[..., int]:
     """Hand a filter one message per period, with its own updates in between on the clock of the messages."""
 
     def run(

@@ -24,11 +24,13 @@ def _estimate(localization: Localization) -> Estimate:
     return estimate
 
 
-def test_first_measurement_is_taken_over_and_the_second_believed(settings_of: Callable[..., Settings]) -> None:
+def test_first_measurement_is_taken_over_and_the_second_believed(
+    settings_of: Callable[..., Settings],
+) -> None:
     estimator = Estimator(settings_of().estimation)
     every = np.arange(15, dtype=np.intp)
     noise = np.eye(15) * 1e-9
-    values = 0.15 * every
+    values = np.array([0.15 * index for index in range(15)])
     estimator.process(Measurement(1000, "all", every, values, noise, NEVER_REJECT))
     assert (estimator.state == values).all()
     assert (estimator.covariance == noise).all()
@@ -40,9 +42,13 @@ def test_first_measurement_is_taken_over_and_the_second_believed(settings_of: Ca
 
 
 @pytest.mark.parametrize("axis", [0, 1, 2])
-def test_a_velocity_becomes_a_way(filter_of: FilterOf, config: Make, twist: Make, feed: Feed, axis: int) -> None:
+def test_a_velocity_becomes_a_way(
+    filter_of: FilterOf, config: Make, twist: Make, feed: Feed, axis: int
+) -> None:
     """Five metres a second for 400 messages at 20 Hz."""
-    localization = filter_of(twist0="twist", twist0_config=config("vx", "vy", "vz", "vroll", "vpitch", "vyaw"))
+    localization = filter_of(
+        twist0="twist", twist0_config=config("vx", "vy", "vz", "vroll", "vpitch", "vyaw")
+    )
     values = [0.0] * 6
     values[axis] = 5.0
     feed(localization, "twist0", lambda stamp: twist(stamp, values), rate=20.0, count=400)
@@ -54,7 +60,9 @@ def test_a_velocity_becomes_a_way(filter_of: FilterOf, config: Make, twist: Make
 def test_a_quarter_circle_ends_as_far_ahead_as_aside(
     filter_of: FilterOf, config: Make, twist: Make, feed: Feed
 ) -> None:
-    localization = filter_of(twist0="twist", twist0_config=config("vx", "vy", "vz", "vroll", "vpitch", "vyaw"))
+    localization = filter_of(
+        twist0="twist", twist0_config=config("vx", "vy", "vz", "vroll", "vpitch", "vyaw")
+    )
     values = (1.0, 0.0, 0.0, 0.0, 0.0, math.pi / 10)
     feed(localization, "twist0", lambda stamp: twist(stamp, values), rate=20.0, count=100)
     state = _estimate(localization).state
@@ -65,11 +73,15 @@ def test_angular_velocities_are_those_of_the_body(
     filter_of: FilterOf, config: Make, twist: Make, feed: Feed
 ) -> None:
     """Rolled onto its right side, the robot that pitches up turns about the vertical, and drives off that way."""
-    localization = filter_of(twist0="twist", twist0_config=config("vx", "vy", "vz", "vroll", "vpitch", "vyaw"))
+    localization = filter_of(
+        twist0="twist", twist0_config=config("vx", "vy", "vz", "vroll", "vpitch", "vyaw")
+    )
     quarter = math.pi / 10
     start = NANOSECONDS
     for values in ((0, 0, 0, -quarter, 0, 0), (0, 0, 0, 0, quarter, 0), (3.0, 0, 0, 0, 0, 0)):
-        start = feed(localization, "twist0", lambda s, v=values: twist(s, v), rate=20.0, count=100, start=start)
+        start = feed(
+            localization, "twist0", lambda s, v=values: twist(s, v), rate=20.0, count=100, start=start
+        )
     assert abs(_estimate(localization).state[Y] + 15.0) < 1.0
 
 
@@ -115,7 +127,9 @@ def test_accelerations_are_integrated_twice(filter_of: FilterOf, config: Make, i
     localization = filter_of(imu0="imu", imu0_config=config("ax", "ay", "az"))
     start = NANOSECONDS
     for force in ((1.0, -1.0, 1.0), (0.0, 0.0, 0.0)):
-        start = feed(localization, "imu0", lambda s, f=force: imu(s, force=f), rate=50.0, count=50, start=start)
+        start = feed(
+            localization, "imu0", lambda s, f=force: imu(s, force=f), rate=50.0, count=50, start=start
+        )
     state = _estimate(localization).state
     assert state[LINEAR] == pytest.approx([1.0, -1.0, 1.0], abs=0.4)
     assert state[POSE][:3] == pytest.approx([1.8, -1.8, 1.8], abs=0.6)

@@ -19,9 +19,7 @@ def _at(*indices: int) -> Indices:
 def _correct(
     state: Array, covariance: Array, index: int, value: float, variance: float, threshold: float = FOR_EVER
 ) -> tuple[Array, Array] | None:
-    return kalman.correct(
-        state, covariance, _at(index), np.array([value]), np.array([[variance]]), threshold
-    )
+    return kalman.correct(state, covariance, _at(index), np.array([value]), np.array([[variance]]), threshold)
 
 
 def test_one_variable_is_weighed_by_variances() -> None:

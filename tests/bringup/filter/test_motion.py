@@ -7,7 +7,22 @@ from hypothesis import strategies as st
 
 from bringup.filter.motion import advance
 from bringup.filter.rotation import matrix_from_rpy
-from bringup.filter.state import ANGULAR, AX, LINEAR, ORIENTATION, PITCH, VX, VYAW, VZ, YAW, Array, X, Y, Z, wrap
+from bringup.filter.state import (
+    ANGULAR,
+    AX,
+    LINEAR,
+    ORIENTATION,
+    PITCH,
+    VX,
+    VYAW,
+    VZ,
+    YAW,
+    Array,
+    X,
+    Y,
+    Z,
+    wrap,
+)
 
 _STEP = 1e-6
 
@@ -68,7 +83,9 @@ def test_turning_follows_the_rotation_matrix(state: Array) -> None:
     dt = 1e-4
     moved, _ = advance(state, dt)
     x, y, z = state[ANGULAR] * dt
-    turned = matrix_from_rpy(*state[ORIENTATION]) @ (np.eye(3) + np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]]))
+    turned = matrix_from_rpy(*state[ORIENTATION]) @ (
+        np.eye(3) + np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
+    )
     assert matrix_from_rpy(*moved[ORIENTATION]) == pytest.approx(turned, abs=1e-5)
 
 

@@ -15,7 +15,6 @@ import rclpy
 from diagnostic_msgs.msg import DiagnosticArray
 from geometry_msgs.msg import AccelWithCovarianceStamped, TransformStamped
 from nav_msgs.msg import Odometry
-from orchestra.ros.interfaces import tf_message_type
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParameters
 from rclpy.executors import SingleThreadedExecutor
@@ -29,6 +28,10 @@ import bringup
 from bringup.filter.settings import NANOSECONDS
 from bringup.filter_node.ticks import next_tick
 from bringup.filter_node.visits import VisitedSubscriptions
+from orchestra.ros.interfaces import tf_message_type
+
+# lark, which the ROS wheels load, still imports a module that Python 3.11 has renamed.
+pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
 
 DOMAIN = 38
 DEADLINE = 40.0
@@ -74,7 +77,9 @@ class Bench:
         return answer.result()
 
     def sees(self, name: str) -> bool:
-        return name in {f"{space.rstrip('/')}/{node}" for node, space in self.node.get_node_names_and_namespaces()}
+        return name in {
+            f"{space.rstrip('/')}/{node}" for node, space in self.node.get_node_names_and_namespaces()
+        }
 
 
 @pytest.fixture(scope="module")
@@ -198,7 +203,9 @@ def filtered(bench: Bench, ekf: Ekf) -> list[Any]:
     return bench.collect(Odometry, "/robot7/odometry/filtered")
 
 
-def test_estimates_come_at_the_frequency_in_simulated_time(bench: Bench, robot: Robot, filtered: list[Any]) -> None:
+def test_estimates_come_at_the_frequency_in_simulated_time(
+    bench: Bench, robot: Robot, filtered: list[Any]
+) -> None:
     bench.until(lambda: len(filtered) >= 20, robot.step)
     stamps = np.array([_stamp(message) for message in filtered])
     assert np.median(np.diff(stamps)) == pytest.approx(NANOSECONDS / 50, rel=0.2)

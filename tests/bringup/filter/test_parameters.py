@@ -46,7 +46,9 @@ def test_the_shipped_file_fuses_wheel_speed_and_turning_rate(complaints: Any) ->
 
 
 def test_whole_numbers_count_as_doubles(settings_of: Callable[..., Settings]) -> None:
-    settings = settings_of(frequency=30, sensor_timeout=1, initial_state=[1] * 15, process_noise_covariance=[2] * 15)
+    settings = settings_of(
+        frequency=30, sensor_timeout=1, initial_state=[1] * 15, process_noise_covariance=[2] * 15
+    )
     assert settings.timing.frequency == 30.0
     assert settings.timing.sensor_timeout == NANOSECONDS
     assert (settings.estimation.process_noise == np.eye(15) * 2.0).all()
@@ -114,7 +116,10 @@ def test_thresholds_and_modes_reach_their_parts(settings_of: Callable[..., Setti
         ({"odom0": "o", "odom0_config": [1] * 15}, "it must be a list of 15 booleans"),
         ({"odom0": "o"}, "odom0_config enables nothing that o measures; it is not subscribed"),
         ({"pose0": "p", "pose0_config": VX}, "pose0_config enables nothing"),
-        ({"odom0": "o", "odom0_config": VX, "odom0_queue_size": 0}, "odom0_queue_size must be a whole number"),
+        (
+            {"odom0": "o", "odom0_config": VX, "odom0_queue_size": 0},
+            "odom0_queue_size must be a whole number",
+        ),
         (
             {"odom0": "o", "odom0_config": ON, "odom0_differential": True, "odom0_relative": True},
             "only differential is used",
@@ -197,7 +202,9 @@ def test_defaults_in_force_are_told(complaints: Any) -> None:
 
 def test_doubts_name_variables_measured_twice_or_never(settings_of: Callable[..., Settings]) -> None:
     x_and_vx = [index in {0, 6} for index in range(15)]
-    settings = settings_of(odom0="a", odom0_config=x_and_vx, pose0="b", pose0_config=x_and_vx, two_d_mode=True)
+    settings = settings_of(
+        odom0="a", odom0_config=x_and_vx, pose0="b", pose0_config=x_and_vx, two_d_mode=True
+    )
     found = {key: text for _, key, text in doubts(settings)}
     assert set(found) == {"X_configuration", "Y_configuration", "YAW_configuration"}
     assert "odom0, pose0" in found["X_configuration"]

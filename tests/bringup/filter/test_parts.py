@@ -10,7 +10,21 @@ import pytest
 from bringup.filter.localization import Localization
 from bringup.filter.rotation import matrix_from_rpy, quaternion_from_rpy, rpy_from_matrix
 from bringup.filter.settings import NANOSECONDS
-from bringup.filter.state import ACCELERATION, ANGULAR, LINEAR, ORIENTATION, POSE, VX, VY, VYAW, YAW, Array, X, Y, Z
+from bringup.filter.state import (
+    ACCELERATION,
+    ANGULAR,
+    LINEAR,
+    ORIENTATION,
+    POSE,
+    VX,
+    VY,
+    VYAW,
+    YAW,
+    Array,
+    X,
+    Y,
+    Z,
+)
 from bringup.filter.transforms import Sample
 
 Make = Callable[..., Any]
@@ -51,7 +65,9 @@ def test_flags_and_variances_turn_with_the_frame(filter_of: FilterOf, config: Ma
     assert covariance[X, X] == 1e-9
 
 
-def test_a_pose_whose_frame_is_unknown_is_dropped_and_told(filter_of: FilterOf, config: Make, pose: Make) -> None:
+def test_a_pose_whose_frame_is_unknown_is_dropped_and_told(
+    filter_of: FilterOf, config: Make, pose: Make
+) -> None:
     localization = filter_of(pose0="pose", pose0_config=config("x"))
     localization.receive("pose0", pose(SECOND, (1.0,) * 6, frame="mars"), 0)
     localization.update(2 * SECOND)
@@ -67,7 +83,9 @@ def test_relative_poses_count_from_the_first(filter_of: FilterOf, config: Make, 
     assert state[[X, Y, YAW]] == pytest.approx([2.0, 0.0, 0.1], abs=1e-4)
 
 
-def test_differential_poses_measure_the_velocity_between_two(filter_of: FilterOf, config: Make, pose: Make) -> None:
+def test_differential_poses_measure_the_velocity_between_two(
+    filter_of: FilterOf, config: Make, pose: Make
+) -> None:
     """One metre ahead and 0.2 rad to the left in half a second; the first pose says nothing."""
     localization = filter_of(pose0="p", pose0_config=config("x", "y", "yaw"), pose0_differential=True)
     localization.receive("pose0", pose(SECOND, (5.0, 5.0, 0.0, 0.0, 0.0, QUARTER), variance=0.5), 0)
@@ -105,7 +123,9 @@ def test_a_sensor_off_the_centre_moves_when_the_robot_turns(
     filter_of: FilterOf, config: Make, twist: Make, imu: Make
 ) -> None:
     """Turning on the spot at 1 rad/s, a sensor two metres ahead moves sideways at 2 m/s; the base does not."""
-    localization = filter_of(twist0="t", twist0_config=config("vx", "vy"), imu0="i", imu0_config=config("vyaw"))
+    localization = filter_of(
+        twist0="t", twist0_config=config("vx", "vy"), imu0="i", imu0_config=config("vyaw")
+    )
     localization.frames.add_static("base_link", "front", _place(2.0))
     _take(localization, "imu0", imu(SECOND, omega=(0.0, 0.0, 1.0)))
     state, _ = _take(localization, "twist0", twist(SECOND, (0.0, 2.0, 0.0, 0.0, 0.0, 0.0), frame="front"))
@@ -151,7 +171,12 @@ def test_a_differential_imu_measures_its_turning(filter_of: FilterOf, config: Ma
 @pytest.mark.parametrize("mounting", [(0.0, 0.0, 0.0), (QUARTER, 0.0, -QUARTER), (0.3, -1.0, 2.0)])
 @pytest.mark.parametrize("measures_attitude", [True, False])
 def test_gravity_vanishes_at_rest_however_the_imu_is_mounted(
-    filter_of: FilterOf, config: Make, imu: Make, mounting: tuple[float, float, float], *, measures_attitude: bool
+    filter_of: FilterOf,
+    config: Make,
+    imu: Make,
+    mounting: tuple[float, float, float],
+    *,
+    measures_attitude: bool,
 ) -> None:
     """On a slope the attitude comes from the IMU's own orientation, otherwise from the (level) estimate."""
     base = (0.1, -0.2, 0.5) if measures_attitude else (0.0, 0.0, 0.0)
@@ -203,7 +228,9 @@ def test_what_an_imu_does_not_measure_is_left_out(
 
 def test_two_dimensions_hold_the_rest_at_zero(filter_of: FilterOf, config: Make, twist: Make) -> None:
     localization = filter_of(twist0="t", twist0_config=config("vx", "vz", "vroll"), two_d_mode=True)
-    state, covariance = _take(localization, "twist0", twist(SECOND, (1.0, 2.0, 3.0, 4.0, 5.0, 6.0), variance=0.5))
+    state, covariance = _take(
+        localization, "twist0", twist(SECOND, (1.0, 2.0, 3.0, 4.0, 5.0, 6.0), variance=0.5)
+    )
     assert state[VX] == 1.0
     assert np.count_nonzero(state) == 1
     pinned = [Z, 3, 4, 8, 9, 10, 14]

@@ -40,7 +40,9 @@ def test_axes_are_fixed_and_taken_in_the_order_roll_pitch_yaw() -> None:
 
 
 def test_length_of_a_quaternion_does_not_matter() -> None:
-    assert matrix_from_quaternion((0.0, 0.0, 2.0, 2.0)) == pytest.approx(matrix_from_rpy(0.0, 0.0, math.pi / 2))
+    assert matrix_from_quaternion((0.0, 0.0, 2.0, 2.0)) == pytest.approx(
+        matrix_from_rpy(0.0, 0.0, math.pi / 2)
+    )
     assert matrix_from_quaternion((0.0, 0.0, 0.0, 0.0)) == pytest.approx(np.eye(3))
 
 

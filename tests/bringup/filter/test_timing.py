@@ -9,7 +9,7 @@ import pytest
 from bringup.filter.localization import Estimate, Localization
 from bringup.filter.rotation import quaternion_from_rpy
 from bringup.filter.settings import NANOSECONDS
-from bringup.filter.state import ACCELERATION, POSE, VX, VYAW, YAW, X, Y
+from bringup.filter.state import ACCELERATION, POSE, VX, VYAW, X, Y
 from bringup.filter.transforms import Sample
 
 Make = Callable[..., Any]
@@ -48,11 +48,15 @@ def driving(filter_of: FilterOf, config: Make) -> Callable[..., Localization]:
 def test_measurements_from_the_future_wait(driving: FilterOf, speed: Make) -> None:
     localization = driving(sensor_timeout=0.1)
     assert _stamp(_at(localization, 1.0, speed(1.0, 1.0), speed(2.0, 3.0))) == 1.0
-    assert _stamp(_at(localization, 1.9)) == 1.0, "a waiting measurement means that the sensors are not silent"
+    assert _stamp(_at(localization, 1.9)) == 1.0, (
+        "a waiting measurement means that the sensors are not silent"
+    )
     assert _stamp(_at(localization, 2.0)) == 2.0
 
 
-def test_measurements_are_fused_in_the_order_of_their_stamps(filter_of: FilterOf, config: Make, twist: Make) -> None:
+def test_measurements_are_fused_in_the_order_of_their_stamps(
+    filter_of: FilterOf, config: Make, twist: Make
+) -> None:
     """Fused as they came, the later one would be applied before the earlier and leave the robot short."""
     localization = filter_of(twist0="a", twist0_config=config("vx"), twist1="b", twist1_config=config("vx"))
     localization.receive("twist0", twist(SECOND, (1.0, 0, 0, 0, 0, 0)), 0)
@@ -158,7 +162,9 @@ def _drive(
 
 def test_set_pose_puts_the_robot_at_rest_there(driving: FilterOf, speed: Make, pose: Make) -> None:
     localization = driving(sensor_timeout=100.0)
-    localization.frames.add_static("odom", "dock", Sample(0, (10.0, 0.0, 0.0), quaternion_from_rpy(0.0, 0.0, 1.0)))
+    localization.frames.add_static(
+        "odom", "dock", Sample(0, (10.0, 0.0, 0.0), quaternion_from_rpy(0.0, 0.0, 1.0))
+    )
     _at(localization, 5.0, speed(5.0, 2.0))
     assert localization.set_pose(pose(5 * SECOND, (0.0,) * 6, 0.5, frame="dock"), 6 * SECOND)
     estimate = localization.estimate_to_publish()
@@ -190,7 +196,9 @@ def test_reset_goes_back_to_the_start(driving: FilterOf, speed: Make) -> None:
 
 
 @pytest.mark.parametrize("jumps", [True, False])
-def test_a_clock_that_goes_back_resets_only_on_request(driving: FilterOf, speed: Make, *, jumps: bool) -> None:
+def test_a_clock_that_goes_back_resets_only_on_request(
+    driving: FilterOf, speed: Make, *, jumps: bool
+) -> None:
     localization = driving(use_sim_time=True, reset_on_time_jump=jumps)
     _at(localization, 100.0, speed(100.0, 2.0))
     localization.update(SECOND)

@@ -47,7 +47,9 @@ def test_the_newest_time_is_one_that_all_frames_have(buffer: TransformBuffer) ->
     assert buffer.lookup("map", "base").translation == pytest.approx([10.5, 0.0, 0.0])
 
 
-@pytest.mark.parametrize(("target", "source"), [("odom", "elsewhere"), ("elsewhere", "odom"), ("laser", "moon")])
+@pytest.mark.parametrize(
+    ("target", "source"), [("odom", "elsewhere"), ("elsewhere", "odom"), ("laser", "moon")]
+)
 def test_frames_that_are_not_connected_are_refused(buffer: TransformBuffer, target: str, source: str) -> None:
     with pytest.raises(TransformUnavailableError):
         buffer.lookup(target, source)
