@@ -38,8 +38,18 @@ def launched(
         run = _start([file_of(description, home), *words], given, home, domain)
         try:
             yield run
-        finally:
-            run.finish()
+        except BaseException as error:
+            _finish_after(error, run)
+            raise
+        run.finish()
+
+
+def _finish_after(error: BaseException, run: Run) -> None:
+    """End a run whose test has failed: what failed there is told first."""
+    try:
+        run.finish()
+    except AssertionError as unclean:
+        error.add_note(f"besides: {unclean}")
 
 
 def _start(words: list[str], given: Mapping[str, str], home: Path, domain: int) -> Run:
@@ -70,5 +80,5 @@ def file_of(description: Description, home: Path) -> str:
     if not isinstance(description, Mapping):
         return os.fspath(description)
     file = home / "description.launch.yaml"
-    file.write_text(json.dumps(description), "utf-8")
+    file.write_text(json.dumps(description, indent=2), "utf-8")
     return str(file)

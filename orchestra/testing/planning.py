@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra import pipeline
@@ -27,7 +28,7 @@ def planned(
     """
     given = pipeline.inputs_from(words, environment={**os.environ, **(environment or {})})
     try:
-        return pipeline.make_plan(file_of(description, home), given)
+        return pipeline.make_plan(file_of(description, home), replace(given, launching=False))
     except DescriptionError as error:
         for problem in error.problems:
             error.add_note(f"{problem.span or 'command line'}: {problem.severity}: {problem.message}")
