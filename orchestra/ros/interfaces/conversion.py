@@ -10,6 +10,7 @@ from __future__ import annotations
 import _thread
 import ctypes
 import logging
+import signal
 from ctypes import CFUNCTYPE, PYFUNCTYPE, Structure, c_bool, c_char_p, c_void_p, py_object
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -81,14 +82,14 @@ def address_in(pointer: object) -> int:
 def uninterrupted(convert: Callable[..., _Result], *arguments: object) -> _Result:
     """Call a short function that may be repeated, once more if it is interrupted, and pass the interrupt on.
 
-    rclpy does not expect KeyboardInterrupt from a conversion, and would lose it. Another thread repeats it, so
-    that this one notices only when it is out of here.
+    rclpy does not expect KeyboardInterrupt from a conversion, and would lose it. Another thread sends the signal
+    again, so that it comes when this thread, or the call in which it waits, is out of here.
     """
     try:
         return convert(*arguments)
     except KeyboardInterrupt:
         result = convert(*arguments)
-        _thread.start_new_thread(_thread.interrupt_main, ())
+        _thread.start_new_thread(signal.pthread_kill, (_thread.get_ident(), signal.SIGINT))
         return result
 
 
