@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import signal
 import sys
-import traceback
 
 from orchestra.supervise import kernel
 from orchestra.supervise.keeper import flush
@@ -57,7 +56,7 @@ def _prepare(prepare: Callable[[BinaryIO], int], descriptor: int) -> int:
     except SystemExit as error:
         status = _status(error)
     except BaseException:  # noqa: BLE001 - the boundary of this process: nothing may run on into the supervisor's code
-        traceback.print_exc()
+        sys.excepthook(*sys.exc_info())
         status = BUG
     flush()
     return status

@@ -48,10 +48,10 @@ def stand_in(*words: str) -> tuple[str, ...]:
     return (sys.executable, "-S", "-E", str(PROCESSES / "stand_in.py"), *words)
 
 
-def process(name: str, *words: str, **changes: Any) -> Process:
+def process(identity: str, /, *words: str, **changes: Any) -> Process:
     """Return a process that runs a stand-in, or the `command` that is given."""
     fields: dict[str, Any] = {
-        "id": name,
+        "id": identity,
         "kind": "process",
         "package": None,
         "executable": "stand_in",
@@ -171,14 +171,13 @@ class Launched:
 
     def await_event(self, kind: str, name: str | None = None, count: int = 1) -> Event:
         """Wait for the n-th event of a kind."""
-        found: list[Event] = wait_for(
-            lambda: self._alive_or(found) if len(found := self.of_kind(kind, name)) < count else found,
-            f"event {kind} of {name}; so far {[(event.kind, event.process) for event in self.events]}",
-        )
-        return found[count - 1]
+        self._await(lambda: len(self.of_kind(kind, name)) >= count, f"event {kind} of {name}")
+        return self.of_kind(kind, name)[count - 1]
 
-    def _alive_or(self, _found: list[Event]) -> None:
-        """A run that is over will tell no more."""
+    def _await(self, condition: Callable[[], Any], what: str) -> None:
+        """Wait for a condition; a run that is over will not fulfil it any more."""
+        wait_for(lambda: condition() or self.popen.poll() is not None, f"{what}; {self.stderr}")
+        assert condition(), f"the run ended before {what}: {self.stderr}"
 
     def log(self, name: str) -> str:
         """The log file of a process."""
@@ -187,7 +186,7 @@ class Launched:
     def await_line(self, name: str, line: str) -> None:
         """Wait for a line in the log file of a process."""
         path = self.directory / "logs" / f"{name}.log"
-        wait_for(lambda: path.exists() and f"{line}\n" in path.read_text("utf-8"), f"{line!r} from {name}")
+        self._await(lambda: path.exists() and f"{line}\n" in path.read_text("utf-8"), f"{line!r} from {name}")
 
     def own(self, comm: str) -> int:
         """The pid of one of Orchestra's own processes, by its name."""
@@ -246,9 +245,13 @@ def launched(
     options: RunOptions = RunOptions(),  # noqa: B008 - frozen
     *,
     environment: dict[str, str] | None = None,
+    through: tuple[str, ...] = (),
     **popen: Any,
 ) -> Iterator[Launched]:
-    """Run a plan, or the launcher with words, and kill at the end what may be left of it."""
+    """Run a plan, or the launcher with words, and kill at the end what may be left of it.
+
+    `through` are words before the command, such as those of a shell that executes it.
+    """
     home = folder / "home"
     if isinstance(what, Plan):
         path = folder / "document.json"
@@ -260,7 +263,7 @@ def launched(
     with out.open("wb") as out_file, err.open("wb") as err_file:
         streams = {"stdin": subprocess.DEVNULL, "stdout": out_file, "stderr": err_file}
         started = subprocess.Popen(
-            [sys.executable, str(PROCESSES / "launcher.py"), *words],
+            [*through, sys.executable, str(PROCESSES / "launcher.py"), *words],
             env={**os.environ, "ORCHESTRA_HOME": str(home), **(environment or {})},
             **{**streams, **popen},
         )

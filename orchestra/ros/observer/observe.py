@@ -17,7 +17,7 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 
-from orchestra.ros.interfaces import message_type
+from orchestra.ros.interfaces import UnknownMessageTypeError, message_type
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -57,7 +57,7 @@ class Wait:
         name, reliability, durability = key
         try:
             kind = message_type(name)
-        except (ImportError, AttributeError, LookupError, ValueError) as error:
+        except (UnknownMessageTypeError, ImportError) as error:
             self._finish(f"{self._topic} carries {name}, which cannot be loaded: {error}")
             return
         profile = QoSProfile(
@@ -93,7 +93,8 @@ class Requests:
 
 def observe(requests: int, answers: int) -> None:
     """Serve the supervisor on two descriptors until the first one ends."""
-    with rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO):
+    rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+    try:
         # The underscore makes it a hidden node, which tools leave out.
         node = rclpy.create_node(
             f"_orchestra_observer_{os.getpid()}",
@@ -103,11 +104,11 @@ def observe(requests: int, answers: int) -> None:
         )
         executor = SingleThreadedExecutor()
         executor.add_node(node)
-        try:
-            _serve(Requests(requests), answers, node, executor)
-        finally:
-            executor.shutdown()
-            node.destroy_node()
+        _serve(Requests(requests), answers, node, executor)
+        executor.shutdown()
+        node.destroy_node()
+    finally:
+        rclpy.try_shutdown()
 
 
 def _serve(requests: Requests, answers: int, node: Node, executor: SingleThreadedExecutor) -> None:

@@ -1,0 +1,86 @@
+"""Whichever single process of Orchestra is signalled or killed: six seconds later nothing is left."""
+
+from __future__ import annotations
+
+import os
+import signal
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.supervise.plans import alive, launched, plan, process, ready_when
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+FAMILY = process("family", "child", "escape=ignore", "daemon=ignore", "say=up", "linger")
+STUBBORN = process("stubborn", "ignore=INT,TERM", "say=up", "linger")
+POLITE = process("polite", "polite", "say=up", "linger")
+SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL)
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+@pytest.mark.parametrize("target", ["orc-keeper", "orc-supervisor"])
+def test_keeper_or_supervisor(tmp_path: Path, target: str, number: signal.Signals) -> None:
+    with launched(tmp_path, plan(FAMILY, STUBBORN, POLITE)) as run:
+        for name in ("family", "stubborn", "polite"):
+            run.await_line(name, "up")
+        before = run.everything()
+        assert len(before) == 2 + 3 + 3
+        os.kill(run.own(target), number)
+        run.assert_gone()
+        assert not [pid for pid in before if alive(pid)]
+        killed = {"orc-keeper": -signal.SIGKILL, "orc-supervisor": 1}[target]
+        assert run.wait() == (killed if number == signal.SIGKILL else 128 + number)
+
+
+def test_a_killed_supervisor_is_told(tmp_path: Path) -> None:
+    with launched(tmp_path, plan(POLITE)) as run:
+        run.await_line("polite", "up")
+        os.kill(run.own("orc-supervisor"), signal.SIGKILL)
+        assert run.wait() == 1
+        last = run.stderr.splitlines()[-1]
+        assert last == (
+            "[orchestra] the supervisor was ended by SIGKILL; everything that it had started has been ended"
+        )
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_the_resolver(tmp_path: Path, number: signal.Signals) -> None:
+    with launched(tmp_path, ("wait",)) as run:
+        os.kill(run.own("orc-resolver"), number)
+        run.assert_gone()
+        assert run.wait() == 1
+        assert f"which reads the launch files, was ended by {number.name}; nothing was started" in run.stderr
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+@pytest.mark.parametrize("target", ["orc-keeper", "orc-supervisor"])
+def test_while_the_resolver_works(tmp_path: Path, target: str, number: signal.Signals) -> None:
+    with launched(tmp_path, ("wait",)) as run:
+        run.own("orc-resolver")
+        os.kill(run.own(target), number)
+        run.assert_gone()
+        killed = {"orc-keeper": -signal.SIGKILL, "orc-supervisor": 1}[target]
+        assert run.wait() == (killed if number == signal.SIGKILL else 128 + number)
+
+
+@pytest.mark.parametrize("number", SIGNALS)
+def test_the_observer(tmp_path: Path, number: signal.Signals) -> None:
+    awaited = process("node", "say=up", "linger", ready=ready_when(message="/never"))
+    with launched(tmp_path, plan(awaited, POLITE), environment={"ROS_DOMAIN_ID": "61"}) as run:
+        run.await_line("polite", "up")
+        os.kill(run.own("orc-observer"), number)
+        run.assert_gone()
+        assert run.wait() == 1
+        assert f"the observer, which looks into the ROS graph, ended ({number.name})" in run.stderr
+
+
+def test_a_supervisor_that_is_stuck_is_killed_in_the_end(tmp_path: Path) -> None:
+    with launched(tmp_path, plan(POLITE)) as run:
+        run.await_line("polite", "up")
+        os.kill(run.own("orc-supervisor"), signal.SIGSTOP)
+        run.send(signal.SIGINT)
+        assert run.wait() == 1
+        run.assert_gone()
+        assert "the supervisor does not answer" in run.stderr
