@@ -43,4 +43,5 @@ class Joined:
 
 def joined(separator: str, names: Iterable[str]) -> str:
     """Return names joined; one that ends with the separator gets no second one."""
-    return reduce(lambda text, name: f"{text.removesuffix(separator)}{separator}{name}", names)
+    first, *rest = [*names] or [""]
+    return reduce(lambda text, name: f"{text.removesuffix(separator)}{separator}{name}", rest, first)

@@ -114,7 +114,10 @@ class Reader:
 
     def parameter_key(self, name: str, event: yaml.ScalarEvent) -> None:
         """Take the name of a parameter or of a group of them."""
-        if self.fresh and self.parameter is not None:
+        if self.fresh:
+            if self.parameter is None:
+                message = f"rcl cannot read a node below one that has '{_KEY}' itself: write its full name apart"
+                raise self.unreadable(message, event)
             self.group.replace(self.parameter.name)
             self.fresh = False
         slot = self.group.text if self.group.count else name
@@ -213,7 +216,8 @@ class Reader:
             raise self.unreadable(f"a list cannot stand above the parameters of '{_KEY}'", event)
         if self.lists:
             self.surprise("a list of lists is no parameter; rcl takes one of the inner lists", self.at(event))
-            self.flush(event)
+            if self.lists[-1].items:
+                self.flush(event)
         self.lists.append(OpenList(event))
 
     def close_list(self, event: yaml.SequenceEndEvent) -> None:
