@@ -206,7 +206,17 @@ def filtered(bench: Bench, ekf: Ekf) -> list[Any]:
 def test_estimates_come_at_the_frequency_in_simulated_time(
     bench: Bench, robot: Robot, filtered: list[Any]
 ) -> None:
-    bench.until(lambda: len(filtered) >= 20, robot.step)
+    stepped = time.monotonic()
+
+    def step_once_it_has_kept_up() -> None:
+        """A clock faster than the machine says nothing about the rate; a lost message must not stop it for ever."""
+        nonlocal stepped
+        behind = robot.now - _stamp(filtered[-1]) if filtered else 0
+        if behind < NANOSECONDS // 50 or time.monotonic() - stepped > 0.5:
+            robot.step()
+            stepped = time.monotonic()
+
+    bench.until(lambda: len(filtered) >= 20, step_once_it_has_kept_up)
     stamps = np.array([_stamp(message) for message in filtered])
     assert np.median(np.diff(stamps)) == pytest.approx(NANOSECONDS / 50, rel=0.2)
     message = filtered[-1]
@@ -347,9 +357,8 @@ def test_a_covariance_of_a_wrong_size_ends_it_with_one_line(start: Callable[...,
 def test_what_is_wrong_but_not_fatal_is_logged(start: Callable[..., Ekf], bench: Bench) -> None:
     ekf = start("-r", "__ns:=/faulty", *_parameters(frequenci=3.0, initial_state="[1.0]", debug="true"))
     bench.until(lambda: bench.sees("/faulty/ekf"))
-    bench.until(lambda: "initial_state has 1 entries" in ekf.said)
-    assert "did you mean frequency?" in ekf.said
-    assert "debug is not supported" in ekf.said
+    for told in ("initial_state has 1 entries", "did you mean frequency?", "debug is not supported"):
+        bench.until(lambda told=told: told in ekf.said)
 
 
 def test_a_visit_hands_over_all_that_came_between(bench: Bench) -> None:
