@@ -30,6 +30,21 @@ def folder(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
+def prefix(tmp_path: Path) -> Path:
+    """An ament prefix with a package `demo`: `echo` prints its arguments, `talker` does nothing."""
+    prefix = tmp_path / "prefix"
+    index = prefix / "share" / "ament_index" / "resource_index" / "packages"
+    programs = prefix / "lib" / "demo"
+    for made in (index, programs, prefix / "share" / "demo" / "launch"):
+        made.mkdir(parents=True)
+    (index / "demo").write_text("")
+    for name, text in {"echo": 'for word in "$@"; do echo "<$word>"; done', "talker": "exit 0"}.items():
+        (programs / name).write_text(f"#!/bin/sh\n{text}\n")
+        (programs / name).chmod(0o755)
+    return prefix
+
+
+@pytest.fixture
 def orchestra(folder: Path, home: Path) -> Callable[..., CompletedProcess[str]]:
     """Run `orchestra WORDS` and return what came of it."""
 

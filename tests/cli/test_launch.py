@@ -158,20 +158,6 @@ def test_a_signal_ends_the_run_with_its_status(
         assert run.wait(30) == status
 
 
-@pytest.fixture
-def prefix(tmp_path: Path) -> Path:
-    """An ament prefix with a package `demo` whose executable `echo` prints its arguments."""
-    prefix = tmp_path / "prefix"
-    index = prefix / "share" / "ament_index" / "resource_index" / "packages"
-    program = prefix / "lib" / "demo" / "echo"
-    for folder in (index, program.parent, prefix / "share" / "demo"):
-        folder.mkdir(parents=True)
-    (index / "demo").write_text("")
-    program.write_text('#!/bin/sh\nfor word in "$@"; do echo "<$word>"; done\n')
-    program.chmod(0o755)
-    return prefix
-
-
 @pytest.mark.parametrize(
     "arguments",
     [

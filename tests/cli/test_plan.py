@@ -105,14 +105,26 @@ def test_a_mistake_of_the_command_line_is_shown_in_it(orchestra: Command) -> Non
     assert "did you mean 'who'?" in found.stderr
 
 
-def test_a_launch_file_of_a_package_is_found_by_its_name(orchestra: Command, tmp_path: Path) -> None:
-    share = tmp_path / "prefix" / "share"
-    (share / "demo" / "launch").mkdir(parents=True)
-    (share / "demo" / "launch" / "greet.launch.yaml").write_text(_GOOD)
-    (share / "ament_index" / "resource_index" / "packages").mkdir(parents=True)
-    (share / "ament_index" / "resource_index" / "packages" / "demo").write_text("")
-    found = orchestra(
-        "plan", "demo", "greet.launch.yaml", "who:=moon", AMENT_PREFIX_PATH=str(tmp_path / "prefix")
-    )
+def test_a_launch_file_of_a_package_is_found_by_its_name(orchestra: Command, prefix: Path) -> None:
+    (prefix / "share" / "demo" / "launch" / "greet.launch.yaml").write_text(_GOOD)
+    found = orchestra("plan", "demo", "greet.launch.yaml", "who:=moon", AMENT_PREFIX_PATH=str(prefix))
     assert (found.returncode, found.stderr) == (0, "")
     assert "echo hello moon" in found.stdout
+
+
+def test_parameters_of_the_command_line_win(orchestra: Command, folder: Path, prefix: Path) -> None:
+    node = "{pkg: demo, exec: talker, name: talker, param: [{name: rate, value: 1}, {name: size, value: 1}]}"
+    (folder / "talk.yaml").write_text(f"launch:\n  - node: {node}\n")
+    (folder / "fast.yaml").write_text("/**:\n  ros__parameters: {rate: 2, size: 2, loud: true}\n")
+    found = orchestra(
+        *("plan", "talk.yaml", "--params-file", "fast.yaml", "talker:size:=3", "--format", "json"),
+        AMENT_PREFIX_PATH=str(prefix),
+    )
+    (process,) = json.loads(found.stdout)["processes"]
+    assert process["parameters"] == {"rate": 2, "size": 3, "loud": True}
+
+
+def test_a_parameter_file_that_is_not_there_is_a_mistake(orchestra: Command) -> None:
+    found = orchestra("plan", "good.yaml", "--params-file", "fats.yaml")
+    assert (found.returncode, found.stdout) == (2, "")
+    assert "fats.yaml" in found.stderr
