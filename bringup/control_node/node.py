@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from bringup.control.settings import Settings
 
 # How long the end waits until the last command has arrived.
-FAREWELL = Duration(seconds=0.3)
+FAREWELL = Duration(seconds=0.5)
 NEWEST = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
 COMMANDS = QoSProfile(depth=1, reliability=ReliabilityPolicy.RELIABLE)
 LATCHED = QoSProfile(
