@@ -17,10 +17,11 @@ if TYPE_CHECKING:
 
     from orchestra.values import Scalar
 
-_WORD = r"(?!__)[A-Za-z_](?:(?!___)[A-Za-z0-9_])*"
-_NODE = re.compile(r"(?!__)[A-Za-z_](?:(?!__)[A-Za-z0-9_])*")
-_PART = rf"/?{_WORD}(?:/{_WORD})*/?"
-_NAME = re.compile(rf"{_PART}(?:\.{_PART})*")
+# What rcl's lexer takes for words: `__` begins no word, `___` stands in none; possessive, so that no name is slow.
+_WORD = r"(?!__)[A-Za-z_](?:(?!___)[A-Za-z0-9_])*+"
+_PART = rf"(?:/|{_WORD})++"
+_NAME = re.compile(rf"{_PART}(?:\.{_PART})*+")
+_NODE = re.compile(r"(?!__)[A-Za-z_](?:(?!__)[A-Za-z0-9_])*+")
 
 
 @dataclass(frozen=True, slots=True)

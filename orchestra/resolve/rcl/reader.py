@@ -80,7 +80,8 @@ class Reader:
         """Take a key: of a node, of the section, of a parameter."""
         name = terminated(event.value)
         if not name:
-            raise self.unreadable("a key must not be empty", event)
+            empty = "a key must not be empty" if self.depth else "rcl does not take an empty document"
+            raise self.unreadable(empty, event)
         if self.lists and self.lists[-1].items is None:
             raise self.unreadable("a parameter cannot be a list of lists", event)
         if self.inside:
@@ -116,7 +117,9 @@ class Reader:
         """Take the name of a parameter or of a group of them."""
         if self.fresh:
             if self.parameter is None:
-                message = f"rcl cannot read a node below one that has '{_KEY}' itself: write its full name apart"
+                message = (
+                    f"rcl cannot read a node below one that has '{_KEY}' itself: write its full name apart"
+                )
                 raise self.unreadable(message, event)
             self.group.replace(self.parameter.name)
             self.fresh = False
