@@ -44,7 +44,9 @@ class Telling:
     @classmethod
     def of(cls, command: str, options: Namespace) -> Telling:
         """Return how the errors of a command with these options are told."""
-        given = " ".join(word for word in getattr(options, "words", ()) if ":=" in word)
+        words = [word for word in getattr(options, "words", ()) if ":=" in word]
+        files = [f"--params-file {file}" for file in getattr(options, "params_file", ())]
+        given = " ".join([*words, *files])
         return cls(command, getattr(options, "format", "text"), given, getattr(options, "debug", False))
 
 

@@ -59,7 +59,6 @@ def _start(words: list[str], given: Mapping[str, str], home: Path, domain: int) 
         "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
         **given,
         "ORCHESTRA_HOME": str(home),
-        "ORCHESTRA_TEST_SESSION": str(os.getpid()),
         "ROS_DOMAIN_ID": str(domain),
     }
     output = home / "output.txt"
@@ -69,10 +68,10 @@ def _start(words: list[str], given: Mapping[str, str], home: Path, domain: int) 
             stdin=subprocess.DEVNULL,
             stdout=screen,
             stderr=subprocess.STDOUT,
-            env=environment,
+            env={**environment, "ORCHESTRA_TEST_SESSION": str(os.getpid())},
             start_new_session=True,
         )
-    return Run(process, EventStream(home), output, domain)
+    return Run(process, EventStream(home), output, environment)
 
 
 def file_of(description: Description, home: Path) -> str:

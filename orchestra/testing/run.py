@@ -38,9 +38,13 @@ class Run:
     """
 
     def __init__(
-        self, process: subprocess.Popen[bytes], stream: EventStream, output: Path, domain: int
+        self,
+        process: subprocess.Popen[bytes],
+        stream: EventStream,
+        output: Path,
+        environment: dict[str, str],
     ) -> None:
-        self.domain = domain
+        self.environment = environment
         self._process = process
         self._stream = stream
         self._output = output
@@ -52,6 +56,11 @@ class Run:
 
     def __exit__(self, *_error: object) -> None:
         self.finish()
+
+    @property
+    def domain(self) -> int:
+        """The ROS domain of the run; a program that is started with `environment` hears it."""
+        return int(self.environment["ROS_DOMAIN_ID"])
 
     @property
     def pid(self) -> int:

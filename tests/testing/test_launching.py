@@ -80,6 +80,7 @@ def test_two_runs_do_not_hear_each_other(launch: Launch, monkeypatch: pytest.Mon
     for run in (one, other):
         assert run.wait() == 0
         assert run.logs("env") == f"{run.domain} LOCALHOST\n"
+        assert run.environment["ROS_DOMAIN_ID"] == str(run.domain)
 
 
 def test_variables_can_be_given(launch: Launch) -> None:
