@@ -357,8 +357,8 @@ def test_a_covariance_of_a_wrong_size_ends_it_with_one_line(start: Callable[...,
 def test_what_is_wrong_but_not_fatal_is_logged(start: Callable[..., Ekf], bench: Bench) -> None:
     ekf = start("-r", "__ns:=/faulty", *_parameters(frequenci=3.0, initial_state="[1.0]", debug="true"))
     bench.until(lambda: bench.sees("/faulty/ekf"))
-    for told in ("initial_state has 1 entries", "did you mean frequency?", "debug is not supported"):
-        bench.until(lambda told=told: told in ekf.said)
+    told = ("initial_state has 1 entries", "did you mean frequency?", "debug is not supported")
+    bench.until(lambda: all(part in ekf.said for part in told))
 
 
 def test_a_visit_hands_over_all_that_came_between(bench: Bench) -> None:
