@@ -1,8 +1,9 @@
 """Messages on their way between Python and the middleware, and the functions that rclpy asks a class for.
 
 For rclpy a message in transit is a pointer that it gets from one of these functions and hands to the others and
-to the middleware. Here the pointer is a reference to a Python object, so that functions of the interpreter itself
-can be four of the five: they report a failure as rclpy expects it, which a function made by ctypes cannot.
+to the middleware. Here the pointer is a reference to a Python object. So the functions that convert to Python and
+that destroy are the interpreter's own, which calls and lets go of an object: they report an exception as rclpy
+expects it. A function made by ctypes cannot, which matters for the one that converts from Python.
 """
 
 from __future__ import annotations

@@ -5,35 +5,20 @@ from __future__ import annotations
 import importlib
 import sys
 from pathlib import Path
-from types import ModuleType
-from typing import Any
+from typing import TYPE_CHECKING
 
 from orchestra.errors import UsageError
 from orchestra.nearest import nearest
+from orchestra.ros.interfaces.tf_package import MESSAGE, PACKAGE, tf_message_type
 
-# A class of a package without type information.
-MessageClass = Any
+if TYPE_CHECKING:
+    from types import ModuleType
 
-_TF_PACKAGE = "tf2_msgs"
-_TF_MESSAGE = "TFMessage"
+    from orchestra.ros.interfaces.tf_package import MessageClass
 
 
 class UnknownMessageTypeError(UsageError):
     """A name stands for no message type that is here."""
-
-
-def tf_message_type() -> MessageClass:
-    """Return the class of `tf2_msgs/msg/TFMessage`: of the installed package, else one that needs no package.
-
-    Both have the same name, fields, wire format and type hash in the graph.
-    """
-    try:
-        return importlib.import_module(f"{_TF_PACKAGE}.msg").TFMessage
-    except ModuleNotFoundError as error:
-        if error.name not in (_TF_PACKAGE, f"{_TF_PACKAGE}.msg"):
-            raise
-    # Only now: it brings geometry_msgs and the C structures, which an installed package makes needless.
-    return importlib.import_module("orchestra.ros.interfaces.tf2").TFMessage
 
 
 def message_type(name: str) -> MessageClass:
@@ -43,7 +28,7 @@ def message_type(name: str) -> MessageClass:
         UnknownMessageTypeError: not such a name, or its package or the type in it is not here.
     """
     package, message = _split(name)
-    if (package, message) == (_TF_PACKAGE, _TF_MESSAGE):
+    if (package, message) == (PACKAGE, MESSAGE):
         return tf_message_type()
     module = _messages_of(package, name)
     found = getattr(module, message, None)
@@ -53,22 +38,6 @@ def message_type(name: str) -> MessageClass:
             f"{name}: package {package} has no message {message}{_hint(message, known)}"
         )
     return found
-
-
-def install() -> bool:
-    """Make `import tf2_msgs.msg` work in this process; returns whether that was needed.
-
-    Only TFMessage is in the module, none of the other types of tf2_msgs.
-    """
-    found = tf_message_type()
-    if _TF_PACKAGE in sys.modules:
-        return False
-    package, messages = ModuleType(_TF_PACKAGE), ModuleType(f"{_TF_PACKAGE}.msg")
-    package.__path__ = []
-    vars(package)["msg"] = messages
-    vars(messages)[_TF_MESSAGE] = found
-    sys.modules |= {package.__name__: package, messages.__name__: messages, found.__module__: messages}
-    return True
 
 
 def _split(name: str) -> tuple[str, str]:
@@ -88,7 +57,7 @@ def _messages_of(package: str, name: str) -> ModuleType:
     except ModuleNotFoundError as error:
         if error.name not in (package, f"{package}.msg"):
             raise
-    if package == _TF_PACKAGE:
+    if package == PACKAGE:
         raise UnknownMessageTypeError(
             f"{name}: package tf2_msgs is not installed; without it, only TFMessage is here"
         )

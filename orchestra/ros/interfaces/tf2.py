@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import os
 from collections.abc import Sequence
 from collections.abc import Set as AbstractSet
@@ -11,6 +12,8 @@ from geometry_msgs.msg import TransformStamped
 from rosidl_parser.definition import NamespacedType, UnboundedSequence
 
 from orchestra.ros.interfaces import conversion, typesupport, wire
+
+_log = logging.getLogger(__name__)
 
 _CHECK_FIELDS = os.environ.get("ROS_PYTHON_CHECK_FIELDS") == "1"
 
@@ -91,7 +94,15 @@ TFMessage.__module__ = "tf2_msgs.msg._tf_message"
 
 class _TFMessageInTransit(conversion.MessageInTransit):
     def __call__(self) -> TFMessage:
-        transforms = conversion.uninterrupted(wire.decode, self.serialized(), TransformStamped)
+        """Return the message that came in; an empty one, with a record in the log, if it is malformed.
+
+        Raising here would leave rclpy's executor unable to serve the subscription again.
+        """
+        try:
+            transforms = conversion.uninterrupted(wire.decode, self.serialized(), TransformStamped)
+        except wire.MalformedMessageError as error:
+            _log.error("a malformed TFMessage came in, taken as an empty one: %s", error)
+            transforms = []
         return TFMessage(transforms=transforms)
 
 

@@ -7,6 +7,9 @@ is a callable written in C (an operator, an `attrgetter`, a method of a dictiona
 function of a library, called without releasing the interpreter's lock. No interrupt (Ctrl-C) is taken there
 either, so none is lost. What does need bytecode happens in `conversion`, before and after.
 
+In Python 3.11 one way is left: an allocation in there can start a garbage collection, and that a finalizer of
+the user's. Since 3.12 a collection waits for the next bytecode.
+
 Rejected: calling the compiled serializers of the element from a Python loop (bytecode under a lock, and a C++
 exception for malformed data would cross Python's frames); a process-wide lock around publish and take (does not
 cover the creation of endpoints); machine code in memory of our own (one version per processor).
@@ -21,7 +24,6 @@ from itertools import repeat
 from operator import attrgetter
 from typing import TYPE_CHECKING
 
-from orchestra.errors import RunError
 from orchestra.ros.interfaces import description, layouts
 from orchestra.ros.interfaces.layouts import Bytes, Callbacks, Cdr, FastBuffer, Handle
 
@@ -40,7 +42,7 @@ _TYPE_NAME = b"TFMessage"
 _ROS_TYPE_MESSAGE = 18  # rosidl_typesupport_introspection_c/field_types.h
 
 
-class UnsupportedInstallationError(RunError):
+class UnsupportedInstallationError(ImportError):
     """The installed ROS libraries are not laid out as in ROS 2 Jazzy."""
 
 
@@ -67,18 +69,30 @@ def build(element: int, transit: type[MessageInTransit]) -> int:
     Raises:
         UnsupportedInstallationError: the libraries are not those of ROS 2 Jazzy.
     """
+    try:
+        return _build(element, transit)
+    except (
+        OSError,
+        AttributeError,
+        ValueError,
+    ) as error:  # no such library, no such function, a null pointer
+        raise UnsupportedInstallationError(f"{error}; install tf2_msgs to use TFMessage") from error
+
+
+def _build(element: int, transit: type[MessageInTransit]) -> int:
     runtime = ctypes.PyDLL(_RUNTIME)
+    find = runtime.get_message_typesupport_handle
+    find.argtypes, find.restype = [c_void_p, c_char_p], POINTER(Handle)
+    fastrtps, introspection = find(element, _FASTRTPS).contents, find(element, _INTROSPECTION).contents
     fast_cdr = ctypes.PyDLL(_FAST_CDR)
     _check_layout(fast_cdr)
     _give_memory(transit, runtime)
-    find = runtime.get_message_typesupport_handle
-    find.argtypes, find.restype = [c_void_p, c_char_p], POINTER(Handle)
     table: dict[bytes, int] = {}
     dispatch = _callback(CFUNCTYPE(c_void_p, _handle_in(table), c_char_p), operator.getitem)
-    common = (dispatch, *_description_functions(find(element, _FASTRTPS).contents))
+    common = (dispatch, *_description_functions(fastrtps))
     for identifier, data in (
-        (_FASTRTPS, _callbacks(find(element, _FASTRTPS).contents, fast_cdr)),
-        (_INTROSPECTION, _members(find(element, _INTROSPECTION).contents)),
+        (_FASTRTPS, _callbacks(fastrtps, fast_cdr)),
+        (_INTROSPECTION, _members(introspection)),
     ):
         handle = layouts.immortal(Handle(identifier, ctypes.addressof(data), *common))
         table[identifier] = ctypes.addressof(handle)

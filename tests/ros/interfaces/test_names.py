@@ -8,6 +8,7 @@ import pytest
 from std_msgs.msg import String
 
 from orchestra.errors import UsageError
+from orchestra.ros import interfaces
 from orchestra.ros.interfaces import UnknownMessageTypeError, message_type, tf_message_type
 
 if TYPE_CHECKING:
@@ -112,6 +113,15 @@ def test_it_does_not_matter_when_rclpy_is_imported(order: str) -> None:
     assert _run(program) == "0001000000000000"
 
 
-def test_rclpy_is_not_imported_for_the_class() -> None:
-    program = _ASK + "type(tf_message_type()).__import_type_support__()\nprint('rclpy' in sys.modules)"
-    assert _run(program) == "False"
+def test_a_node_that_wants_tf_pays_for_nothing_else() -> None:
+    program = _ASK.replace(", message_type", "") + (
+        "type(tf_message_type()).__import_type_support__()\n"
+        "print(sorted({'rclpy', 'difflib', 'orchestra.errors'} & sys.modules.keys()))"
+    )
+    assert _run(program) == "[]"
+
+
+def test_the_room_has_no_other_names() -> None:
+    with pytest.raises(AttributeError, match="no attribute 'tf_type'"):
+        _ = interfaces.tf_type  # type: ignore[attr-defined]  # the point of the test
+    assert all(getattr(interfaces, name) for name in interfaces.__all__)

@@ -17,7 +17,6 @@ from type_description_interfaces.srv import GetTypeDescription  # type: ignore[i
 
 from orchestra.ros.interfaces import conversion, layouts, typesupport
 from orchestra.ros.interfaces.tf2 import TFMessage
-from orchestra.ros.interfaces.wire import MalformedMessageError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -172,11 +171,34 @@ def test_nothing_runs_bytecode_while_receiving() -> None:
     assert set(files[: files.index("tf2.py")]) == {"serialization.py", "type_support.py"}
 
 
-@pytest.mark.parametrize("content", [b"\0\1\0\0", b"\0\1\0\0\xff\xff\xff\xff", b"\0\1\0\0\1\0\0\0abc"])
-def test_malformed_bytes_raise(content: bytes) -> None:
-    with pytest.raises(TypeError) as caught:
-        deserialize_message(content, TFMessage)
-    assert isinstance(caught.value.__cause__, MalformedMessageError)
+_MALFORMED = (b"\0\1\0\0", b"\0\1\0\0\xff\xff\xff\xff", b"\0\1\0\0\1\0\0\0abc")
+
+
+@pytest.mark.parametrize("content", _MALFORMED)
+def test_malformed_bytes_are_told_and_taken_as_nothing(
+    content: bytes, caplog: pytest.LogCaptureFixture
+) -> None:
+    assert deserialize_message(content, TFMessage) == TFMessage()
+    (record,) = caplog.records
+    assert record.levelname == "ERROR"
+    assert record.message.startswith("a malformed TFMessage came in, taken as an empty one: a ")
+
+
+def test_a_subscription_survives_malformed_messages(node: Node) -> None:
+    received: list[TFMessage] = []
+    node.create_subscription(TFMessage, "/tf", received.append, 10)
+    publisher = node.create_publisher(TFMessage, "/tf", 10)
+    _spin(node, publisher.get_subscription_count)
+    for content in _MALFORMED:
+        publisher.publish(content)
+    publisher.publish(_message(1))
+    _spin(node, lambda: _message(1) in received)
+    assert received == [TFMessage(), TFMessage(), TFMessage(), _message(1)]
+
+
+def test_bytes_in_no_known_encoding_are_refused_by_the_middleware() -> None:
+    with pytest.raises(Exception, match="Fast CDR exception deserializing message of type tf2_msgs"):
+        deserialize_message(b"\0", TFMessage)
 
 
 @pytest.mark.parametrize(
@@ -253,6 +275,15 @@ def test_a_hundred_thousand_messages_leave_no_memory_behind(node: Node) -> None:
 def _resident_kilobytes() -> int:
     status = Path("/proc/self/status").read_text()
     return int(status.partition("VmRSS:")[2].split()[0])
+
+
+def test_a_missing_library_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(typesupport, "_FAST_CDR", "libfastcdr.so.99")
+    element = conversion.address_in(type(TransformStamped)._TYPE_SUPPORT)
+    with pytest.raises(
+        typesupport.UnsupportedInstallationError, match=r"libfastcdr\.so\.99.*install tf2_msgs"
+    ):
+        typesupport.build(element, conversion.MessageInTransit)
 
 
 def test_a_foreign_layout_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:
