@@ -63,7 +63,7 @@ class Settings:
     lidar_x: float = _number(0.0, -0.5, 0.5, "How far in m the lidar sits ahead of the middle of the axle")
     scan_timeout: float = _number(0.5, 0.15, 5.0, "Seconds of ROS time without a scan before the robot stops")
     odometry_timeout: float = _number(
-        0.5, 0.05, 5.0, "Seconds of ROS time without odometry before the robot stops"
+        1.0, 0.05, 5.0, "Seconds of ROS time without odometry before the robot stops"
     )
     seed: int = _number(
         0, 0, 2**31 - 1, "Start of the wandering's random choices; robots differ by their name"

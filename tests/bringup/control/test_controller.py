@@ -57,7 +57,8 @@ def test_wandering_moves() -> None:
 def test_the_robot_brakes_when_it_cannot_know(
     name: str, mode: str, now: float, sight: Sight | None, odometry: Odometry | None, fault: str | None
 ) -> None:
-    after = ticked(replace(DRIVING, at=now - 0.1), Settings(mode=mode), now, sight, odometry)
+    settings = Settings(mode=mode, scan_timeout=0.5, odometry_timeout=0.5)
+    after = ticked(replace(DRIVING, at=now - 0.1), settings, now, sight, odometry)
     assert after.fault == fault, name
     if fault is not None:
         assert after.command.linear == pytest.approx(0.38)

@@ -13,7 +13,7 @@ from bringup.control.sight import obstacle_points
 from bringup.world import odometry
 from bringup.world.drive import Twist
 from bringup.world.layout import lay_out
-from bringup.world.lidar import ANGLE_INCREMENT, ANGLE_MIN, RANGE_MAX, RANGE_MIN, Lidar, noisy
+from bringup.world.lidar import ANGLE_INCREMENT, ANGLE_MIN, RANGE_MAX, RANGE_MIN, RAYS, Lidar, noisy
 from bringup.world.model import TICKS_PER_SECOND, load, pose, wheel_angles
 from bringup.world.odometry import WheelErrors
 from bringup.world.simulation import Simulation
@@ -108,6 +108,13 @@ def test_wandering_robots_touch_nothing_in_a_minute(world: str) -> None:
     for driver in crew:
         assert driver.way > 8.0
         assert len(driver.cells) > 8
+
+
+def test_robots_that_see_nothing_do_touch(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The counts of the other tests are worth something."""
+    monkeypatch.setattr(Lidar, "measure", lambda *_: np.full(RAYS, np.inf))
+    simulation, _ = wander("arena", seed=0, seconds=60.0)
+    assert sum(touches(simulation)) > 0
 
 
 @pytest.mark.long
