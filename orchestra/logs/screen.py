@@ -1,9 +1,9 @@
 """The user's terminal, or whatever stands in its place: it may be slow, blocked or closed, and never holds us up.
 
 Descriptors 1 and 2 are shared with the shell and others, so O_NONBLOCK must not be set on them: it would be set for
-all. They are opened anew through /proc/self/fd, which gives a file description of our own. Where that is not possible (a
-socket, a terminal of another user) they are written to in small pieces when poll(2) says that it will not block.
-A regular file is used as it is: it cannot block for long, and opened anew would be written from its begin.
+all. They are opened anew through /proc/self/fd, which gives a file description of our own. Where that is not possible
+(a socket, a terminal of another user) they are written to in small pieces when poll(2) says that it will not block. A
+regular file is used as it is: it cannot block for long, and opened anew would be written from its begin.
 """
 
 from __future__ import annotations

@@ -4,8 +4,8 @@ Later entries win, so a description can overrule everything but the marks.
 
 PATH gets the interpreter's folder in front only where that is a virtual environment that is not on it: a script with
 `#!/usr/bin/env python3` then finds the interpreter that has rclpy, as if the environment had been activated, and
-whoever chose an order keeps it. RCUTILS_LOGGING_BUFFERED_STREAM stays as it is: unset, rcutils hands over each message in one
-write; set to 1 it takes three (rcutils of Jazzy, counted on a packet socket).
+whoever chose an order keeps it. RCUTILS_LOGGING_BUFFERED_STREAM stays as it is: unset, rcutils hands over each message
+in one write; set to 1 it takes three (rcutils of Jazzy, counted on a packet socket).
 """
 
 from __future__ import annotations

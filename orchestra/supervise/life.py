@@ -6,8 +6,8 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TypeAlias
 
-from orchestra.values import Restart, Stop
 from orchestra.supervise.ending import Ending
+from orchestra.values import Restart, Stop
 
 
 class Phase(StrEnum):

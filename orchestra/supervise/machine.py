@@ -51,8 +51,8 @@ from orchestra.supervise.life import (
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from orchestra.values import Stop
     from orchestra.supervise.ending import Ending
+    from orchestra.values import Stop
 
 Step: TypeAlias = tuple[State, tuple[Effect, ...]]
 

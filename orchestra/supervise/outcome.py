@@ -8,11 +8,8 @@ is a run, and the boundary 3.
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from orchestra.supervise.ending import signal_name
-from orchestra.supervise.ending import Ending
-
+from orchestra.supervise.ending import Ending, signal_name
 
 OK, FAILED, MISTAKE, BUG, UNSTOPPABLE = 0, 1, 2, 3, 4
 _SIGNALLED = 128

@@ -30,8 +30,11 @@ def stat(pid: int) -> Stat | None:
 
 def pids() -> list[int]:
     """Return every process on the machine."""
-    return [int(name) for name in os.listdir("/proc")  # noqa: PTH208 - as above
-     if name.isdigit()]
+    return [
+        int(name)
+        for name in os.listdir("/proc")  # noqa: PTH208 - as above
+        if name.isdigit()
+    ]
 
 
 def children(pid: int) -> list[int]:

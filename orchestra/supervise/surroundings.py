@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Protocol
-from orchestra.supervise.loop import Loop
-from orchestra.supervise.kin import Kin
-from orchestra.plan.model import Process
-from orchestra.logs.journal import Journal
 from collections.abc import Callable
-from orchestra.supervise.recorder import Recorder
+from dataclasses import dataclass
+from typing import Protocol
+
+from orchestra.logs.journal import Journal
+from orchestra.plan.model import Process
+from orchestra.supervise.kin import Kin
+from orchestra.supervise.loop import Loop
 from orchestra.supervise.observation import Observers
+from orchestra.supervise.recorder import Recorder
 
 
 class Listener(Protocol):

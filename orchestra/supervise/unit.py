@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.logs.names import shown
 from orchestra.logs.tail import Tail
-from orchestra.values import Stop
 from orchestra.probes.table import probe_for
 from orchestra.supervise import life
 from orchestra.supervise.ending import Ending, unstartable
@@ -19,6 +18,7 @@ from orchestra.supervise.order import Life
 from orchestra.supervise.spawn import spawn
 from orchestra.supervise.spec import Spec, argv
 from orchestra.supervise.stream import Stream
+from orchestra.values import Stop
 
 if TYPE_CHECKING:
     from orchestra.plan.model import Process

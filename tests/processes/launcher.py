@@ -1,11 +1,11 @@
 """Runs a document that stands in a file, as `orchestra launch` runs the one that its resolver makes.
 
-    launcher.py DOCUMENT            hand over the document
-    launcher.py - exit=N            the resolver refuses with this status
-    launcher.py - garbage           the resolver writes something else
-    launcher.py - raise             the resolver has a bug
-    launcher.py - wait              the resolver never comes to an end; says "resolving" first
-    launcher.py - litter            the resolver leaves a process behind and refuses with 2
+launcher.py DOCUMENT            hand over the document
+launcher.py - exit=N            the resolver refuses with this status
+launcher.py - garbage           the resolver writes something else
+launcher.py - raise             the resolver has a bug
+launcher.py - wait              the resolver never comes to an end; says "resolving" first
+launcher.py - litter            the resolver leaves a process behind and refuses with 2
 """
 
 import os

@@ -1,27 +1,28 @@
 """Stands in for a node: does what its words say, in order, and says when it has.
 
-    ignore=INT,TERM     ignore these signals
-    polite=3            on SIGINT or SIGTERM say "bye" and exit with 3
-    child               start a stand-in that ignores nothing in the own group
-    child=ignore        ... that ignores INT and TERM
-    escape              start one in a session of its own (setsid); escape=ignore as above
-    daemon              start one as a daemon (double fork and setsid); daemon=ignore as above
-    anonymous           start a daemon without any environment
-    say=TEXT            write a line to standard output
-    complain=TEXT       write a line to standard error
-    partial=TEXT        write text without an end of line
-    bytes=N             write N bytes of numbered lines
-    show=NAME           write the value of an environment variable
-    disposition         write which signals are ignored and blocked
-    terminal            write whether standard input, output and error are terminals
-    exit=N, kill=NAME   end
-    linger              wait for ever, without being woken by anything periodic
+ignore=INT,TERM     ignore these signals
+polite=3            on SIGINT or SIGTERM say "bye" and exit with 3
+child               start a stand-in that ignores nothing in the own group
+child=ignore        ... that ignores INT and TERM
+escape              start one in a session of its own (setsid); escape=ignore as above
+daemon              start one as a daemon (double fork and setsid); daemon=ignore as above
+anonymous           start a daemon without any environment
+say=TEXT            write a line to standard output
+complain=TEXT       write a line to standard error
+partial=TEXT        write text without an end of line
+bytes=N             write N bytes of numbered lines
+show=NAME           write the value of an environment variable
+disposition         write which signals are ignored and blocked
+terminal            write whether standard input, output and error are terminals
+exit=N, kill=NAME   end
+linger              wait for ever, without being woken by anything periodic
 """
 
 import os
 import signal
 import subprocess
 import sys
+from pathlib import Path
 
 
 def write(text: str, descriptor: int = 1) -> None:
@@ -43,16 +44,24 @@ def bid_farewell(status: int) -> None:
         signal.signal(number, end)
 
 
-def start(kind: str, stubborn: bool) -> None:
+def start(kind: str, manner: str) -> None:
     """Start another stand-in and wait until it is there."""
-    words = [sys.executable, "-S", "-E", __file__, *(["ignore=INT,TERM"] if stubborn else []), "say=up", "linger"]
+    words = [
+        sys.executable,
+        "-S",
+        "-E",
+        __file__,
+        *(["ignore=INT,TERM"] if manner == "ignore" else []),
+        "say=up",
+        "linger",
+    ]
     script = {"child": words, "escape": words}.get(kind)
     read, told = os.pipe()
     if script:
         subprocess.Popen(script, stdout=told, start_new_session=kind == "escape")
     elif os.fork() == 0:
         os.setsid()
-        environment = {} if kind == "anonymous" else None
+        environment: dict[str, str] | None = {} if kind == "anonymous" else None
         subprocess.Popen(words, stdout=told, env=environment)
         os._exit(0)
     else:
@@ -66,42 +75,40 @@ def linger() -> None:
         signal.pause()
 
 
-def act(word: str) -> None:
-    name, _, value = word.partition("=")
-    match name:
-        case "ignore":
-            for number in numbers(value):
-                signal.signal(number, signal.SIG_IGN)
-        case "polite":
-            bid_farewell(int(value or 0))
-        case "child" | "escape" | "daemon" | "anonymous":
-            start(name, value == "ignore")
-        case "say":
-            write(value + "\n")
-        case "complain":
-            write(value + "\n", 2)
-        case "partial":
-            write(value)
-        case "bytes":
-            lines = "".join(f"{number:011d}\n" for number in range(int(value) // 12))
-            write(lines)
-        case "show":
-            write(f"{value}={os.environ.get(value)}\n")
-        case "disposition":
-            with open("/proc/self/status") as status:
-                write("".join(line for line in status if line.startswith(("SigBlk", "SigIgn"))))
-        case "terminal":
-            write(" ".join(str(os.isatty(descriptor)) for descriptor in range(3)) + "\n")
-        case "exit":
-            os._exit(int(value))
-        case "kill":
-            os.kill(os.getpid(), signal.Signals[f"SIG{value}"])
-        case "linger":
-            linger()
-        case _:
-            raise SystemExit(f"unknown word {word}")
+def ignore(words: str) -> None:
+    for number in numbers(words):
+        signal.signal(number, signal.SIG_IGN)
 
+
+def write_numbers(size: str) -> None:
+    write("".join(f"{number:011d}\n" for number in range(int(size) // 12)))
+
+
+def show_dispositions() -> None:
+    lines = Path("/proc/self/status").read_text().splitlines(keepends=True)
+    write("".join(line for line in lines if line.startswith(("SigBlk", "SigIgn"))))
+
+
+ACTIONS = {
+    "ignore": ignore,
+    "polite": lambda value: bid_farewell(int(value or 0)),
+    "child": lambda value: start("child", value),
+    "escape": lambda value: start("escape", value),
+    "daemon": lambda value: start("daemon", value),
+    "anonymous": lambda value: start("anonymous", value),
+    "say": lambda value: write(value + "\n"),
+    "complain": lambda value: write(value + "\n", 2),
+    "partial": write,
+    "bytes": write_numbers,
+    "show": lambda value: write(f"{value}={os.environ.get(value)}\n"),
+    "disposition": lambda _value: show_dispositions(),
+    "terminal": lambda _value: write(" ".join(str(os.isatty(number)) for number in range(3)) + "\n"),
+    "exit": lambda value: os._exit(int(value)),
+    "kill": lambda value: os.kill(os.getpid(), signal.Signals[f"SIG{value}"]),
+    "linger": lambda _value: linger(),
+}
 
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback
 for given in sys.argv[1:]:
-    act(given)
+    name, _, argument = given.partition("=")
+    ACTIONS[name](argument)

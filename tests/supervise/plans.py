@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import contextlib
-import json
 import os
 import signal
 import subprocess
 import sys
 import time
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -41,6 +40,7 @@ HERE = Location(point("by_hand.yaml"))
 PROCESSES = Path(__file__).parents[1] / "processes"
 # Generous: it only ends tests that would otherwise hang.
 PATIENCE = 40.0
+_PLAIN = RunOptions()
 
 
 def stand_in(*words: str) -> tuple[str, ...]:
@@ -144,7 +144,6 @@ class Launched:
     home: Path
     out: Path
     err: Path
-    _seen: set[int] = field(default_factory=set)
 
     @property
     def directory(self) -> Path:
@@ -192,7 +191,9 @@ class Launched:
         """The pid of one of Orchestra's own processes, by its name."""
         if comm == "orc-keeper":
             return self.popen.pid
-        below = wait_for(lambda: [pid for pid in proc.descendants(self.popen.pid) if name_of(pid) == comm], comm)
+        below = wait_for(
+            lambda: [pid for pid in proc.descendants(self.popen.pid) if name_of(pid) == comm], comm
+        )
         pid: int = below[0]
         return pid
 
@@ -211,7 +212,11 @@ class Launched:
 
     def assert_gone(self, seconds: float = 6.0) -> None:
         """Nothing is left of the run."""
-        wait_for(lambda: not self.everything(), f"the end of {[proc.command(p) for p in self.everything()]}", seconds)
+        wait_for(
+            lambda: not self.everything(),
+            f"the end of {[proc.command(p) for p in self.everything()]}",
+            seconds,
+        )
 
     @property
     def stdout(self) -> str:
@@ -242,7 +247,7 @@ def name_of(pid: int) -> str:
 def launched(
     folder: Path,
     what: Plan | tuple[str, ...],
-    options: RunOptions = RunOptions(),  # noqa: B008 - frozen
+    options: RunOptions = _PLAIN,
     *,
     environment: dict[str, str] | None = None,
     through: tuple[str, ...] = (),
@@ -256,9 +261,9 @@ def launched(
     if isinstance(what, Plan):
         path = folder / "document.json"
         path.write_bytes(document.dumps(what, options))
-        words = (str(path),)
+        words = [str(path)]
     else:
-        words = ("-", *what)
+        words = ["-", *what]
     out, err = folder / "out", folder / "err"
     with out.open("wb") as out_file, err.open("wb") as err_file:
         streams = {"stdin": subprocess.DEVNULL, "stdout": out_file, "stderr": err_file}
@@ -277,14 +282,11 @@ def launched(
         started.wait(PATIENCE)
 
 
-def finished(folder: Path, what: Plan | tuple[str, ...], options: RunOptions = RunOptions(), **kwargs: Any) -> Launched:  # noqa: B008 - frozen
+def finished(
+    folder: Path, what: Plan | tuple[str, ...], options: RunOptions = _PLAIN, **kwargs: Any
+) -> Launched:
     """Run to the end, whatever the status; nothing may be left."""
     with launched(folder, what, options, **kwargs) as run:
         run.wait()
         assert not run.everything()
         return run
-
-
-def plan_text(of: Plan) -> str:
-    """Return the document's plan as JSON text."""
-    return json.dumps(json.loads(document.dumps(of, RunOptions()))["plan"])

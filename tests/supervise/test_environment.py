@@ -14,10 +14,18 @@ WHEELS = Host("/env", "/env/bin", ("/env/lib", "/env/site/ros_a.libs"), ament=Tr
 
 
 def environment(
-    caller: dict[str, str], description: dict[str, str | None] | None = None, host: Host = BARE, colour: bool = False
+    caller: dict[str, str],
+    description: dict[str, str | None] | None = None,
+    host: Host = BARE,
+    colour: bool = False,
 ) -> dict[str, str]:
     return node_environment(
-        caller, host, description or {}, log_folder="/run/logs/ros", colour=colour, marks=("1f-7", "/robot1/ekf")
+        caller,
+        host,
+        description or {},
+        log_folder="/run/logs/ros",
+        colour=colour,
+        marks=("1f-7", "/robot1/ekf"),
     )
 
 
@@ -53,11 +61,21 @@ def test_the_callers_place_for_logs_stays(caller: dict[str, str]) -> None:
 def test_the_description_wins_over_everything_but_the_marks() -> None:
     result = environment(
         {"A": "1", "B": "2"},
-        {"A": None, "B": "3", "PYTHONUNBUFFERED": None, "ORCHESTRA_RUN": "x", "ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF"},
+        {
+            "A": None,
+            "B": "3",
+            "PYTHONUNBUFFERED": None,
+            "ORCHESTRA_RUN": "x",
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "OFF",
+        },
     )
     assert "A" not in result
     assert "PYTHONUNBUFFERED" not in result
-    assert (result["B"], result["ORCHESTRA_RUN"], result["ROS_AUTOMATIC_DISCOVERY_RANGE"]) == ("3", "1f-7", "OFF")
+    assert (result["B"], result["ORCHESTRA_RUN"], result["ROS_AUTOMATIC_DISCOVERY_RANGE"]) == (
+        "3",
+        "1f-7",
+        "OFF",
+    )
 
 
 def test_the_wheels_are_found_and_bootstrapped() -> None:
@@ -87,7 +105,11 @@ def test_nodes_colour_their_logs_where_it_is_seen(colour: bool, expected: str | 
 
 def test_no_interpreter_of_a_node_starts_twice_and_rclpy_is_there() -> None:
     """The wheels' bootstrapper replaces the process where its variable is missing; ours makes that needless."""
-    clean = {name: value for name, value in os.environ.items() if name not in ("LD_LIBRARY_PATH", "AMENT_PREFIX_PATH")}
+    clean = {
+        name: value
+        for name, value in os.environ.items()
+        if name not in ("LD_LIBRARY_PATH", "AMENT_PREFIX_PATH")
+    }
     clean.pop("_ROS_WHEELS_BOOTSTRAP_COMPLETE", None)
     host = this_host()
     result = environment(clean, host=host)

@@ -50,7 +50,12 @@ LINGERS = process("lingers", "polite", "linger")
             0,
             "every process has ended",
         ),
-        (plan(process("a", "exit=0", required=True), LINGERS), RunOptions(), 0, "required process a has ended"),
+        (
+            plan(process("a", "exit=0", required=True), LINGERS),
+            RunOptions(),
+            0,
+            "required process a has ended",
+        ),
         (
             plan(process("a", "exit=77", required=True), LINGERS),
             RunOptions(),
@@ -82,7 +87,11 @@ LINGERS = process("lingers", "polite", "linger")
             "a was not ready within 0.3 s: waited for a line of its output that matches 'never'",
         ),
         (
-            plan(process("a", "exit=1"), process("b", required=True, depends_on=after("a", "completed")), LINGERS),
+            plan(
+                process("a", "exit=1"),
+                process("b", required=True, depends_on=after("a", "completed")),
+                LINGERS,
+            ),
             RunOptions(),
             1,
             "required process b could not begin: a never was completed; failed: a (exit code 1)",
@@ -90,7 +99,9 @@ LINGERS = process("lingers", "polite", "linger")
         (plan(LINGERS, triggers=(at_start(shutdown("enough")),)), RunOptions(), 0, "shut down: enough"),
     ],
 )
-def test_a_run_that_ends_by_itself(tmp_path: Path, what: Plan, options: RunOptions, status: int, reason: str) -> None:
+def test_a_run_that_ends_by_itself(
+    tmp_path: Path, what: Plan, options: RunOptions, status: int, reason: str
+) -> None:
     run = finished(tmp_path, what, options)
     assert run.popen.returncode == status
     last = run.events[-1]
@@ -104,7 +115,9 @@ def test_a_run_that_ends_by_itself(tmp_path: Path, what: Plan, options: RunOptio
 def test_a_run_that_is_stopped(tmp_path: Path, number: signal.Signals, status: int) -> None:
     """What processes make of the stop is no failure, whatever their status."""
     stubborn = process("b", "polite=9", "say=up", "linger", required=True)
-    with launched(tmp_path, plan(process("a", "say=up", "linger"), stubborn), RunOptions(fail_on_any=True)) as run:
+    with launched(
+        tmp_path, plan(process("a", "say=up", "linger"), stubborn), RunOptions(fail_on_any=True)
+    ) as run:
         run.await_line("a", "up")
         run.await_line("b", "up")
         run.send(number)
@@ -116,7 +129,9 @@ def test_a_run_that_is_stopped(tmp_path: Path, number: signal.Signals, status: i
 def test_a_required_failure_counts_more_than_the_signal_that_follows(tmp_path: Path) -> None:
     stubborn = process("b", "ignore=INT,TERM", "say=up", "linger")
     failing = process("a", "exit=5", required=True, depends_on=after("b", "ready"))
-    with launched(tmp_path, plan(process("b", command=stubborn.command, ready=ready_when("up")), failing)) as run:
+    with launched(
+        tmp_path, plan(process("b", command=stubborn.command, ready=ready_when("up")), failing)
+    ) as run:
         run.await_event("run_stopping")
         run.send(signal.SIGINT)
         assert run.wait() == 5

@@ -1,12 +1,16 @@
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import pytest
 
 from orchestra.supervise.ending import Ending
 from orchestra.supervise.life import Phase, Rules, State
 from orchestra.supervise.order import Fate, Life, fate, patience, reached, stop_levels
-from orchestra.values import Condition
 from tests.supervise.plans import after, process
+
+if TYPE_CHECKING:
+    from orchestra.values import Condition
 
 GOOD, BAD = Ending(code=0), Ending(code=1)
 STATES = {
@@ -68,6 +72,8 @@ def test_dependents_stop_before_what_they_depend_on() -> None:
     assert stop_levels(chain) == {"control": 0, "alone": 0, "filter": 1, "map": 2}
 
 
-@pytest.mark.parametrize(("levels", "seconds"), [([], 1.0), ([0], 1.0), ([0, 1], 1.0), ([0, 1, 2, 3, 4], 0.5)])
+@pytest.mark.parametrize(
+    ("levels", "seconds"), [([], 1.0), ([0], 1.0), ([0, 1], 1.0), ([0, 1, 2, 3, 4], 0.5)]
+)
 def test_the_last_level_is_asked_in_time(levels: list[int], seconds: float) -> None:
     assert patience(levels) == seconds

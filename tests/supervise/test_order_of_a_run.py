@@ -32,7 +32,14 @@ def order(run: Launched, *wanted: tuple[str, str]) -> list[tuple[str, str]]:
     return [(e.kind, e.process or "") for e in run.events if (e.kind, e.process) in wanted]
 
 
-@pytest.mark.parametrize("words", [("say=listening on 80", "linger"), ("partial=listening on", "linger"), ("complain=is listening", "linger")])
+@pytest.mark.parametrize(
+    "words",
+    [
+        ("say=listening on 80", "linger"),
+        ("partial=listening on", "linger"),
+        ("complain=is listening", "linger"),
+    ],
+)
 def test_a_line_makes_a_process_ready(tmp_path: Path, words: tuple[str, ...]) -> None:
     """A finished line, one without its end, one on standard error."""
     server = process("server", *words, ready=ready_when(r"listening( on)?"))
@@ -69,7 +76,9 @@ def test_each_condition_lets_its_dependent_begin(tmp_path: Path) -> None:
 
 
 def test_a_timeout_names_what_was_awaited_and_shows_the_last_lines(tmp_path: Path) -> None:
-    server = process("server", "say=opening port", "say=port is busy", "linger", ready=ready_when("listening"))
+    server = process(
+        "server", "say=opening port", "say=port is busy", "linger", ready=ready_when("listening")
+    )
     client = process("client", "exit=0", depends_on=after("server", "ready", timeout=1.5))
     run = finished(tmp_path, plan(server, client))
     assert run.popen.returncode == 1
@@ -121,7 +130,9 @@ def test_triggers_follow_every_end(tmp_path: Path) -> None:
 
 
 def test_a_trigger_may_start_a_process_again_and_again(tmp_path: Path) -> None:
-    ping = process("ping", command=("/bin/sh", "-c", "echo x >> count; [ $(wc -l < count) -ge 3 ]"), cwd=str(tmp_path))
+    ping = process(
+        "ping", command=("/bin/sh", "-c", "echo x >> count; [ $(wc -l < count) -ge 3 ]"), cwd=str(tmp_path)
+    )
     pong = process("pong", "exit=0")
     triggers = (when_ended("ping", start("pong")), when_ended("pong", start("ping")), at_start(start("ping")))
     with launched(tmp_path, plan(ping, pong, triggers=triggers)) as run:
@@ -139,14 +150,16 @@ def test_parameter_files_are_written_where_the_command_names_them(tmp_path: Path
         parameters={"rate": 30.0, "frame": "odom"},
         environment={"HERE": "${run}/x"},
     )
-    run = finished(tmp_path, plan(node, process("show", command=stand_in("show=HERE"), environment={"HERE": "${run}/x"})))
+    run = finished(
+        tmp_path, plan(node, process("show", command=stand_in("show=HERE"), environment={"HERE": "${run}/x"}))
+    )
     assert run.log("robot1.ekf") == (run.directory / "params" / "robot1.ekf.yaml").read_text()
     assert "/robot1/ekf:" in run.log("robot1.ekf")
     assert run.log("show") == f"HERE={run.directory}/x\n"
 
 
 def test_a_shell_gets_one_line(tmp_path: Path) -> None:
-    run = finished(tmp_path, plan(process("a", command=("echo", "$((6*7))", "|", "cat"), shell=True)))
+    run = finished(tmp_path, plan(process("a", command=("echo", "$((6*7))", "|", "cat"), shell=True)))  # noqa: S604 - the plan says so
     assert run.log("a") == "42\n"
 
 

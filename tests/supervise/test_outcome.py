@@ -17,7 +17,11 @@ CODE = ("driver", Ending(code=7))
         (Facts(), 0, "every process has ended"),
         (Facts(ended_by="required process a has ended"), 0, "required process a has ended"),
         (Facts(failed=(CRASH,)), 0, "every process has ended; failed: camera (SIGSEGV)"),
-        (Facts(failed=(CRASH,), fail_on_any=True), 1, "every process has ended, and one failed; failed: camera (SIGSEGV)"),
+        (
+            Facts(failed=(CRASH,), fail_on_any=True),
+            1,
+            "every process has ended, and one failed; failed: camera (SIGSEGV)",
+        ),
         (
             Facts(failed=(CRASH, CODE), fail_on_any=True),
             1,
@@ -33,7 +37,11 @@ CODE = ("driver", Ending(code=7))
         # Precedence: 4, required code, signal, 1, 0.
         (Facts(unstoppable=("a",), required=CODE), 4, "could not be stopped: a"),
         (Facts(required=CODE, signal=2, failure="x"), 7, "required process driver failed (exit code 7)"),
-        (Facts(signal=2, failure="x", failed=(CRASH,), fail_on_any=True), 130, "stopped by SIGINT; failed: camera (SIGSEGV)"),
+        (
+            Facts(signal=2, failure="x", failed=(CRASH,), fail_on_any=True),
+            130,
+            "stopped by SIGINT; failed: camera (SIGSEGV)",
+        ),
     ],
 )
 def test_status_and_sentence(facts: Facts, status: int, reason: str) -> None:

@@ -46,7 +46,9 @@ def test_ctrl_c_ends_it_at_once(tmp_path: Path) -> None:
 
 def test_a_bug_in_the_supervisor_ends_everything_and_leaves_a_report(tmp_path: Path) -> None:
     """A plan that no planner makes: a dependency on nothing."""
-    run = finished(tmp_path, plan(process("b", "linger"), process("a", "linger", depends_on=after("nobody", "ready"))))
+    run = finished(
+        tmp_path, plan(process("b", "linger"), process("a", "linger", depends_on=after("nobody", "ready")))
+    )
     assert run.popen.returncode == 3
     assert "this is a bug in Orchestra: KeyError: 'nobody'" in run.stderr
     (report,) = (tmp_path / "home" / "crash").iterdir()
@@ -66,8 +68,9 @@ def test_a_document_comes_back_as_it_was() -> None:
 
 
 @pytest.mark.parametrize(
-    "content", [b"", b"[]", b"{}", b'{"plan": {}}', b'{"plan": {"version": 1}}', b'{"plan": {"version": 1}, "x": 0}']
+    "content",
+    [b"", b"[]", b"{}", b'{"plan": {}}', b'{"plan": {"version": 1}}', b'{"plan": {"version": 1}, "x": 0}'],
 )
 def test_other_documents_are_refused(content: bytes) -> None:
-    with pytest.raises(ValueError, match="."):
+    with pytest.raises(ValueError, match=r"."):
         document.loads(content)

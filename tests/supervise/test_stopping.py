@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import os
 import signal
 import time
@@ -70,14 +71,16 @@ def test_one_deadline_holds_for_everything(tmp_path: Path) -> None:
         begin = time.monotonic()
         run.send(signal.SIGINT)
         assert run.wait() == 130
-        assert 4.5 < time.monotonic() - begin
+        assert time.monotonic() - begin > 4.5
         run.assert_gone(1.0)
         assert signals(run, "a") == ["SIGINT", "SIGKILL"]
 
 
 def test_impatience_helps(tmp_path: Path) -> None:
     """The second Ctrl-C is a SIGTERM to everything, the third a SIGKILL."""
-    with launched(tmp_path, plan(process("a", *STUBBORN), process("b", "ignore=INT", "say=up", "linger"))) as run:
+    with launched(
+        tmp_path, plan(process("a", *STUBBORN), process("b", "ignore=INT", "say=up", "linger"))
+    ) as run:
         run.await_line("a", "up")
         run.await_line("b", "up")
         begin = time.monotonic()
@@ -161,7 +164,8 @@ def test_the_longest_possible_tree_of_orders(tmp_path: Path) -> None:
     names = [f"n{number}" for number in range(20)]
     chain = [process(names[0], *STUBBORN)]
     chain += [
-        process(name, *STUBBORN, depends_on=after(before, "started")) for before, name in zip(names, names[1:], strict=False)
+        process(name, *STUBBORN, depends_on=after(before, "started"))
+        for before, name in itertools.pairwise(names)
     ]
     with launched(tmp_path, plan(*chain)) as run:
         for name in names:

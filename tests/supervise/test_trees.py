@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 from typing import TYPE_CHECKING
 
 import pytest
 
+from orchestra.supervise import document, proc
+from orchestra.supervise.options import RunOptions
 from orchestra.values import Restart, Stop
-from tests.supervise.plans import alive, finished, launched, plan, process, stand_in
+from tests.supervise.plans import PROCESSES, alive, finished, launched, name_of, plan, process, stand_in
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -23,7 +26,9 @@ QUICK = Stop(timeout=0.3, kill_timeout=0.3)
 @pytest.mark.parametrize("manner", ["", "=ignore"])
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_stop_ends_all_of_it(tmp_path: Path, kind: str, manner: str) -> None:
-    with launched(tmp_path, plan(process("a", f"{kind}{manner}", "polite", "say=up", "linger", stop=QUICK))) as run:
+    with launched(
+        tmp_path, plan(process("a", f"{kind}{manner}", "polite", "say=up", "linger", stop=QUICK))
+    ) as run:
         run.await_line("a", "up")
         before = run.everything()
         run.send(signal.SIGINT)
@@ -59,14 +64,37 @@ def test_a_fork_storm_ends(tmp_path: Path) -> None:
         assert not run.everything()
 
 
-def test_what_hangs_below_another_subreaper_is_found_by_its_mark(tmp_path: Path) -> None:
-    """A run inside a run: killing the inner keeper and supervisor leaves its node to us."""
-    inner = (*stand_in("say=up", "linger"),)
-    with launched(tmp_path, plan(process("a", command=("/usr/bin/env", "-i", *inner)))) as run:
+def test_a_program_without_its_marks_ends_too(tmp_path: Path) -> None:
+    words = ("/usr/bin/env", "-i", *stand_in("escape", "say=up", "linger"))
+    with launched(tmp_path, plan(process("a", command=words))) as run:
         run.await_line("a", "up")
+        before = run.everything()
         run.send(signal.SIGTERM)
         assert run.wait() == 143
-        assert not run.everything()
+        assert not [pid for pid in before if alive(pid)]
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
+def test_a_run_may_be_part_of_a_run(tmp_path: Path, number: signal.Signals) -> None:
+    """Killing the inner supervisor leaves the inner keeper to end what it had; stopping the outer run stops both."""
+    inner_document = tmp_path / "inner.json"
+    inner_document.write_bytes(
+        document.dumps(plan(process("node", "daemon", "say=up", "linger")), RunOptions())
+    )
+    words = (sys.executable, str(PROCESSES / "launcher.py"), str(inner_document))
+    home: dict[str, str | None] = {"ORCHESTRA_HOME": str(tmp_path / "inner")}
+    with launched(tmp_path, plan(process("inner", command=words, environment=home))) as run:
+        run.await_line("inner", "[node] up")
+        before = run.everything()
+        if number == signal.SIGKILL:
+            inner = [pid for pid in proc.descendants(run.popen.pid) if name_of(pid) == "orc-supervisor"]
+            os.kill(inner[-1], signal.SIGKILL)
+            assert run.wait() == 0
+            assert run.events[-1].data["reason"].endswith("failed: inner (exit code 1)")
+        else:
+            run.send(number)
+            assert run.wait() == 130
+        assert not [pid for pid in before if alive(pid)]
 
 
 def test_nobody_else_is_touched(tmp_path: Path) -> None:

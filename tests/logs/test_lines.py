@@ -1,0 +1,42 @@
+from __future__ import annotations
+
+from hypothesis import given
+from hypothesis import strategies as st
+
+from orchestra.logs.lines import LONGEST_HELD, Lines
+
+
+@given(st.lists(st.one_of(st.binary(max_size=20), st.text(max_size=9).map(str.encode)), max_size=20))
+def test_every_byte_comes_back_however_it_was_cut(pieces: list[bytes]) -> None:
+    lines = Lines()
+    out = "".join(map(lines.feed, pieces)) + lines.close()
+    assert out.encode("utf-8", "surrogateescape") == b"".join(pieces)
+
+
+@given(st.lists(st.binary(max_size=20), max_size=20))
+def test_what_is_given_ends_with_a_line(pieces: list[bytes]) -> None:
+    lines = Lines()
+    assert all(text.endswith("\n") for piece in pieces if (text := lines.feed(piece)))
+
+
+def test_a_cut_character_is_held_until_the_rest_is_there() -> None:
+    lines = Lines()
+    assert lines.feed("é".encode()[:1]) == ""
+    assert lines.flush() == ""
+    assert lines.feed("é".encode()[1:]) == ""
+    assert lines.flush() == "é"
+
+
+def test_an_unfinished_line_can_be_had() -> None:
+    lines = Lines()
+    assert lines.feed(b"one\ntwo") == "one\n"
+    assert lines.unfinished
+    assert lines.flush() == "two"
+    assert not lines.unfinished
+    assert lines.feed(b" three\n") == " three\n"
+
+
+def test_an_endless_line_is_given_in_pieces() -> None:
+    lines = Lines()
+    given_text = "".join(lines.feed(b"x" * 1000) for _ in range(200))
+    assert len(given_text) > 200 * 1000 - LONGEST_HELD - 1000

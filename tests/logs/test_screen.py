@@ -1,0 +1,131 @@
+from __future__ import annotations
+
+import fcntl
+import os
+import socket
+from typing import TYPE_CHECKING
+
+import pytest
+
+from orchestra.logs.screen import BACKLOG, Screen, same_file
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+
+class Watching:
+    """Remembers what the screen last asked for."""
+
+    def __init__(self) -> None:
+        self.wanted = False
+
+    def __call__(self, wanted: bool) -> None:
+        assert wanted is not self.wanted
+        self.wanted = wanted
+
+
+def drain(readable: int) -> bytes:
+    os.set_blocking(readable, False)
+    found = b""
+    try:
+        while data := os.read(readable, 1 << 20):
+            found += data
+    except BlockingIOError:
+        pass
+    return found
+
+
+def test_a_pipe_that_nobody_reads_never_blocks_us() -> None:
+    readable, writable = os.pipe()
+    watching = Watching()
+    screen = Screen(writable, watching)
+    line = "x" * 99 + "\n"
+    for _ in range(BACKLOG // 100 + 2000):
+        screen.write(line)
+    assert watching.wanted
+    assert screen.pending <= BACKLOG
+    received = b""
+    while watching.wanted:
+        received += drain(readable)
+        screen.writable()
+    received += drain(readable)
+    *shown, confession = received.decode().splitlines()
+    missed = int(confession.split()[1])
+    assert set(shown) == {line[:-1]}
+    assert len(shown) + missed == BACKLOG // 100 + 2000
+    screen.close()
+    os.close(readable)
+    os.close(writable)
+
+
+def test_others_who_share_the_descriptor_keep_it_blocking() -> None:
+    readable, writable = os.pipe()
+    screen = Screen(writable, Watching())
+    assert not fcntl.fcntl(writable, fcntl.F_GETFL) & os.O_NONBLOCK
+    screen.close()
+    os.close(readable)
+    os.close(writable)
+
+
+def test_a_socket_is_written_to_with_care() -> None:
+    """It cannot be opened anew."""
+    ours, theirs = socket.socketpair()
+    watching = Watching()
+    screen = Screen(theirs.fileno(), watching)
+    text = "".join(f"{number}\n" for number in range(100_000))
+    screen.write(text)
+    received = b""
+    while watching.wanted:
+        received += drain(ours.fileno())
+        screen.writable()
+    received += drain(ours.fileno())
+    assert received.decode() == text
+    screen.close()
+    ours.close()
+    theirs.close()
+
+
+def test_a_file_is_written_where_the_shell_left_off(tmp_path: Path) -> None:
+    path = tmp_path / "out"
+    path.write_text("before\n")
+    descriptor = os.open(path, os.O_WRONLY)
+    os.lseek(descriptor, 0, os.SEEK_END)
+    screen = Screen(descriptor, Watching())
+    screen.write("after\n")
+    screen.close()
+    os.close(descriptor)
+    assert path.read_text() == "before\nafter\n"
+
+
+def test_a_reader_that_is_gone_is_forgotten() -> None:
+    readable, writable = os.pipe()
+    screen = Screen(writable, Watching())
+    os.close(readable)
+    screen.write("nobody reads this\n")
+    assert screen.closed
+    screen.write("nor this\n")
+    assert screen.pending == 0
+    screen.close()
+    os.close(writable)
+
+
+@pytest.mark.parametrize("patience", [0.0, 0.05])
+def test_the_end_waits_only_for_a_screen_that_takes_something(patience: float) -> None:
+    readable, writable = os.pipe()
+    screen = Screen(writable, Watching())
+    screen.write("x" * 500_000)
+    screen.finish(patience)
+    assert screen.pending > 0
+    screen.close()
+    os.close(readable)
+    os.close(writable)
+
+
+def test_whether_two_descriptors_are_one_place() -> None:
+    readable, writable = os.pipe()
+    copy, elsewhere = os.dup(writable), os.open(os.devnull, os.O_WRONLY)
+    assert same_file(writable, copy)
+    assert not same_file(writable, elsewhere)
+    assert not same_file(writable, 10_000)
+    for descriptor in (readable, writable, copy, elsewhere):
+        os.close(descriptor)

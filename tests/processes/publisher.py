@@ -1,0 +1,41 @@
+"""Publishes on topics once it is told to by a line on standard input, or at once.
+
+publisher.py [wait] TOPIC,RELIABILITY,DURABILITY,COUNT ...   COUNT 0 is for ever, ten times a second
+"""
+
+import signal
+import sys
+
+import rclpy
+from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+from std_msgs.msg import String
+
+
+def main() -> None:
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
+    signal.signal(signal.SIGINT, lambda *_: sys.exit(0))
+    rclpy.init(signal_handler_options=rclpy.signals.SignalHandlerOptions.NO)
+    node = rclpy.create_node("publisher")
+    words = sys.argv[1:]
+    try:
+        for word in words:
+            topic, reliability, durability, count = word.split(",")
+            profile = QoSProfile(
+                depth=1,
+                reliability=ReliabilityPolicy[reliability],
+                durability=DurabilityPolicy[durability],
+            )
+            publisher = node.create_publisher(String, topic, profile)
+            if count == "1":
+                publisher.publish(String(data="once"))
+            if count == "0":
+                node.create_timer(0.1, lambda publisher=publisher: publisher.publish(String(data="again")))
+        sys.stdout.write("up\n")
+        sys.stdout.flush()
+        rclpy.spin(node)
+    finally:
+        node.destroy_node()
+        rclpy.shutdown()
+
+
+main()
