@@ -1,12 +1,15 @@
 """Parameters: what is declared, and which sets of values are refused and why."""
 
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 import pytest
+import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
+import bringup
 from bringup.control.modes import Mode, following
 from bringup.control.settings import Settings, objection, table
 
@@ -42,6 +45,14 @@ def test_every_parameter_is_described_and_every_number_has_a_range_around_its_de
 )
 def test_a_set_of_values_is_refused_with_its_reason(values: dict[str, Any], reason: str | None) -> None:
     assert objection(replace(Settings(), **values)) == reason
+
+
+def test_the_parameter_file_of_the_bringup_names_every_parameter_and_can_be_used() -> None:
+    package = Path(bringup.__file__).parent
+    text = (package / "params" / "velocity_controller.yaml").read_text()
+    values = yaml.safe_load(text)["/**/velocity_controller"]["ros__parameters"]
+    assert list(values) == [each.name for each in table()]
+    assert objection(Settings(**values)) is None
 
 
 @given(distance=st.floats(0.1, 5.0), radius=st.floats(0.05, 1.0))
