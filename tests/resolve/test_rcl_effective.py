@@ -139,9 +139,18 @@ def test_a_pattern_written_in_two_ways_counts_twice() -> None:
     assert _setting(_file(("/ns/n", "a: 1"), ("/**", "a: 2"), ("ns/n", "a: 3"))).value == 3
 
 
-def test_a_parameter_without_a_type_is_none() -> None:
-    setting = _setting(_file(("/ns/n", "a: []")))
+@pytest.mark.parametrize("value", ["[]", "{}"])
+def test_a_parameter_without_a_type_is_none(value: str) -> None:
+    setting = _setting(_file(("/ns/n", f"a: {value}")))
     assert (setting.value, setting.rule) == (None, "'/ns/n' gives it no value")
+    assert [str(item.location) for item in setting.written] == ["1.yaml:2:24"]
+
+
+def test_a_group_of_the_same_name_is_no_value() -> None:
+    setting = _setting(_file(("/**", "a: 1"), ("/ns/n", "a: {b: 2}")))
+    assert setting.value == 1
+    assert [item.value for item in setting.written] == [1]
+    assert setting.overruled is None
 
 
 _PATTERNS = st.sampled_from(["/**", "/ns/n", "ns/n", "/*/n", "/**/n", "/ns/*", "n", "/*"])

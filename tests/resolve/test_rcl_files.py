@@ -160,6 +160,7 @@ def test_one_reading_tells_of_several_errors() -> None:
         ("a.b: 1\n    a: {b: 2}", "4:9", "'a.b' is set twice for '/n'; this value counts"),
         ("a: 1\n    a: text", "4:5", "'a' is set twice for '/n'; rcl keeps the one at f.yaml:3:8"),
         ("a: 1\n    a: {b: 2}", "4:9", "rcl drops the value of 'a' at f.yaml:3:8 for the sake of 'a.b'"),
+        ("a: 1\n    a: {b: text}", "4:9", "rcl gives 'a.b' the value of 'a' at f.yaml:3:8"),
     ],
 )
 def test_what_is_set_twice_is_told(text: str, place: str, message: str) -> None:

@@ -25,7 +25,7 @@ def report_duplicates(sections: Sequence[Section], problems: Problems) -> None:
             earlier = next((slot.entry for slot in slots if slot.name == entry.name and slot.entry), None)
             slot = place(slots, entry)
             if displaced is not None:
-                _report_displaced(entry, displaced, problems)
+                _report_displaced(entry, displaced, slot, problems)
             elif earlier is not None and entry.value is not None:
                 _report_duplicate(section.pattern, entry, earlier, slot, problems)
 
@@ -40,9 +40,9 @@ def _report_duplicate(pattern: str, entry: Entry, earlier: Entry, slot: Slot, pr
     )
 
 
-def _report_displaced(entry: Entry, displaced: Entry, problems: Problems) -> None:
-    problems.warning(
-        Code.DUPLICATE_PARAMETER,
-        f"rcl drops the value of '{displaced.name}' at {displaced.location} for the sake of '{entry.name}'",
-        entry.key,
-    )
+def _report_displaced(entry: Entry, displaced: Entry, slot: Slot, problems: Problems) -> None:
+    if slot.entry is displaced:
+        message = f"rcl gives '{entry.name}' the value of '{displaced.name}' at {displaced.location}"
+    else:
+        message = f"rcl drops the value of '{displaced.name}' at {displaced.location} for the sake of '{entry.name}'"
+    problems.warning(Code.DUPLICATE_PARAMETER, message, entry.key)

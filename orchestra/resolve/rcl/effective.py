@@ -65,12 +65,17 @@ def effective(sections: Iterable[Section], full_name: str) -> dict[str, Setting]
     written: dict[str, list[tuple[str, Entry]]] = {name: [] for name in winners}
     for section in matching:
         for entry in section.entries:
-            if entry.name in written and entry.value is not None:
+            if entry.name in written and not entry.opens:
                 written[entry.name].append((section.pattern, entry))
     return {name: _setting(name, *winners[name], written[name]) for name in winners}
 
 
 def _setting(name: str, pattern: str, winner: Entry | None, written: list[tuple[str, Entry]]) -> Setting:
+    if winner is not None and all(entry is not winner for _, entry in written):
+        written = [
+            (pattern, winner),
+            *written,
+        ]  # it was written for the group whose slot this parameter took over
     candidates = tuple(Written(where, entry, entry is winner) for where, entry in written)
     last = candidates[-1] if candidates else None
     overruled = last is not None and winner is not None and repr(last.value) != repr(winner.value)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import copy
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import yaml
@@ -192,12 +192,15 @@ class Reader:
         self.depth += 1
         section = self.inside and self.depth == self.node.count + 3
         if self.inside and not section and self.parameter is not None:
-            self.emit(None, self.parameter.key)
+            self.emit(None, self.at(event), opens=True)
         self.fresh = not section
         self.expects_key = True
 
     def close_mapping(self, event: yaml.MappingEndEvent) -> None:
         """Take the end of a mapping. An empty group ends the section for rcl: it has no level of its own to leave."""
+        if self.inside and self.fresh and self.found[-1].entries:
+            entries = self.found[-1].entries
+            entries[-1] = replace(entries[-1], opens=False)
         if self.inside:
             if self.group.count:
                 self.group.shrink()
@@ -239,11 +242,12 @@ class Reader:
         value: ParameterValue | None = tuple(current.items) or None  # type: ignore[assignment] # of one type
         self.emit(value, self.at(current.start, event))
 
-    def emit(self, value: ParameterValue | None, location: Location) -> None:
+    def emit(self, value: ParameterValue | None, location: Location, *, opens: bool = False) -> None:
         """Set the parameter at hand. A second value for it looks for the slot by the name it has by then."""
         parameter = self.parameter
         assert parameter is not None  # noqa: S101 - a value comes behind its key
-        self.found[-1].entries.append(Entry(parameter.name, value, location, parameter.key, parameter.slot))
+        entry = Entry(parameter.name, value, location, parameter.key, parameter.slot, opens)
+        self.found[-1].entries.append(entry)
         parameter.slot = parameter.name
 
     def alias(self, event: yaml.AliasEvent) -> None:

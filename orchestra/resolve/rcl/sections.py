@@ -14,7 +14,8 @@ class Entry:
 
     `name` is the whole dotted name, `location` that of the value, `key` that of the name. `value` is None where rcl
     has the parameter without a value (an empty list or mapping). `slot` is the name under which rcl looks for the
-    place to put it: for what is nested, the name of the mapping around it.
+    place to put it: for what is nested, the name of the mapping around it. `opens` marks a key that stands for no
+    parameter but for a group of them.
     """
 
     name: str
@@ -22,6 +23,7 @@ class Entry:
     location: Location
     key: Location
     slot: str
+    opens: bool = False
 
 
 @dataclass(frozen=True, slots=True)
