@@ -10,6 +10,7 @@ from geometry_msgs.msg import (
     TwistWithCovarianceStamped,
 )
 from nav_msgs.msg import Odometry
+from rclpy.callback_groups import CallbackGroup
 from rclpy.node import Node
 from rclpy.qos import (
     DurabilityPolicy,
@@ -61,6 +62,11 @@ class Inputs:
         self._subscribe(tf_message_type(), "/tf_static", self._add_static, _static_qos())
         if settings.control is not None:
             self._subscribe_commands(settings.control)
+
+    @property
+    def visited_group(self) -> CallbackGroup:
+        """The group of those subscriptions that nobody needs to wait for."""
+        return self._visited.group
 
     def visit(self) -> None:
         """Take in everything that has arrived."""

@@ -3,24 +3,27 @@
 from time import perf_counter
 from typing import Any, TypeAlias
 
-from rclpy.clock import Clock, ClockType
+from rclpy.callback_groups import CallbackGroup
 from rclpy.node import Node
 from std_srvs.srv import Empty
 
 from bringup.filter.checks import doubts
 from bringup.filter.localization import Localization
 from bringup.filter.notices import Level
+from bringup.filter.settings import NANOSECONDS
 from bringup.filter_node.configuration import configure
 from bringup.filter_node.diagnostics import Diagnostics
 from bringup.filter_node.inputs import Inputs
 from bringup.filter_node.outputs import Outputs
 from bringup.filter_node.ticks import Ticks
-from bringup.filter_node.visits import VISIT_PERIOD
 
 Response: TypeAlias = Any
 
 # Seconds of real time, so that a clock that jumps about cannot flood the log.
 _HOUSEKEEPING = 1.0
+# Nanoseconds of real time.
+_VISIT_PERIOD = NANOSECONDS // 50
+_LONGEST_WAIT = NANOSECONDS
 
 
 class FilterNode:
@@ -34,9 +37,9 @@ class FilterNode:
         self._inputs = Inputs(node, settings, self._localization, self._now)
         self._outputs = Outputs(node, settings, self._localization)
         self._diagnostics = Diagnostics(node, settings) if settings.publication.diagnostics else None
-        self._period = 1.0 / settings.timing.frequency
-        self._kept_house = perf_counter()
-        self._updates = 0
+        self._period = round(NANOSECONDS / settings.timing.frequency)
+        self._kept_house: float | None = None
+        self._is_settled = False
         self._told: frozenset[str] = frozenset()
         for level, _, text in doubts(settings):
             self._log(level, text)
@@ -45,18 +48,28 @@ class FilterNode:
         node.create_service(Empty, "reset", self._reset)
         node.create_service(Empty, "enable", self._enable)
         self._ticks = Ticks(node, settings.timing.frequency)
-        if self._period > VISIT_PERIOD:
-            steady = Clock(clock_type=ClockType.STEADY_TIME)
-            node.create_timer(VISIT_PERIOD, self._inputs.visit, clock=steady)
 
-    def _now(self) -> int:
-        return int(self._clock.now().nanoseconds)
+    @property
+    def visited_group(self) -> CallbackGroup:
+        """The group of those subscriptions that nobody needs to wait for."""
+        return self._inputs.visited_group
 
-    def update_if_due(self) -> None:
-        """Fuse and publish if a tick has come; to be called after each callback."""
+    def time_left(self) -> int:
+        """Tell how long the filter can do without being asked to work (ns)."""
+        longest = _VISIT_PERIOD if self._period > _VISIT_PERIOD else _LONGEST_WAIT
+        left = self._ticks.left()
+        return longest if left is None else min(left, longest)
+
+    def work(self) -> None:
+        """Fuse and publish if an update is due; between rare updates only empty the sensors' queues."""
         now = self._ticks.take()
         if now is not None:
             self._update(now)
+        elif self._period > _VISIT_PERIOD:
+            self._inputs.visit()
+
+    def _now(self) -> int:
+        return int(self._clock.now().nanoseconds)
 
     def _update(self, now: int) -> None:
         began = perf_counter()
@@ -65,14 +78,19 @@ class FilterNode:
         estimate = self._localization.estimate_to_publish()
         if estimate is not None and self._outputs.publish(estimate) and self._diagnostics is not None:
             self._diagnostics.count()
-        if began - self._kept_house >= _HOUSEKEEPING:
+        if self._kept_house is None:
+            self._kept_house = began
+        elif began - self._kept_house >= _HOUSEKEEPING:
             self._kept_house = began
             self._keep_house(now)
-        took = perf_counter() - began
-        self._updates += 1
-        # The first update also pays for what is loaded at first use.
-        if took > self._period and self._updates > 1:
-            text = f"failed to meet update rate: an update took {took:.4f} s of {self._period:.4f} s"
+            self._is_settled = True
+        self._watch_rate(perf_counter() - began)
+
+    def _watch_rate(self, took: float) -> None:
+        """Complain of an update that took too long; the first ones also pay for what is loaded at first use."""
+        period = self._period / NANOSECONDS
+        if took > period and self._is_settled:
+            text = f"failed to meet update rate: an update took {took:.4f} s of {period:.4f} s"
             self._logger.error(text, throttle_duration_sec=5.0)
 
     def _keep_house(self, now: int) -> None:

@@ -4,16 +4,19 @@ import signal
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from threading import Event, Thread
+from time import monotonic
 
 import rclpy
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
 from bringup.filter.parameter_reader import ParameterError
 from bringup.filter_node.node import FilterNode
+from bringup.filter_node.waiting import Waiting
 
 ENDING = (signal.SIGINT, signal.SIGTERM)
+# Seconds after which the executor gets its turn without a service being called: rclpy's own warnings come this way.
+_LONGEST_UNSERVED = 1.0
 
 
 def run() -> int:
@@ -46,18 +49,15 @@ def _spin(node: Node) -> int:
         node.get_logger().fatal(str(error))
         return 1
     told_to_end = Event()
-    # Its callback does nothing: it makes the executor come back.
-    wake_up = node.create_guard_condition(lambda: None)
-    Thread(target=_wait_for_the_end, args=(told_to_end, wake_up.trigger), daemon=True).start()
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
-    try:
+    with Waiting(node, running.visited_group) as waiting:
+        Thread(target=_wait_for_the_end, args=(told_to_end, waiting.wake_up), daemon=True).start()
+        served = monotonic()
         while not told_to_end.is_set():
-            executor.spin_once()
-            running.update_if_due()
-    finally:
-        executor.remove_node(node)
-        executor.shutdown()
+            called = waiting.wait(running.time_left())
+            if called or monotonic() - served > _LONGEST_UNSERVED:
+                waiting.serve()
+                served = monotonic()
+            running.work()
     return 0
 
 

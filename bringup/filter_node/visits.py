@@ -17,8 +17,7 @@ from bringup.filter_node import quiet
 Message: TypeAlias = Any
 Subscription: TypeAlias = Any
 
-# Visits come at least this often in real time, and a queue holds what comes at 1 kHz between two of them.
-VISIT_PERIOD = 0.02
+# A queue holds what comes at 1 kHz between two visits of 50 Hz.
 _SHORTEST_QUEUE = 40
 
 
@@ -34,7 +33,7 @@ class VisitedSubscriptions:
 
     def __init__(self, node: Node) -> None:
         self._node = node
-        self._group: CallbackGroup = _NeverExecuted()
+        self.group: CallbackGroup = _NeverExecuted()
         self._subscriptions: list[Subscription] = []
 
     def add(
@@ -43,7 +42,7 @@ class VisitedSubscriptions:
         """Subscribe; the queue is made long enough for the messages between two visits."""
         qos.depth = max(qos.depth, _SHORTEST_QUEUE)
         subscription = self._node.create_subscription(
-            message_type, topic, callback, qos, callback_group=self._group, event_callbacks=quiet.SUBSCRIPTION
+            message_type, topic, callback, qos, callback_group=self.group, event_callbacks=quiet.SUBSCRIPTION
         )
         self._subscriptions.append(subscription)
         return subscription
