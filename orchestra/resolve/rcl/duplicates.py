@@ -5,25 +5,26 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
-from orchestra.resolve.rcl.table import Slot, found, place
+from orchestra.resolve.rcl.table import Slots
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.errors import Problems
     from orchestra.resolve.rcl.sections import Entry, Section
+    from orchestra.resolve.rcl.table import Slot
 
 
 def report_duplicates(sections: Sequence[Section], problems: Problems) -> None:
     """Report every parameter that gets a second value for a pattern, and every value that a group displaces."""
-    table: dict[str, list[Slot]] = {}
+    table: dict[str, Slots] = {}
     for section in sections:
-        slots = table.setdefault(section.pattern, [])
+        slots = table.setdefault(section.pattern, Slots())
         for entry in section.entries:
-            before = found(slots, entry.slot)
+            before = next(slots.named(entry.slot), None)
             displaced = before.entry if before is not None and before.name != entry.name else None
-            earlier = next((slot.entry for slot in slots if slot.name == entry.name and slot.entry), None)
-            slot = place(slots, entry)
+            earlier = next((slot.entry for slot in slots.named(entry.name) if slot.entry is not None), None)
+            slot = slots.put(entry)
             if displaced is not None:
                 _report_displaced(entry, displaced, slot, problems)
             elif earlier is not None and entry.value is not None:

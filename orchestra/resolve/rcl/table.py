@@ -7,13 +7,14 @@ Source: `rcl_yaml_param_parser` (`parse_key`, `parse_value`), rclpy and rclcpp f
 
 from __future__ import annotations
 
+from bisect import insort
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from orchestra.resolve.rcl.sections import Entry
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from orchestra.resolve.rcl.sections import Section
     from orchestra.values import ParameterValue
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 _WORDS: Final[dict[type, str]] = {bool: "boolean", int: "integer", float: "float", str: "text"}
 _KINDS: Final = (*_WORDS.values(), *(f"list of {word}" for word in _WORDS.values()))
 
-Table: TypeAlias = "dict[str, list[Slot]]"
+Table: TypeAlias = "dict[str, Slots]"
 
 
 @dataclass(slots=True)
@@ -37,31 +38,43 @@ class Slot:
         return next((self.values[kind] for kind in _KINDS if kind in self.values), None)
 
 
+@dataclass(slots=True)
+class Slots:
+    """The slots of one pattern in order. Names change and need not be unique; the first slot of a name is found."""
+
+    every: list[Slot] = field(default_factory=list)
+    places: dict[str, list[int]] = field(default_factory=dict)
+
+    def __iter__(self) -> Iterator[Slot]:
+        return iter(self.every)
+
+    def named(self, name: str) -> Iterator[Slot]:
+        """Yield the slots of a name, in order."""
+        return (self.every[place] for place in self.places.get(name, ()))
+
+    def put(self, entry: Entry) -> Slot:
+        """Put one entry where rcl puts it; return the slot."""
+        places = self.places.get(entry.slot)
+        if not places:
+            self.every.append(Slot(entry.slot))
+            places = self.places[entry.slot] = [len(self.every) - 1]
+        slot = self.every[places[0]]
+        if slot.name != entry.name:
+            insort(self.places.setdefault(entry.name, []), places.pop(0))
+            slot.name = entry.name
+        if entry.value is not None:
+            slot.values[kind_of(entry.value)] = entry
+        return slot
+
+
 def tabulated(sections: Iterable[Section]) -> Table:
     """Return the table that rcl makes of sections in the order of the command line."""
     table: Table = {}
     for section in sections:
-        slots = table.setdefault(section.pattern, [])
+        slots = table.setdefault(section.pattern, Slots())
         for entry in section.entries:
-            place(slots, entry)
+            slots.put(entry)
     return table
-
-
-def place(slots: list[Slot], entry: Entry) -> Slot:
-    """Put one entry where rcl puts it; return the slot."""
-    slot = found(slots, entry.slot)
-    if slot is None:
-        slot = Slot(entry.slot)
-        slots.append(slot)
-    slot.name = entry.name
-    if entry.value is not None:
-        slot.values[kind_of(entry.value)] = entry
-    return slot
-
-
-def found(slots: list[Slot], name: str) -> Slot | None:
-    """Return the first slot of a name."""
-    return next((slot for slot in slots if slot.name == name), None)
 
 
 def counting(values: Iterable[ParameterValue]) -> ParameterValue | None:
