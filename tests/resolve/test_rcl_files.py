@@ -275,7 +275,7 @@ def test_files_are_read_as_by_the_real_parser(ask_rcl: Callable[..., Any], texts
 
 
 @pytest.mark.long
-@settings(suppress_health_check=list(HealthCheck), deadline=None, max_examples=20_000)
+@settings(suppress_health_check=list(HealthCheck), deadline=None, max_examples=5_000)
 @given(texts=st.lists(_FILES, min_size=1, max_size=2))
 def test_many_files_are_read_as_by_the_real_parser(ask_rcl: Callable[..., Any], texts: list[str]) -> None:
     _agree(ask_rcl, texts)

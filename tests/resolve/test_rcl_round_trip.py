@@ -80,7 +80,7 @@ def test_every_value_comes_back(ask_rcl: Callable[..., Any], parameters: dict[st
 
 
 @pytest.mark.long
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=20_000)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=5_000)
 @given(parameters=_PARAMETERS)
 def test_every_one_of_many_values_comes_back(
     ask_rcl: Callable[..., Any], parameters: dict[str, ParameterValue]

@@ -85,7 +85,7 @@ def test_scalars_are_typed_as_by_the_real_parser(ask_rcl: Callable[..., Any], te
 
 
 @pytest.mark.long
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=2000)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=500)
 @given(texts=st.lists(_TEXTS, min_size=100, max_size=100))
 def test_many_scalars_are_typed_as_by_the_real_parser(ask_rcl: Callable[..., Any], texts: list[str]) -> None:
     _agree(ask_rcl, texts)
