@@ -18,7 +18,7 @@ from orchestra.supervise.outcome import FAILED, judge
 from orchestra.supervise.resolving import Collection, Refused
 from orchestra.supervise.setting import surroundings
 from orchestra.supervise.spec import RUN_FOLDER, located
-from orchestra.supervise.system import DEADLINE, System
+from orchestra.supervise.system import System
 
 if TYPE_CHECKING:
     from orchestra.plan.model import Plan
@@ -109,9 +109,8 @@ def _conclude(system: System, around: Surroundings, beginnings: Beginnings) -> O
     around.observers.leave()
     while around.observers.alive:
         around.loop.run_once()
-    polite = 1.0 if system.stopped_at is None else system.stopped_at + DEADLINE - around.loop.clock()
-    left = end_leftovers(around, beginnings.run_id, polite=polite)
-    outcome = judge(system.facts(unstoppable=(*system.stuck, *left)))
+    left = end_leftovers(around, beginnings.run_id, remaining=system.stopping.remaining)
+    outcome = judge(system.facts(left))
     if os.getppid() != beginnings.keeper:
         around.journal.say("the keeper was killed")
     around.journal.say(f"run ended with status {outcome.status}: {outcome.reason}")

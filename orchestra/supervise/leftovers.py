@@ -31,14 +31,15 @@ def leftovers(run_id: str) -> list[int]:
     return [*below, *marked]
 
 
-def end_leftovers(around: Surroundings, run_id: str, *, polite: float) -> tuple[str, ...]:
-    """End what is left, with SIGTERM for `polite` seconds (one at most) and SIGKILL then; name what stays."""
+def end_leftovers(around: Surroundings, run_id: str, *, remaining: float | None) -> tuple[str, ...]:
+    """End what is left, with SIGTERM while `remaining` seconds allow it and SIGKILL then; name what stays."""
+    polite = _POLITE if remaining is None else min(remaining, _POLITE)
     around.kin.refresh()
     left = leftovers(run_id)
     for pid in left:
         around.recorder.record("left_behind", pid=pid, command=proc.command(pid))
         around.journal.say(f"something was left behind and is ended: {proc.command(pid)} (pid {pid})")
-    for number, seconds in ((signal.SIGTERM, min(polite, _POLITE)), (signal.SIGKILL, _GIVE_UP_AFTER)):
+    for number, seconds in ((signal.SIGTERM, polite), (signal.SIGKILL, _GIVE_UP_AFTER)):
         if left and seconds > 0:
             _tell(left, number)
             left = _await(around, run_id, seconds, again=number == signal.SIGKILL)

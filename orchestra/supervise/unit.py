@@ -69,6 +69,11 @@ class Unit:
         return self._child.pid if self._child else None
 
     @property
+    def over(self) -> bool:
+        """Whether it ran, or failed to, and will not start again by itself."""
+        return self.state.phase in (Phase.EXITED, Phase.FAILED)
+
+    @property
     def awaits_message(self) -> bool:
         """Whether it needs the observer, now or at its next start."""
         settled = self.state.phase in life.FINAL or self.state.phase in (Phase.READY, Phase.STOPPING)

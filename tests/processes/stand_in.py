@@ -22,6 +22,7 @@ import os
 import signal
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 
@@ -70,7 +71,7 @@ def start(kind: str, manner: str) -> None:
     os.read(read, 3)
 
 
-def linger() -> None:
+def linger(_value: str) -> None:
     while True:
         signal.pause()
 
@@ -84,12 +85,12 @@ def write_numbers(size: str) -> None:
     write("".join(f"{number:011d}\n" for number in range(int(size) // 12)))
 
 
-def show_dispositions() -> None:
+def show_dispositions(_value: str) -> None:
     lines = Path("/proc/self/status").read_text().splitlines(keepends=True)
     write("".join(line for line in lines if line.startswith(("SigBlk", "SigIgn"))))
 
 
-ACTIONS = {
+ACTIONS: dict[str, Callable[[str], object]] = {
     "ignore": ignore,
     "polite": lambda value: bid_farewell(int(value or 0)),
     "child": lambda value: start("child", value),
@@ -101,11 +102,11 @@ ACTIONS = {
     "partial": write,
     "bytes": write_numbers,
     "show": lambda value: write(f"{value}={os.environ.get(value)}\n"),
-    "disposition": lambda _value: show_dispositions(),
+    "disposition": show_dispositions,
     "terminal": lambda _value: write(" ".join(str(os.isatty(number)) for number in range(3)) + "\n"),
     "exit": lambda value: os._exit(int(value)),
     "kill": lambda value: os.kill(os.getpid(), signal.Signals[f"SIG{value}"]),
-    "linger": lambda _value: linger(),
+    "linger": linger,
 }
 
 signal.signal(signal.SIGINT, signal.SIG_DFL)  # no traceback

@@ -235,6 +235,11 @@ def alive(pid: int) -> bool:
     return facts is not None and facts.state not in "ZX"
 
 
+def assert_ended(pids: set[int]) -> None:
+    """None of these processes is left. One that is on its way out has no environment any more, but still a state."""
+    wait_for(lambda: not any(map(alive, pids)), f"the end of {[proc.command(pid) for pid in pids]}", 2.0)
+
+
 def name_of(pid: int) -> str:
     """Return the short name of a process."""
     try:

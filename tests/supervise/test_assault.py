@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from tests.supervise.plans import alive, launched, plan, process, ready_when
+from orchestra.values import Stop
+from tests.supervise.plans import assert_ended, launched, plan, process, ready_when
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-FAMILY = process("family", "child", "escape=ignore", "daemon=ignore", "say=up", "linger")
-STUBBORN = process("stubborn", "ignore=INT,TERM", "say=up", "linger")
+QUICK = Stop(timeout=0.5, kill_timeout=0.5)
+FAMILY = process("family", "child", "escape=ignore", "daemon=ignore", "say=up", "linger", stop=QUICK)
+STUBBORN = process("stubborn", "ignore=INT,TERM", "say=up", "linger", stop=QUICK)
 POLITE = process("polite", "polite", "say=up", "linger")
 SIGNALS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP, signal.SIGKILL)
 
@@ -29,7 +31,7 @@ def test_keeper_or_supervisor(tmp_path: Path, target: str, number: signal.Signal
         assert len(before) == 2 + 3 + 3
         os.kill(run.own(target), number)
         run.assert_gone()
-        assert not [pid for pid in before if alive(pid)]
+        assert_ended(before)
         killed = {"orc-keeper": -signal.SIGKILL, "orc-supervisor": 1}[target]
         assert run.wait() == (killed if number == signal.SIGKILL else 128 + number)
 

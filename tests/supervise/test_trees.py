@@ -12,7 +12,17 @@ import pytest
 from orchestra.supervise import document, proc
 from orchestra.supervise.options import RunOptions
 from orchestra.values import Restart, Stop
-from tests.supervise.plans import PROCESSES, alive, finished, launched, name_of, plan, process, stand_in
+from tests.supervise.plans import (
+    PROCESSES,
+    alive,
+    assert_ended,
+    finished,
+    launched,
+    name_of,
+    plan,
+    process,
+    stand_in,
+)
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -33,7 +43,7 @@ def test_a_stop_ends_all_of_it(tmp_path: Path, kind: str, manner: str) -> None:
         before = run.everything()
         run.send(signal.SIGINT)
         assert run.wait() == 130
-        assert not [pid for pid in before if alive(pid)]
+        assert_ended(before)
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -71,7 +81,7 @@ def test_a_program_without_its_marks_ends_too(tmp_path: Path) -> None:
         before = run.everything()
         run.send(signal.SIGTERM)
         assert run.wait() == 143
-        assert not [pid for pid in before if alive(pid)]
+        assert_ended(before)
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGKILL])
@@ -94,7 +104,7 @@ def test_a_run_may_be_part_of_a_run(tmp_path: Path, number: signal.Signals) -> N
         else:
             run.send(number)
             assert run.wait() == 130
-        assert not [pid for pid in before if alive(pid)]
+        assert_ended(before)
 
 
 def test_nobody_else_is_touched(tmp_path: Path) -> None:
