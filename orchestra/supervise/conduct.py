@@ -11,6 +11,7 @@ from orchestra.plan import codec
 from orchestra.plan.parameter_file import contents
 from orchestra.supervise import directory
 from orchestra.supervise.attention import Attention
+from orchestra.supervise.keeper import say
 from orchestra.supervise.kin import Kin, send_to_groups
 from orchestra.supervise.leftovers import end_leftovers
 from orchestra.supervise.loop import Loop
@@ -28,6 +29,9 @@ if TYPE_CHECKING:
     from orchestra.supervise.outcome import Outcome
     from orchestra.supervise.surroundings import Surroundings
 
+# They are asked, and killed after a second; in seconds.
+_OBSERVERS_LEAVE_WITHIN = 1.5
+
 
 def conduct(beginnings: Beginnings) -> int:
     """Carry out a run and return its exit status. Raises `Refused` where there is nothing to run."""
@@ -43,7 +47,10 @@ def conduct(beginnings: Beginnings) -> int:
         raise Refused(FAILED, f"the run directory cannot be written: {error}") from error
     outcome = _run(beginnings, attention, loop, run_directory, document._replace(plan=plan))
     run_directory.release()
-    directory.prune(runs)
+    try:
+        directory.prune(runs)
+    except OSError as error:
+        say(f"old runs could not be removed: {error}")
     return outcome.status
 
 
@@ -107,7 +114,8 @@ def _run(
 def _conclude(system: System, around: Surroundings, beginnings: Beginnings) -> Outcome:
     """Look for leftovers, and tell how it all ended: the last line and the last event."""
     around.observers.leave()
-    while around.observers.alive:
+    patience = around.loop.call_later(_OBSERVERS_LEAVE_WITHIN, lambda: None)
+    while around.observers.alive and not patience.cancelled:
         around.loop.run_once()
     left = end_leftovers(around, beginnings.run_id, remaining=system.stopping.remaining)
     outcome = judge(system.facts(left))

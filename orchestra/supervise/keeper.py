@@ -47,6 +47,8 @@ def keep(supervise: Callable[[], int]) -> int:
     signal.pthread_sigmask(signal.SIG_SETMASK, _FETCHED)
     supervisor = _fork(supervise)
     status = _wait(supervisor)
+    if os.WIFEXITED(status) and os.WEXITSTATUS(status) == UNSTOPPABLE:
+        return UNSTOPPABLE  # the supervisor has tried everything, and has named what is left
     left = sweep(os.getpid()) if proc.children(os.getpid()) else []
     if os.WIFEXITED(status):
         return UNSTOPPABLE if left else os.WEXITSTATUS(status)

@@ -31,7 +31,7 @@ def leftovers(run_id: str) -> list[int]:
     return [*below, *marked]
 
 
-def end_leftovers(around: Surroundings, run_id: str, *, remaining: float | None) -> tuple[str, ...]:
+def end_leftovers(around: Surroundings, run_id: str, *, remaining: float | None) -> dict[int, str]:
     """End what is left, with SIGTERM while `remaining` seconds allow it and SIGKILL then; name what stays."""
     polite = _POLITE if remaining is None else min(remaining, _POLITE)
     around.kin.refresh()
@@ -43,7 +43,7 @@ def end_leftovers(around: Surroundings, run_id: str, *, remaining: float | None)
         if left and seconds > 0:
             _tell(left, number)
             left = _await(around, run_id, seconds, again=number == signal.SIGKILL)
-    return tuple(f"{proc.command(pid)} (pid {pid})" for pid in left)
+    return {pid: f"{proc.command(pid)} (pid {pid})" for pid in left}
 
 
 def _tell(pids: list[int], number: int) -> None:

@@ -47,11 +47,10 @@ class Stopping:
         return None if self.begun_at is None else self.begun_at + DEADLINE - self._around.loop.clock()
 
     @property
-    def stuck(self) -> tuple[str, ...]:
-        """What is left although it was killed, named for people."""
-        return tuple(
-            f"{unit.name} (pid {unit.pid})" for unit in self._units.values() if unit.state.phase in LIVE
-        )
+    def stuck(self) -> dict[int, str]:
+        """What is left although it was killed, by pid, named for people."""
+        units = [unit for unit in self._units.values() if unit.state.phase in LIVE]
+        return {unit.pid: f"{unit.name} (pid {unit.pid})" for unit in units if unit.pid}
 
     def begin(self, cause: str) -> None:
         """Begin to stop: each level is asked at the latest when its time has come."""

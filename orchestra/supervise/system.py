@@ -67,15 +67,15 @@ class System:
         name = signal_name(number)
         self._stop(name, f"{name}: stopping; once more for SIGTERM, twice more for SIGKILL")
 
-    def facts(self, left: tuple[str, ...]) -> Facts:
-        """Return what counts for the outcome; `left` names what is there although nothing should be."""
+    def facts(self, left: dict[int, str]) -> Facts:
+        """Return what counts for the outcome; `left` names by pid what is there although nothing should be."""
         failed = tuple(
             (unit.name, unit.state.ending or Ending(code=1))
             for unit in self._units.values()
             if unit.state.phase is Phase.FAILED
         )
         return Facts(
-            unstoppable=(*self.stopping.stuck, *left),
+            unstoppable=tuple({**left, **self.stopping.stuck}.values()),
             required=self._required,
             signal=self._signal,
             failure=self._failure,
@@ -175,5 +175,6 @@ class System:
             self._around.journal.say(announcement)
         self._triggers.stop()
         self._beginning.stop()
+        self._around.observers.leave()
         self.stopping.begin(cause)
         self.changed()

@@ -223,15 +223,16 @@ class Unit:
         )
 
     def _send(self, step: life.Send) -> None:
-        number = signal.Signals[step.signal]
-        if step.rung > life.POLITE:
-            self._around.journal.say(f"{self.name} has not ended yet: {step.signal}")
         self._sending = True
         self._listener.look()
         self._sending = False
+        if self.state.phase is not Phase.STOPPING:
+            return  # that look has found that nothing is left
+        if step.rung > life.POLITE:
+            self._around.journal.say(f"{self.name} has not ended yet: {step.signal}")
         members = [adopted.pid for adopted in self._around.kin.of(self.id)]
         self._around.recorder.record("signal_sent", self.id, pid=self.pid, signal=step.signal)
-        send_to_groups([*([self.pid] if self.pid else []), *members], number)
+        send_to_groups([*([self.pid] if self.pid else []), *members], signal.Signals[step.signal])
         self._cancel("rung")
         if step.timeout is not None:
             self._set_timer("rung", step.timeout, life.RungExpired(step.rung))

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import ctypes
 import itertools
 import os
 import signal
+import sys
 import time
 from typing import TYPE_CHECKING
 
@@ -174,3 +176,28 @@ def test_the_longest_possible_tree_of_orders(tmp_path: Path) -> None:
         wait_for(lambda: signals(run, "n0"), "the last of the order to be asked", 5.0)
         assert run.wait() == 130
         assert not run.everything()
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can start what it may not end")
+def test_what_cannot_be_stopped_is_named(tmp_path: Path) -> None:
+    """The run loses the right to signal others, and its process becomes another user's: as good as unkillable."""
+    stranger = f"import os, signal; os.setuid({_NOBODY}); print('up', flush=True); signal.pause()"
+    with launched(
+        tmp_path,
+        plan(process("a", command=(sys.executable, "-S", "-E", "-c", stranger))),
+        preexec_fn=_lose_right_to_kill,
+    ) as run:
+        run.await_line("a", "up")
+        pid = run.of_kind("process_running", "a")[0].pid
+        run.send(signal.SIGINT)
+        assert run.wait() == 4
+        assert run.events[-1].data == {"status": 4, "reason": f"could not be stopped: a (pid {pid})"}
+
+
+def _lose_right_to_kill() -> None:
+    """Drop CAP_KILL from the bounding set, so that no program started from here has it (capabilities(7))."""
+    assert ctypes.CDLL(None).prctl(_CAPBSET_DROP, _CAP_KILL, 0, 0, 0) == 0
+
+
+_NOBODY = 65534
+_CAPBSET_DROP, _CAP_KILL = 24, 5
