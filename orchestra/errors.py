@@ -44,6 +44,7 @@ class Code(StrEnum):
     CONFLICTING_KEYS = "ORC011"
     UNKNOWN_FORMAT = "ORC012"
     SURPRISING_SCALAR = "ORC013"
+    DEPRECATED = "ORC014"
 
     UNDEFINED_VARIABLE = "ORC020"
     UNSET_ENVIRONMENT = "ORC021"
@@ -95,14 +96,19 @@ class Problem:
 
 @dataclass(slots=True)
 class Problems:
-    """Collects the problems of one pass; the same problem at the same place is kept once."""
+    """Collects the problems of one pass.
+
+    The same problem at the same place is kept once, with the fewest includes, however often its file is included.
+    """
 
     _found: dict[tuple[object, ...], Problem] = field(default_factory=dict)
 
     def report(self, problem: Problem) -> None:
         """Keep a problem unless the same one stands already at this place."""
-        key = (problem.code, problem.span, problem.message, problem.included_from)
-        self._found.setdefault(key, problem)
+        key = (problem.code, problem.span, problem.message)
+        known = self._found.get(key)
+        if known is None or len(problem.included_from) < len(known.included_from):
+            self._found[key] = problem
 
     def error(
         self,

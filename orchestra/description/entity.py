@@ -7,6 +7,7 @@ that later stages report nothing that only follows from it. Reporting itself is 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from typing import Any, Protocol, Self, TypeVar
 
 from pydantic import (
@@ -27,16 +28,16 @@ from orchestra.location import Span
 
 REPORTED = "reported"
 
-_EntityT = TypeVar("_EntityT")
+_EntityT = TypeVar("_EntityT", bound="Entity")
 
 
 class FaultReader(Protocol):
     """The part of a loader that entities talk to."""
 
-    def unknown_key(self, known: frozenset[str], mapping: Keyed, key: str) -> str | None:
-        """Report a key that the entity does not have, return the one that was probably meant."""
+    def keys(self, known: frozenset[str], mapping: Keyed) -> Keyed:
+        """Return the mapping with no key but those that are known; others are reported."""
 
-    def faults(self, mapping: Keyed, errors: Sequence[ErrorDetails], meant: frozenset[str]) -> set[str]:
+    def faults(self, mapping: Keyed, errors: Sequence[ErrorDetails]) -> set[str]:
         """Report what is wrong with the values, return the keys that are concerned."""
 
     def conflict(self, mapping: Keyed, reason: str) -> None:
@@ -66,6 +67,7 @@ class Entity(BaseModel):
         return None
 
     @classmethod
+    @cache
     def known_keys(cls) -> frozenset[str]:
         """Return the keys that a user may write."""
         return frozenset(entry.alias or name for name, entry in cls.model_fields.items())
@@ -73,30 +75,27 @@ class Entity(BaseModel):
     @model_validator(mode="wrap")
     @classmethod
     def _read(cls, data: Any, handler: ModelWrapValidatorHandler[Self], info: ValidationInfo) -> Self:  # noqa: ANN401 - whatever stands in the file
-        if not isinstance(data, Keyed):
-            entity = handler(data)
-            if (conflict := entity.conflict()) is not None:
-                raise PydanticCustomError("conflict", "{conflict}", {"conflict": conflict})
-            return entity
         reader: FaultReader | None = info.context
+        if not isinstance(data, Keyed):  # no loader; or pydantic, which hands recursive models on twice
+            return handler(data) if reader is not None else _sound(handler(data))
         if reader is None:
             raise TypeError("mappings are read with a loader as the validation context")
-        known = cls.known_keys()
-        values = {key: value for key, value in data.items() if key in known}
-        guesses = [reader.unknown_key(known, data, key) for key in data if key not in known]
-        meant = frozenset(guess for guess in guesses if guess is not None)
-        faulty = len(values) < len(data)
+        if isinstance(data.read, cls):  # read before, when something beside it was wrong
+            return data.read
+        mapping = reader.keys(cls.known_keys(), data)
+        faulty = mapping.lossy
         try:
-            entity = handler(values)
+            entity = handler(dict(mapping))
         except ValidationError as error:
             faulty = True
-            entity = _without(reader.faults(data, _details(error), meant), values, handler)
+            entity = _without(reader.faults(mapping, _details(error)), mapping, handler)
         if (conflict := entity.conflict()) is not None:
             if not faulty:
-                reader.conflict(data, conflict)
+                reader.conflict(mapping, conflict)
             raise PydanticCustomError(REPORTED, "reported")
-        entity._span = data.head  # noqa: SLF001 - its own class
+        entity._span = mapping.head  # noqa: SLF001 - its own class
         entity._faulty = faulty  # noqa: SLF001 - its own class
+        data.read = entity
         return entity
 
 
@@ -112,6 +111,13 @@ class Action(Entity):
         """Return a conflict between the two conditions."""
         both = self.if_ is not None and self.unless is not None
         return "`if` and `unless` cannot stand on one action" if both else None
+
+
+def _sound(entity: _EntityT) -> _EntityT:
+    """Refuse an entity whose keys cannot stand together."""
+    if (conflict := entity.conflict()) is not None:
+        raise PydanticCustomError("conflict", "{conflict}", {"conflict": conflict})
+    return entity
 
 
 def _details(error: ValidationError) -> Sequence[ErrorDetails]:

@@ -4,19 +4,31 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from orchestra.description.entity import Action
+from pydantic import Field
+
+from orchestra.description.entity import Action, Entity
+from orchestra.description.fields import Literal
+from orchestra.description.nested import Children
+from orchestra.description.text import Template
+
+
+class Launch(Entity):
+    """What stands below `launch`, where it is more than a list of actions."""
+
+    deprecated: Literal | None = Field(default=None, description="Why the file is not to be used any more.")
+    children: Children = Field(description="The actions.")
 
 
 @dataclass(frozen=True, slots=True)
 class Description:
     """What one launch file says.
 
-    `path` is the absolute path. `incomplete` tells that actions with faults have been left out, so that what they
-    would have provided is not reported missing.
+    `path` is the absolute path. `deprecated` says why the file is not to be used any more. `lost` has every scalar of
+    the actions that have been left out for their faults: what they would have provided is not reported missing.
     """
 
     path: str
     file: str
     actions: tuple[Action, ...]
-    deprecated: str | None = None
-    incomplete: bool = False
+    deprecated: Template | None = None
+    lost: frozenset[str] = frozenset()

@@ -12,6 +12,7 @@ from orchestra.description.parts import DependsOn, Pair, Ready, Restart, Stop
 from orchestra.description.text import Template
 
 OUTPUTS = ("screen", "log", "both", "own_log", "full")
+ON_EXIT = ("shutdown",)
 _OUTPUT = {"anyOf": [{"enum": list(OUTPUTS)}, {"type": "string", "pattern": r"\$\("}]}
 
 
@@ -30,7 +31,7 @@ class Running(Action):
         default=None, description="Where its output goes; `both` (screen and log) where absent."
     )
     on_exit: (
-        Annotated[Template, PlainValidator(word("shutdown")), WithJsonSchema({"enum": ["shutdown"]})] | None
+        Annotated[Template, PlainValidator(word(*ON_EXIT)), WithJsonSchema({"enum": list(ON_EXIT)})] | None
     ) = Field(default=None, description="End the run when the process ends.")
     respawn: Flag | None = Field(default=None, description="Start it again whenever it ends.")
     respawn_delay: Seconds | None = Field(

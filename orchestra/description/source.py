@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -21,15 +21,27 @@ class Written:
 
 
 class Keyed(dict[str, Any]):
-    """A mapping. `keys_at` has the place of each key, `head` the place of what introduces the mapping."""
+    """A mapping, its keys as written. `keys_at` has the place of each, `head` that of what introduces the mapping.
 
-    __slots__ = ("head", "keys_at", "span")
+    `lossy` tells that a key has been reported and left out; `meant` are the keys that such ones probably mean. `read`
+    is what a model has made of the mapping.
+    """
+
+    __slots__ = ("head", "keys_at", "lossy", "meant", "read", "span")
 
     def __init__(self, span: Span, head: Span) -> None:
         super().__init__()
         self.span = span
         self.head = head
         self.keys_at: dict[str, Span] = {}
+        self.lossy = False
+        self.meant: set[str] = set()
+        self.read: Any = None
+
+    def put(self, key: str, value: Any, at: Span) -> None:  # noqa: ANN401 - a tree
+        """Add a key that is written at a place."""
+        self[key] = value
+        self.keys_at[key] = at
 
 
 class Listed(list[Any]):
@@ -49,6 +61,18 @@ def kind_of(value: object) -> str:
     if isinstance(value, dict):
         return "a mapping"
     return "a list" if isinstance(value, list) else type(value).__name__
+
+
+def texts_in(tree: Any) -> Iterator[str]:  # noqa: ANN401 - a tree
+    """Yield every scalar of a tree."""
+    if isinstance(tree, Written):
+        yield tree.text
+    elif isinstance(tree, dict):
+        for value in tree.values():
+            yield from texts_in(value)
+    elif isinstance(tree, list):
+        for value in tree:
+            yield from texts_in(value)
 
 
 def shortened(text: str, most: int = 40) -> str:

@@ -2,105 +2,146 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from pydantic import ValidationError
 
 from orchestra.description.actions import ACTIONS, model_of
-from orchestra.description.launch import Description
-from orchestra.description.source import Keyed, Listed, Written, kind_of
+from orchestra.description.launch import Description, Launch
+from orchestra.description.source import Keyed, Listed, Written, kind_of, texts_in
 from orchestra.errors import Code
+from orchestra.load.keys import meant, spelled
 from orchestra.load.reader import Reader
-from orchestra.nearest import nearest
+from orchestra.load.words import ELSEWHERE, UNSUPPORTED
 
 if TYPE_CHECKING:
-    from orchestra.description.entity import Action
+    from orchestra.description.entity import Action, Entity
     from orchestra.location import Span
 
-_ROOT_KEYS = frozenset({"deprecated", "children"})
-
-
-@dataclass(slots=True)
-class _Builder:
-    reader: Reader
-    incomplete: bool = False
-
-    def actions(self, items: Any, head: Span) -> tuple[Action, ...]:  # noqa: ANN401 - a tree
-        if not isinstance(items, Listed):
-            self._wrong(f"expected a list of actions, found {kind_of(items)}", _span(items, head))
-            return ()
-        built = [self._action(item) for item in items]
-        return tuple(action for action in built if action is not None)
-
-    def _action(self, item: Any) -> Action | None:  # noqa: ANN401 - a tree
-        if not isinstance(item, Keyed) or len(item) != 1:
-            span = item.head if isinstance(item, Keyed) else item.span
-            self._wrong(f"expected an action (one key: its name), found {_found(item)}", span)
-            return None
-        name, content = next(iter(item.items()))
-        at = item.keys_at[name]
-        model = model_of(name)
-        if model is None:
-            self.incomplete = True
-            suggestion = nearest(name, ACTIONS)
-            self.reader.error(Code.UNKNOWN_ACTION, f"unknown action '{name}'", at, suggestion=suggestion)
-            return None
-        return self._validated(model, self._content(content, at, model))
-
-    def _content(self, content: Any, at: Span, model: type[Action]) -> Any:  # noqa: ANN401 - a tree
-        """Return the mapping of an action: nothing at all and a bare list of children are mappings too."""
-        if isinstance(content, Written) and content.null:
-            return Keyed(at, at)
-        if isinstance(content, Listed) and "children" in model.known_keys():
-            keyed = Keyed(content.span, at)
-            keyed["children"], keyed.keys_at["children"] = content, at
-            content = keyed
-        if isinstance(content, Keyed) and "children" in model.known_keys() and "children" in content:
-            content["children"] = self.actions(content["children"], content.keys_at["children"])
-        if not isinstance(content, Keyed):
-            self._wrong(f"expected a mapping, found {kind_of(content)}", _span(content, at))
-        return content
-
-    def _validated(self, model: type[Action], content: Any) -> Action | None:  # noqa: ANN401 - a tree
-        if not isinstance(content, Keyed):
-            return None
-        try:
-            action = model.model_validate(content, context=self.reader)
-        except ValidationError:  # every fault has been reported through the reader
-            self.incomplete = True
-            return None
-        self.incomplete |= action.faulty
-        return action
-
-    def _wrong(self, message: str, span: Span) -> None:
-        self.incomplete = True
-        self.reader.error(Code.WRONG_TYPE, message, span)
+_EntityT = TypeVar("_EntityT", bound="Entity")
 
 
 def describe(tree: Any, path: str, file: str, reader: Reader) -> Description | None:  # noqa: ANN401 - a tree
     """Return the description that a tree holds, None where it is no launch description at all."""
-    builder = _Builder(reader)
     if not isinstance(tree, Keyed):
         reader.error(Code.WRONG_TYPE, "a launch file is a mapping with the key 'launch'", tree.span)
         return None
-    for key, at in tree.keys_at.items():
-        if key != "launch":
-            suggestion = nearest(key, ["launch"])
-            reader.error(Code.UNKNOWN_KEY, f"unknown key '{key}' beside 'launch'", at, suggestion=suggestion)
-    if "launch" not in tree:
-        if not tree:
+    root = reader.keys(frozenset({"launch"}), tree)
+    if "launch" not in root:
+        if not root.lossy:
             reader.error(Code.MISSING_KEY, "the key 'launch' is missing", tree.span)
         return None
-    root, head = tree["launch"], tree.keys_at["launch"]
-    deprecated = None
-    if isinstance(root, Keyed):
-        for key in root.keys() - _ROOT_KEYS:
-            reader.unknown_key(_ROOT_KEYS, root, key)
-        deprecated = getattr(root.get("deprecated"), "text", None)
-        root = root.get("children", Listed(root.span))
-    actions = builder.actions(root, head)
-    return Description(path, file, actions, deprecated, builder.incomplete)
+    builder = _Builder(reader)
+    launch = builder.entity(Launch, builder.content(root["launch"], root.keys_at["launch"], Launch))
+    if launch is None:
+        return Description(path, file, (), lost=frozenset(texts_in(tree)))
+    return Description(path, file, launch.children, launch.deprecated, frozenset(builder.lost))
+
+
+@dataclass(slots=True)
+class _Builder:
+    """Builds the actions of one file; remembers every scalar of those that cannot be built."""
+
+    reader: Reader
+    lost: set[str] = field(default_factory=set)
+
+    def actions(self, items: Any, head: Span) -> tuple[Action, ...]:  # noqa: ANN401 - a tree
+        """Return the actions of a list."""
+        if not isinstance(items, Listed):
+            self._wrong(f"expected a list of actions, found {kind_of(items)}", _span(items, head))
+            return ()
+        built = []
+        for item in items:
+            action = self._action(item)
+            if action is None or action.faulty:
+                self.lost.update(texts_in(item))
+            if action is not None:
+                built.append(action)
+        return tuple(built)
+
+    def content(self, content: Any, at: Span, model: type[Entity]) -> Any:  # noqa: ANN401 - a tree
+        """Return what stands behind a key as a mapping: nothing at all and a bare list of actions are mappings too."""
+        nested = "children" in model.known_keys()
+        if isinstance(content, Written) and content.null:
+            return Keyed(at, at)
+        if isinstance(content, Listed) and nested:
+            keyed = Keyed(content.span, at)
+            keyed.put("children", content, at)
+            content = keyed
+        if not isinstance(content, Keyed):
+            self._wrong(f"expected a mapping, found {kind_of(content)}", _span(content, at))
+            return None
+        content = self.reader.keys(model.known_keys(), content)
+        if nested and "children" in content:
+            children = self.actions(content["children"], content.keys_at["children"])
+            content = _with_children(content, children)
+        return content
+
+    def entity(self, model: type[_EntityT], content: Any) -> _EntityT | None:  # noqa: ANN401 - a tree
+        """Return an entity, None where too little of it is sound."""
+        if content is None:
+            return None
+        try:
+            return model.model_validate(content, context=self.reader)
+        except ValidationError:  # every fault has been reported through the reader
+            return None
+
+    def _action(self, item: Any) -> Action | None:  # noqa: ANN401 - a tree
+        if not isinstance(item, Keyed):
+            self._wrong(f"expected an action (one key: its name), found {kind_of(item)}", item.span)
+            return None
+        name, content = self._named(item)
+        if name is None:
+            return None
+        at = item.keys_at[name]
+        model = self._model(name, at)
+        return self.entity(model, self.content(content, at, model)) if model is not None else None
+
+    def _named(self, item: Keyed) -> tuple[str | None, Any]:
+        """Return the name of an action and what stands behind it.
+
+        Where the keys of an action stand beside its name, which is a matter of indentation, they are taken as its own.
+        """
+        if len(item) == 1:
+            return next(iter(item.items()))
+        name = next((key for key, value in item.items() if isinstance(value, Written) and value.null), None)
+        model = model_of(spelled(name)) if name is not None else None
+        if name is None or model is None or len(item) == 0:
+            keys = ", ".join(f"'{key}'" for key in item)
+            found = f"{len(item)} keys: {keys}" if item else "none"
+            self._wrong(f"expected an action (one key: its name), found {found}", item.head)
+            return None, None
+        content = Keyed(item.span, item.keys_at[name])
+        for key, value in item.items():
+            if key != name:
+                content.put(key, value, item.keys_at[key])
+        first = next(iter(content.keys_at.values()))
+        self._wrong(f"the keys of '{name}' stand beside it: indent them more than its name", first)
+        return name, content
+
+    def _model(self, name: str, at: Span) -> type[Action] | None:
+        model = model_of(spelled(name))
+        if model is not None:
+            return model
+        if spelled(name) in UNSUPPORTED:
+            self.reader.error(Code.UNKNOWN_ACTION, f"the action '{name}' is not supported yet", at)
+            return None
+        near, mistyped = meant(name, ACTIONS, ELSEWHERE)
+        self.reader.error(Code.UNKNOWN_ACTION, f"unknown action '{name}'", at, suggestion=near)
+        return model_of(near) if near is not None and mistyped else None
+
+    def _wrong(self, message: str, span: Span) -> None:
+        self.reader.error(Code.WRONG_TYPE, message, span)
+
+
+def _with_children(content: Keyed, children: tuple[Action, ...]) -> Keyed:
+    """Return the mapping with its actions built; the tree stays as it is, for it may be searched for what was lost."""
+    built = Keyed(content.span, content.head)
+    built.update(content)
+    built.keys_at, built.lossy, built.meant = content.keys_at, content.lossy, content.meant
+    built["children"] = children
+    return built
 
 
 def _span(value: Any, head: Span) -> Span:  # noqa: ANN401 - a tree
@@ -108,9 +149,3 @@ def _span(value: Any, head: Span) -> Span:  # noqa: ANN401 - a tree
         return head
     span: Span = value.head if isinstance(value, Keyed) else value.span
     return span
-
-
-def _found(item: Any) -> str:  # noqa: ANN401 - a tree
-    if isinstance(item, Keyed) and item:
-        return f"{len(item)} keys: " + ", ".join(f"'{key}'" for key in item)
-    return kind_of(item)

@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from orchestra.description.entity import REPORTED
 from orchestra.description.source import Keyed, Listed, Written, kind_of
-from orchestra.errors import Code, Problem, Problems, Severity
+from orchestra.errors import Code, Problems
 from orchestra.load.grammar import parse_template, unescaped
+from orchestra.load.keys import known_keys
 from orchestra.location import Location, Span
-from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -53,29 +53,25 @@ class Reader:
         found = Problems()
         template = parse_template(written.text, written.spans, found, quoted=written.quoted)
         for problem in found:
-            self.problems.report(_located(problem, self.included_from))
+            self.problems.report(replace(problem, included_from=self.included_from))
         return template
 
     def literal(self, written: Written) -> str:
         """Read a text without substitutions."""
         return unescaped(written.text)
 
-    def unknown_key(self, known: frozenset[str], mapping: Keyed, key: str) -> str | None:
-        """Report a key that the entity does not have, return the one that was probably meant."""
-        meant = nearest(key, known - mapping.keys())
-        self.error(Code.UNKNOWN_KEY, f"unknown key '{key}'", mapping.keys_at[key], suggestion=meant)
-        return meant
+    def keys(self, known: frozenset[str], mapping: Keyed) -> Keyed:
+        """Return the mapping with no key but those that are known; others are reported."""
+        return known_keys(known, mapping, self.error)
 
-    def faults(self, mapping: Keyed, errors: Sequence[ErrorDetails], meant: frozenset[str]) -> set[str]:
+    def faults(self, mapping: Keyed, errors: Sequence[ErrorDetails]) -> set[str]:
         """Report what is wrong with the values of a mapping, return the keys that are concerned.
 
-        `meant` are keys that unknown ones were probably meant to be: what is missing because of them stays silent.
+        A key that is missing because it is probably misspelt stays silent, for that has been reported.
         """
         for error in errors:
-            follows = error["type"] == "conflict" or (
-                error["type"] == "missing" and error["loc"][-1] in meant
-            )
-            if error["type"] != REPORTED and not (meant and follows):
+            misspelt = error["type"] == "missing" and error["loc"][-1] in mapping.meant
+            if error["type"] != REPORTED and not misspelt:
                 self._fault(mapping, error)
         return {str(error["loc"][0]) for error in errors if error["loc"]}
 
@@ -115,15 +111,3 @@ def _at(mapping: Keyed, place: tuple[int | str, ...]) -> Span:
         elif isinstance(value, Keyed):
             span = value.head
     return span
-
-
-def _located(problem: Problem, included_from: tuple[Span, ...]) -> Problem:
-    return Problem(
-        problem.code,
-        Severity(problem.severity),
-        problem.message,
-        problem.span,
-        included_from,
-        problem.suggestion,
-        problem.notes,
-    )

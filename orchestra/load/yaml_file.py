@@ -101,8 +101,8 @@ class _Tree:
                 merged.extend(
                     item for item in (tree if isinstance(tree, list) else [tree]) if isinstance(item, Keyed)
                 )
-            elif (name := key.value.replace("-", "_")) in mapping:
-                first = mapping.keys_at[name]
+            elif key.value in mapping:
+                first = mapping.keys_at[key.value]
                 self.reader.error(
                     Code.DUPLICATE_KEY,
                     f"the key '{key.value}' stands twice in one mapping",
@@ -110,12 +110,11 @@ class _Tree:
                     notes=(f"first at {first}",),
                 )
             else:
-                mapping[name] = tree
-                mapping.keys_at[name] = at
+                mapping.put(key.value, tree, at)
         for other in merged:
             for name, tree in other.items():
                 if name not in mapping:
-                    mapping[name], mapping.keys_at[name] = tree, other.keys_at[name]
+                    mapping.put(name, tree, other.keys_at[name])
         return mapping
 
 

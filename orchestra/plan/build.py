@@ -26,14 +26,13 @@ def build(resolved: Resolved, problems: Problems) -> Plan:
     """Return the plan. What cannot work is reported; the problems found so far become part of the plan."""
     ids = identities(resolved.processes)
     check_names(resolved.processes, problems)
-    targets = Targets(resolved.processes, ids)
-    complete = not resolved.incomplete and not any(process.faulty for process in resolved.processes)
+    targets = Targets(resolved, ids)
     edges = {
-        identity: dependencies(process, identity, targets, problems, complete=complete)
+        identity: dependencies(process, identity, targets, problems)
         for identity, process in targets.process.items()
     }
     check_cycles(edges, problems)
-    check_given(resolved, problems, complete=complete)
+    check_given(resolved, problems)
     processes = tuple(
         _process(process, identity, edges[identity], resolved, problems)
         for identity, process in targets.process.items()

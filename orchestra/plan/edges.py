@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.errors import Code, Problems
 from orchestra.nearest import nearest
+from orchestra.plan.absent import is_mistake
 from orchestra.plan.ids import node_name
 from orchestra.plan.model import Dependency
 from orchestra.resolve.names import InvalidName, expanded
@@ -14,18 +15,19 @@ from orchestra.resolve.names import InvalidName, expanded
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from orchestra.resolve.model import ResolvedDependency, ResolvedProcess
+    from orchestra.resolve.model import Resolved, ResolvedDependency, ResolvedProcess
 
 
 class Targets:
     """The processes of a plan by what a dependency may call them."""
 
-    def __init__(self, processes: Sequence[ResolvedProcess], ids: Sequence[str]) -> None:
-        self.process = dict(zip(ids, processes, strict=True))
+    def __init__(self, resolved: Resolved, ids: Sequence[str]) -> None:
+        self.resolved = resolved
+        self.process = dict(zip(ids, resolved.processes, strict=True))
         self.nodes: dict[str, list[str]] = {}
         self.names: dict[str, list[str]] = {}
         self.labels: dict[str, list[str]] = {}
-        for process, identity in zip(processes, ids, strict=True):
+        for identity, process in self.process.items():
             full = node_name(process)
             if full is not None:
                 self.nodes.setdefault(full, []).append(identity)
@@ -36,13 +38,13 @@ class Targets:
 
 
 def dependencies(
-    process: ResolvedProcess, identity: str, targets: Targets, problems: Problems, *, complete: bool
+    process: ResolvedProcess, identity: str, targets: Targets, problems: Problems
 ) -> tuple[Dependency, ...]:
-    """Return what a process waits for. What is not there is reported where the description is `complete`."""
+    """Return what a process waits for. What is not there is reported."""
     edges: dict[tuple[str, str], Dependency] = {}
     for written in process.depends_on:
         found = _found(written, process, targets)
-        if not found and complete:
+        if not found:
             _report_unknown(written, process, targets, problems)
         for target in found:
             if target == identity and len(found) > 1:
@@ -55,15 +57,24 @@ def dependencies(
 
 
 def check_cycles(edges: Mapping[str, tuple[Dependency, ...]], problems: Problems) -> None:
-    """Report processes that wait for each other."""
-    graph = {identity: [edge.process for edge in waits] for identity, waits in edges.items()}
+    """Report processes that wait for each other, each in one circle at the most."""
+    graph = {identity: {edge.process for edge in waits} for identity, waits in edges.items()}
+    while (circle := _circle(graph)) is not None:
+        way = " waits for ".join(reversed(circle))
+        edge = next(edge for edge in edges[circle[1]] if edge.process == circle[0])
+        problems.error(Code.DEPENDENCY_CYCLE, f"these wait for each other: {way}", edge.location)
+        for identity in circle:
+            graph.pop(identity, None)
+
+
+def _circle(graph: Mapping[str, set[str]]) -> list[str] | None:
+    """Return processes of which each waits for the one before it, the first once more at the end."""
     try:
         TopologicalSorter(graph).prepare()
     except CycleError as error:
         circle: list[str] = error.args[1]
-        way = " waits for ".join(reversed(circle))
-        edge = next(edge for edge in edges[circle[1]] if edge.process == circle[0])
-        problems.error(Code.DEPENDENCY_CYCLE, f"these wait for each other: {way}", edge.location)
+        return circle
+    return None
 
 
 def _found(written: ResolvedDependency, process: ResolvedProcess, targets: Targets) -> list[str]:
@@ -86,6 +97,8 @@ def _report_unknown(
 ) -> None:
     known = {"node": targets.nodes, "process": targets.names, "label": targets.labels}[written.kind]
     name = _full(written.name.text, process) if written.kind == "node" else written.name.text
+    if not is_mistake(name, known, targets.resolved):
+        return
     what = {"node": "node", "process": "process", "label": "include with the label"}[written.kind]
     problems.error(
         Code.UNKNOWN_DEPENDENCY,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,17 +12,22 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.errors import Problems
+    from orchestra.location import Location
     from orchestra.resolve.model import ResolvedProcess
 
 
 def identities(processes: Sequence[ResolvedProcess]) -> tuple[str, ...]:
     """Return an id per process: the full node name, else namespace and label, with `#2` for repeats."""
-    seen: Counter[str] = Counter()
+    numbers: dict[str, int] = {}
+    taken: set[str] = set()
     ids = []
     for process in processes:
-        name = base_identity(process)
-        seen[name] += 1
-        ids.append(name if seen[name] == 1 else f"{name}#{seen[name]}")
+        base = identity = base_identity(process)
+        while identity in taken:
+            numbers[base] = numbers.get(base, 1) + 1
+            identity = f"{base}#{numbers[base]}"
+        taken.add(identity)
+        ids.append(identity)
     return tuple(ids)
 
 
@@ -60,5 +64,9 @@ def check_names(processes: Sequence[ResolvedProcess], problems: Problems) -> Non
             Code.DUPLICATE_NODE,
             f"two nodes are called '{name}'",
             at,
-            notes=(f"the other one is at {earlier.location}",),
+            notes=(f"the other one is at {_with_includes(earlier.location)}",),
         )
+
+
+def _with_includes(location: Location) -> str:
+    return ", included from ".join(str(span) for span in (location.span, *location.included_from))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.errors import Code, Problems
 from orchestra.nearest import nearest
+from orchestra.plan.absent import is_mistake
 from orchestra.plan.ids import node_name
 from orchestra.plan.model import Candidate, ParameterFile
 from orchestra.plan.parameter_file import rendered
@@ -64,15 +65,15 @@ def parameters_of(process: ResolvedProcess, given: Sequence[GivenSections], prob
     )
 
 
-def check_given(resolved: Resolved, problems: Problems, *, complete: bool) -> None:
+def check_given(resolved: Resolved, problems: Problems) -> None:
     """Report parameters of the command line that are for no node of the description."""
     names = [name for process in resolved.processes if (name := node_name(process)) is not None]
     anonymous = any(process.kind == "node" and process.name is None for process in resolved.processes)
-    if not complete:
-        return
     for given in resolved.given:
         for section in given.sections:
             if any(matches(section.pattern, name) for name in names) or (anonymous and not given.strict):
+                continue
+            if not is_mistake(section.pattern, names, resolved):
                 continue
             report = problems.error if given.strict else problems.warning
             message = f"there is no node '{section.pattern}' to give parameters to"

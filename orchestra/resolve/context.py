@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
 from typing import Final, Protocol, TypeAlias
 
@@ -81,7 +82,7 @@ class Context:
     `file` is the absolute path of the launch file that is being read, `included_from` the chain of includes to it,
     innermost first. `anonymous` remembers the names that `$(anon)` made. `parameters` are the values that
     `set_parameter` put in scope, for `$(param)`. `launching` is false where nothing will be started here: then a
-    missing package is a warning about this host.
+    missing package is a warning about this host. `lost` has the names that something faulty would have set.
     """
 
     problems: Problems
@@ -95,6 +96,7 @@ class Context:
     launching: bool = True
     anonymous: dict[str, str] = field(default_factory=dict)
     parameters: Mapping[str, str] = field(default_factory=dict)
+    lost: AbstractSet[str] = frozenset()
 
     def at(self, span: Span) -> Location:
         """Return the location of a span of the current file."""

@@ -8,13 +8,15 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from orchestra.errors import Code
 from orchestra.resolve.booleans import boolean
-from orchestra.resolve.context import Poison
+from orchestra.resolve.context import Value
+from orchestra.resolve.mentions import hidden, words_in
 from orchestra.resolve.model import ResolvedSkip
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.description.entity import Action
+    from orchestra.description.launch import Description
     from orchestra.description.text import Template
     from orchestra.resolve.resolution import Resolution
 
@@ -45,6 +47,7 @@ class Visitor(Protocol):
 
 def visit(actions: Sequence[Action], run: Resolution) -> None:
     """Visit actions in order, leaving out those whose condition says so."""
+    run.depth += 1
     for action in actions:
         if not _wanted(action, run):
             continue
@@ -52,6 +55,17 @@ def visit(actions: Sequence[Action], run: Resolution) -> None:
         run.conditional |= action.if_ is not None or action.unless is not None
         _visitor(type(action).__name__).visit(action, run)
         run.conditional = outer
+    run.depth -= 1
+
+
+def visit_file(description: Description, run: Resolution) -> None:
+    """Visit the actions of the file that the visit is in."""
+    run.found.lost |= description.lost
+    if description.deprecated is not None:
+        at = run.at(description.deprecated.span)
+        message = f"{description.file} is deprecated: {description.deprecated.constant}"
+        run.problems.warning(Code.DEPRECATED, message, at)
+    visit(description.actions, run)
 
 
 @cache
@@ -65,28 +79,27 @@ def _wanted(action: Action, run: Resolution) -> bool:
     if template is None:
         return True
     value = run.evaluate(template)
-    if value is None or isinstance(value, Poison):
-        run.found.incomplete = True
-        return False
-    holds = boolean(value.text)
-    if holds is None:
-        run.found.incomplete = True
-        message = f"a condition is true or false, this is '{value.text}'"
-        run.problems.error(Code.BAD_CONDITION, message, value.location)
-        return False
+    holds = boolean(value.text) if isinstance(value, Value) else None
     if holds == (action.if_ is not None):
         return True
-    _skip(action, template, value.text, run)
+    part = hidden(action, run.context, run.scope.variables)
+    run.scope.ledger.hidden.append(part)
+    if holds is not None and isinstance(value, Value):
+        _skip(action, template, value.text, run)
+        return False
+    if isinstance(value, Value):
+        message = f"a condition is true or false, this is '{value.text}'"
+        run.problems.error(Code.BAD_CONDITION, message, value.location)
+    run.found.lost |= words_in(action)
+    run.scope.ledger.incomplete |= bool(part.files)
     return False
 
 
 def _skip(action: Action, template: Template, value: str, run: Resolution) -> None:
-    kind = VISITORS[type(action).__name__]
-    run.found.hidden_include |= kind in {"include", "group"}
     name = getattr(action, "name", None) or getattr(action, "file", None)
     run.found.skipped.append(
         ResolvedSkip(
-            kind,
+            VISITORS[type(action).__name__],
             name.raw if name is not None else None,
             "if" if action.if_ is not None else "unless",
             template.raw,

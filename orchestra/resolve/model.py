@@ -181,7 +181,10 @@ class GivenSections:
 
 @dataclass(frozen=True, slots=True)
 class Resolved:
-    """Everything a description comes to. `incomplete`: parts with faults have been left out."""
+    """Everything a description comes to.
+
+    `lost` has the words of what has been left out for its faults, `incomplete` tells that whole files are missing.
+    """
 
     file: str
     arguments: tuple[ResolvedArgument, ...]
@@ -189,4 +192,5 @@ class Resolved:
     triggers: tuple[ResolvedTrigger, ...]
     skipped: tuple[ResolvedSkip, ...]
     given: tuple[GivenSections, ...]
-    incomplete: bool
+    lost: frozenset[str] = frozenset()
+    incomplete: bool = False

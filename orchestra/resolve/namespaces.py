@@ -5,19 +5,25 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
-from orchestra.resolve.context import POISON, Evaluated, Value
+from orchestra.resolve.context import POISON, Evaluated, Poison, Value
 from orchestra.resolve.names import joined, namespace_fault
 
 if TYPE_CHECKING:
     from orchestra.errors import Problems
 
 
-def below(base: Value | None, namespace: Value | None, problems: Problems) -> Evaluated | None:
+def below(base: Evaluated | None, namespace: Evaluated | None, problems: Problems) -> Evaluated | None:
     """Return the absolute namespace of a base and what is added to it; a name that cannot be one is reported."""
+    if isinstance(namespace, Poison):
+        return POISON
+    if isinstance(base, Poison):
+        if namespace is None or not namespace.text.startswith("/"):
+            return POISON
+        base = None
     text = joined(base.text if base else None, namespace.text if namespace else None)
     if text is None:
         return None
-    location = (namespace or base).location  # type: ignore[union-attr]
+    location = (namespace or base).location  # type: ignore[union-attr]  # with neither there is no text
     fault = namespace_fault(text)
     if fault is not None:
         problems.error(Code.BAD_NAME, f"'{text}' cannot be a namespace: {fault.reason}", location)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from orchestra.description.parts import VALUE_TYPES
 from orchestra.errors import Code
 from orchestra.load.grammar import parse_template
 from orchestra.load.offsets import source
@@ -82,7 +83,7 @@ def _inline(param: Param, above: str, run: Resolution) -> list[InlineParameter |
         return [item for nested in param.param for item in _inline(nested, f"{above}{name}.", run)]
     if param.value is None:
         return [None]
-    type_word = run.text(param.type)
+    type_word = run.word(param.type, VALUE_TYPES)
     value = POISON if isinstance(type_word, Poison) else typed(param.value, type_word, run)
     if isinstance(value, Poison):
         return [None]

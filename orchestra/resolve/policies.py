@@ -5,6 +5,7 @@ from __future__ import annotations
 import signal
 from typing import TYPE_CHECKING, cast
 
+from orchestra.description.parts import POLICIES
 from orchestra.errors import Code
 from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON, Poison, Value
@@ -25,7 +26,7 @@ def restart(action: Running, run: Resolution) -> Restart | Poison | None:
     if action.restart is None:
         return _respawn(action, run)
     written = action.restart
-    policy = run.text(written.policy)
+    policy = run.word(written.policy, POLICIES)
     numbers = [run.number(item) for item in (written.delay, written.max_delay, written.min_uptime)]
     budget = run.integer(written.budget)
     if (

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from orchestra.resolve.context import Context, Poison
 
 
+_UNSET = (Code.UNDEFINED_VARIABLE, Code.UNSET_ENVIRONMENT)
+
+
 def refuse(
     written: Template,
     context: Context,
@@ -24,7 +27,12 @@ def refuse(
     meant: str | None = None,
     notes: Iterable[str] = (),
 ) -> Poison:
-    """Report an error at a written text. What was meant can replace it only where it holds no substitution."""
+    """Report an error at a written text. What was meant can replace it only where it holds no substitution.
+
+    What something faulty would have set is not reported to be unset.
+    """
+    if code in _UNSET and written.constant in context.lost:
+        return POISON
     replaceable = written.constant is not None
     if meant is not None and not replaceable:
         notes = (*notes, f"did you mean {meant!r}?")
@@ -34,8 +42,15 @@ def refuse(
 
 
 def report_missing_package(package: str, written: Template, context: Context) -> Poison:
-    """Report a package that is not here; `written` is the text that names it."""
+    """Report a package that is not here; `written` is the text that names it.
+
+    Where nothing will be started it may be elsewhere, so that it is only a warning, unless a near name is installed.
+    """
     meant = nearest(package, context.packages.names())
+    if meant is None and not context.launching:
+        told = f"there is no package {package!r} on this machine: what it would give is left open"
+        context.problems.warning(Code.MISSING_PACKAGE, told, context.at(written.span))
+        return POISON
     return refuse(
         written, context, Code.MISSING_PACKAGE, f"there is no package {package!r} here", meant=meant
     )

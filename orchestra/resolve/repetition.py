@@ -27,11 +27,10 @@ def repeated(
         return
     values = [_values(written, run) for written in for_each.values()]
     for combination in product(*values):
-        scope = run.scope.copy()
-        for (name, written), value in zip(for_each.items(), combination, strict=True):
-            first = written if not isinstance(written, tuple) else written[0]
-            scope.set(name, value, value.location if isinstance(value, Value) else run.at(first.span))
-        with run.scoped(scope):
+        with run.scope.nested():
+            for (name, written), value in zip(for_each.items(), combination, strict=True):
+                first = written if not isinstance(written, tuple) else written[0]
+                run.scope.set(name, value, value.location if isinstance(value, Value) else run.at(first.span))
             yield
 
 

@@ -11,6 +11,7 @@ from orchestra.description.entity import Action
 from orchestra.description.launch import Description
 from orchestra.errors import Code, Problems
 from orchestra.location import Location, Span
+from orchestra.nearest import nearest
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import POISON, Context, Evaluated, Poison, Value
 from orchestra.resolve.evaluate import evaluate
@@ -35,21 +36,32 @@ Visit: TypeAlias = Callable[[Sequence[Action], "Resolution"], None]
 
 @dataclass(slots=True)
 class Found:
-    """What the visit has come upon so far."""
+    """What the visit has come upon so far.
+
+    `lost` has the words of what has been left out for its faults: what depends on it is not reported. `endless` are
+    the files that include themselves without end, which are not gone into again.
+    """
 
     processes: list[ResolvedProcess] = field(default_factory=list)
     arguments: dict[str, ResolvedArgument] = field(default_factory=dict)
     triggers: list[ResolvedTrigger] = field(default_factory=list)
     skipped: list[ResolvedSkip] = field(default_factory=list)
-    hidden_include: bool = False
-    incomplete: bool = False
+    lost: set[str] = field(default_factory=set)
+    endless: set[str] = field(default_factory=set)
 
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """One file on the way to where the visit is: its path and the arguments that its include gave."""
+    """One file on the way to where the visit is.
+
+    `given` are the arguments of its include, which stands at `included_at`; `scope` and `mark` tell what was set when
+    its visit began.
+    """
 
     path: str
+    scope: Scope
+    mark: int = 0
+    included_at: Location | None = None
     given: frozenset[str] = frozenset()
     labels: tuple[str, ...] = ()
     depends_on: tuple[ResolvedDependency, ...] = ()
@@ -69,6 +81,7 @@ class Resolution:
     frames: tuple[Frame, ...] = ()
     delayed: list[TriggeredAction] | None = None
     delay: float = 0.0
+    depth: int = 0
     conditional: bool = False
     descriptions: dict[str, Description | None] = field(default_factory=dict)
     parameter_files: dict[str, FileParameters | None] = field(default_factory=dict)
@@ -134,36 +147,42 @@ class Resolution:
             self.problems.error(Code.BAD_VALUE, message, value.location)
             return POISON
 
+    def word(self, template: Template | None, words: Sequence[str]) -> str | Poison | None:
+        """Return what a text comes to, which is one of a few words; anything else is reported."""
+        value = self.evaluate(template)
+        if value is None or isinstance(value, Poison):
+            return value
+        if value.text in words:
+            return value.text
+        message = f"expected one of {', '.join(words)}, found '{value.text}'"
+        suggestion = nearest(value.text, words)
+        self.problems.error(Code.BAD_VALUE, message, value.location, suggestion=suggestion)
+        return POISON
+
     @contextmanager
     def scoped(self, scope: Scope) -> Iterator[None]:
         """Carry on in another scope for a while."""
         outer, outer_context = self.scope, self.context
-        self._enter(scope)
+        self.scope = scope
+        self.context = replace(
+            outer_context, variables=scope, environment=scope.environment, parameters=scope.parameter_texts
+        )
         try:
             yield
         finally:
             self.scope, self.context = outer, outer_context
 
     @contextmanager
-    def inside(self, frame: Frame, included_at: Location | None) -> Iterator[None]:
+    def inside(self, frame: Frame) -> Iterator[Ledger]:
         """Carry on in another file, in the same scope, for a while. Its ledger flows into the outer one."""
-        chain = () if included_at is None else (included_at.span, *included_at.included_from)
+        at = frame.included_at
+        chain = () if at is None else (at.span, *at.included_from)
         outer_frames, outer_context, outer_ledger = self.frames, self.context, self.scope.ledger
         self.frames = (*outer_frames, frame)
-        self.context = replace(self.context, file=frame.path, included_from=chain)
+        self.context = replace(outer_context, file=frame.path, included_from=chain)
         self.scope.ledger = Ledger()
         try:
-            yield
+            yield self.scope.ledger
         finally:
             outer_ledger.absorb(self.scope.ledger)
             self.frames, self.context, self.scope.ledger = outer_frames, outer_context, outer_ledger
-
-    def refresh(self) -> None:
-        """Let evaluations see what the scope has become."""
-        self.context.environment = self.scope.environment
-        self.context.parameters = {item.name: str(item.value) for item in self.scope.parameters}
-
-    def _enter(self, scope: Scope) -> None:
-        self.scope = scope
-        self.context = replace(self.context, variables=scope)
-        self.refresh()

@@ -4,24 +4,19 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.errors import Code, Problems
 from orchestra.location import Location
-from orchestra.nearest import nearest
+from orchestra.resolve.arguments import Given, settle
 from orchestra.resolve.context import CommandRunner, Context, Packages, Value
 from orchestra.resolve.given import given_sections
-from orchestra.resolve.interpret import visit
+from orchestra.resolve.interpret import visit, visit_file
 from orchestra.resolve.model import Resolved
-from orchestra.resolve.resolution import Frame, LoadFile, Resolution
+from orchestra.resolve.resolution import Found, Frame, LoadFile, Resolution
 from orchestra.resolve.scope import Ledger, Scope
 
 if TYPE_CHECKING:
     from orchestra.description.launch import Description
+    from orchestra.errors import Problems
     from orchestra.resolve.inputs import Inputs
-
-# Variables that upstream itself gives a meaning, so that they need no declaration.
-_KNOWN = frozenset(
-    {"launch-prefix", "launch-prefix-filter", "emulate_tty", "sigterm_timeout", "sigkill_timeout"}
-)
 
 
 def resolve(
@@ -38,20 +33,11 @@ def resolve(
     for given in inputs.arguments:
         location = Location(given.span)
         scope.set(given.name, Value(given.value, location), location)
-    context = Context(
-        problems,
-        scope,
-        scope.environment,
-        packages,
-        run_command,
-        description.path,
-        launching=inputs.launching,
-    )
-    run = Resolution(inputs, problems, load, visit, context, scope, frames=(Frame(description.path),))
-    run.descriptions[description.path] = description
-    run.found.incomplete = description.incomplete
-    visit(description.actions, run)
-    _check_given_arguments(run)
+    run = _begin(description, inputs, problems, scope, load, packages, run_command)
+    with run.inside(Frame(description.path, scope)) as ledger:
+        visit_file(description, run)
+        names = [Given(item.name, Location(item.span)) for item in inputs.arguments]
+        settle(names, description, ledger, run)
     return Resolved(
         description.file,
         tuple(run.found.arguments.values()),
@@ -59,20 +45,31 @@ def resolve(
         tuple(run.found.triggers),
         tuple(run.found.skipped),
         given_sections(run),
-        run.found.incomplete,
+        frozenset(run.found.lost),
+        scope.ledger.incomplete,
     )
 
 
-def _check_given_arguments(run: Resolution) -> None:
-    """Report launch arguments of the command line that nothing declares or reads."""
-    ledger = run.scope.ledger
-    for given in run.inputs.arguments:
-        if given.name in ledger.declared | ledger.read | _KNOWN:
-            continue
-        message = f"there is no launch argument '{given.name}'"
-        suggestion = nearest(given.name, ledger.declared)
-        if run.found.hidden_include or (run.found.incomplete and suggestion is None):
-            message += " in what was read; a part was left out"
-            run.problems.warning(Code.UNREAD_ARGUMENT, message, given.span, suggestion=suggestion)
-        else:
-            run.problems.error(Code.UNKNOWN_ARGUMENT, message, given.span, suggestion=suggestion)
+def _begin(
+    description: Description,
+    inputs: Inputs,
+    problems: Problems,
+    scope: Scope,
+    load: LoadFile,
+    packages: Packages,
+    run_command: CommandRunner,
+) -> Resolution:
+    found = Found()
+    context = Context(
+        problems,
+        scope,
+        scope.environment,
+        packages,
+        run_command,
+        launching=inputs.launching,
+        parameters=scope.parameter_texts,
+        lost=found.lost,
+    )
+    run = Resolution(inputs, problems, load, visit, context, scope, found)
+    run.descriptions[description.path] = description
+    return run

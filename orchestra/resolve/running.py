@@ -4,13 +4,15 @@ from __future__ import annotations
 
 import re
 import shlex
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeVar
 
+from orchestra.description.running import ON_EXIT, OUTPUTS
+from orchestra.errors import Code
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import POISON, Poison, Value
-from orchestra.resolve.dependencies import dependency, readiness
+from orchestra.resolve.dependencies import dependencies, readiness
 from orchestra.resolve.model import (
     EnvironmentChange,
     ParameterSource,
@@ -22,8 +24,6 @@ from orchestra.resolve.policies import restart, stop
 from orchestra.resolve.words import split
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
-
     from orchestra.description.running import Running
     from orchestra.description.text import Template
     from orchestra.resolve.resolution import Resolution
@@ -51,26 +51,9 @@ class Program:
 
 def add_process(action: Running, program: Program, run: Resolution) -> None:
     """Add a process to what has been found: it starts with the run, or with the timer around it."""
-    edges = [dependency(item, run) for item in action.depends_on]
-    ready = readiness(action.ready, run) if action.ready is not None else None
-    codes = [run.integer(code) for code in action.success_exit_codes or ()]
-    cwd, output, shell = run.text(action.cwd), run.text(action.output), run.flag(action.shell, default=False)
-    prefix, emulate_tty = _prefix(action, program, run), _emulate_tty(action, run)
-    again, end = restart(action, run), stop(action, run)
-    required = run.flag(action.required, default=action.on_exit is not None)
-    environment, whole = _environment(action, run)
-    faulty = (
-        program.faulty
-        or action.faulty
-        or not whole
-        or any(
-            isinstance(value, Poison)
-            for value in (cwd, output, shell, prefix, emulate_tty, again, end, required, *codes)
-        )
-        or None in edges
-        or (action.ready is not None and ready is None)
-    )
+    sound = _Sound()
     location = run.at(action.span)
+    on_exit = sound(run.word(action.on_exit, ON_EXIT))
     process = ResolvedProcess(
         kind=program.kind,
         package=program.package,
@@ -81,29 +64,29 @@ def add_process(action: Running, program: Program, run: Resolution) -> None:
         program=program.words,
         arguments=program.arguments,
         ros_arguments=program.ros_arguments,
-        prefix=() if isinstance(prefix, Poison) else prefix,
-        shell=shell is True,
-        cwd=_or_none(cwd),
-        environment=environment,
+        prefix=sound(_prefix(action, program, run)) or (),
+        shell=sound(run.flag(action.shell)) is True,
+        cwd=sound(run.text(action.cwd)),
+        environment=sound(_environment(action, run)) or {},
         parameters=program.parameters,
         remaps=program.remaps,
-        output=_or_none(output),
-        emulate_tty=_or_none(emulate_tty),
-        restart=_or_none(again),
-        required=required is True,
-        stop=_or_none(end),
-        shutdown_on_exit=action.on_exit is not None,
-        success_exit_codes=_sound(codes) if action.success_exit_codes is not None else None,
-        ready=ready,
-        depends_on=run.frame.depends_on + _sound(edges),
+        output=sound(run.word(action.output, OUTPUTS)),
+        emulate_tty=sound(_emulate_tty(action, run)),
+        restart=sound(restart(action, run)),
+        required=sound(run.flag(action.required, default=on_exit is not None)) is True,
+        shutdown_on_exit=on_exit is not None,
+        success_exit_codes=sound(_codes(action, run)),
+        ready=sound(readiness(action.ready, run)),
+        stop=sound(stop(action, run)),
+        depends_on=run.frame.depends_on + (sound(dependencies(action.depends_on, run)) or ()),
         labels=run.frame.labels,
         location=location,
         conditional=run.conditional,
-        faulty=faulty,
+        faulty=False,
     )
     if run.delayed is not None:
         run.delayed.append(ResolvedStart(len(run.found.processes), location))
-    run.found.processes.append(process)
+    run.found.processes.append(replace(process, faulty=sound.faulty or program.faulty or action.faulty))
 
 
 def texts(template: Template | None, run: Resolution) -> tuple[str, ...] | Poison:
@@ -114,45 +97,75 @@ def texts(template: Template | None, run: Resolution) -> tuple[str, ...] | Poiso
     return POISON if isinstance(words, Poison) else tuple(word.text for word in words)
 
 
-def _or_none(value: _T | Poison | None) -> _T | None:
-    return None if isinstance(value, Poison) else value
+class _Sound:
+    """Takes values, gives None for faulty ones, and remembers whether there was one."""
+
+    __slots__ = ("faulty",)
+
+    def __init__(self) -> None:
+        self.faulty = False
+
+    def __call__(self, value: _T | Poison | None) -> _T | None:
+        if not isinstance(value, Poison):
+            return value
+        self.faulty = True
+        return None
 
 
-def _sound(values: Sequence[_T | Poison | None]) -> tuple[_T, ...]:
-    return tuple(value for value in values if value is not None and not isinstance(value, Poison))
+def _codes(action: Running, run: Resolution) -> tuple[int, ...] | Poison | None:
+    if action.success_exit_codes is None:
+        return None
+    codes = [run.integer(code) for code in action.success_exit_codes]
+    sound = tuple(code for code in codes if isinstance(code, int))
+    return sound if len(sound) == len(codes) else POISON
 
 
 def _prefix(action: Running, program: Program, run: Resolution) -> tuple[str, ...] | Poison:
     """Return the words of the launch prefix: the action's own, or the one of the whole launch through its filter."""
     if action.launch_prefix is not None:
         return texts(action.launch_prefix, run)
-    prefix = _setting("launch-prefix", run)
-    if not prefix or not program.words:
+    prefix, chosen = _setting("launch-prefix", run), _setting("launch-prefix-filter", run)
+    if prefix is None or not prefix.text or not program.words:
         return ()
-    chosen = re.match(_setting("launch-prefix-filter", run) or "", Path(program.words[0]).name)
-    return tuple(shlex.split(prefix)) if chosen else ()
+    try:
+        if chosen is not None and not re.match(chosen.text, Path(program.words[0]).name):
+            return ()
+    except re.error as error:
+        message = f"'launch-prefix-filter' is no regular expression: {error}"
+        run.problems.error(Code.BAD_VALUE, message, chosen.location if chosen is not None else None)
+        return POISON
+    try:
+        return tuple(shlex.split(prefix.text))
+    except ValueError as error:
+        run.problems.error(Code.BAD_VALUE, f"'launch-prefix' is no command: {error}", prefix.location)
+        return POISON
 
 
 def _emulate_tty(action: Running, run: Resolution) -> bool | Poison | None:
     setting = _setting("emulate_tty", run)
-    return boolean(setting) if setting is not None else run.flag(action.emulate_tty)
+    if setting is None:
+        return run.flag(action.emulate_tty)
+    flag = boolean(setting.text)
+    if flag is not None:
+        return flag
+    message = f"'emulate_tty' is true or false, not '{setting.text}'"
+    run.problems.error(Code.BAD_VALUE, message, setting.location)
+    return POISON
 
 
-def _setting(name: str, run: Resolution) -> str | None:
+def _setting(name: str, run: Resolution) -> Value | None:
     """Return a variable that upstream gives a meaning of its own."""
     variable = run.scope.variables.get(name)
-    return variable.value.text if variable is not None and isinstance(variable.value, Value) else None
+    return variable.value if variable is not None and isinstance(variable.value, Value) else None
 
 
-def _environment(action: Running, run: Resolution) -> tuple[dict[str, tuple[EnvironmentChange, ...]], bool]:
-    """Return what the description changes in the environment, and whether all of it is sound."""
+def _environment(action: Running, run: Resolution) -> dict[str, tuple[EnvironmentChange, ...]] | Poison:
+    """Return what the description changes in the environment."""
     changes = dict(run.scope.changes)
-    whole = True
     for pair in action.env:
         name, value = run.text(pair.name), run.text(pair.value)
-        if isinstance(name, str) and isinstance(value, str):
-            change = EnvironmentChange(value, run.at(pair.value.span))
-            changes[name] = (*changes.get(name, ()), change)
-        else:
-            whole = False
-    return changes, whole
+        if not isinstance(name, str) or not isinstance(value, str):
+            return POISON
+        change = EnvironmentChange(value, run.at(pair.value.span))
+        changes[name] = (*changes.get(name, ()), change)
+    return changes

@@ -2,18 +2,30 @@
 
 As upstream, an include shares the scope of the place it stands in, so what it sets stays set. Such a value is marked
 as leaked, and reading it gives a warning.
+
+A scope is not copied where another one begins in it: it keeps a journal of its changes, which are taken back where the
+inner scope ends. So a description costs as much as it is long, however much is set around it.
 """
 
 from __future__ import annotations
 
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.description.entity import Action
 from orchestra.errors import Code, Problems
 from orchestra.location import Location, Span
 from orchestra.resolve.context import POISON, Evaluated, Value
 from orchestra.resolve.model import EnvironmentChange, InlineParameter, ResolvedRemap
 
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+
 NAMESPACE = "ros_namespace"
+
+_ABSENT: Final = object()
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,19 +37,37 @@ class Variable:
     leaked_from: Span | None = None
 
 
+@dataclass(frozen=True, slots=True)
+class Hidden:
+    """An action that its condition left out, and the files that includes in it name: None for one that is not known."""
+
+    action: Action
+    files: tuple[str | None, ...]
+
+
 @dataclass(slots=True)
 class Ledger:
-    """Which variables are read and declared, and which declared ones are left at their default."""
+    """What a file and the files it includes do with variables.
+
+    `defaulted` are the declared ones left at their default, `missing` those that have neither default nor value,
+    with the place of the declaration. `hidden` are the actions that conditions left out; `incomplete` tells that a
+    file could not be read or found, so that there may be more.
+    """
 
     read: set[str] = field(default_factory=set)
     declared: set[str] = field(default_factory=set)
     defaulted: set[str] = field(default_factory=set)
+    missing: dict[str, Location] = field(default_factory=dict)
+    hidden: list[Hidden] = field(default_factory=list)
+    incomplete: bool = False
 
     def absorb(self, other: Ledger) -> None:
-        """Take over what an include did."""
+        """Take over what an include did; what it lacks is settled where it ends."""
         self.read |= other.read
         self.declared |= other.declared
         self.defaulted |= other.defaulted
+        self.hidden += other.hidden
+        self.incomplete |= other.incomplete
 
 
 @dataclass(slots=True)
@@ -50,7 +80,9 @@ class Scope:
     variables: dict[str, Variable] = field(default_factory=dict)
     changes: dict[str, tuple[EnvironmentChange, ...]] = field(default_factory=dict)
     parameters: tuple[InlineParameter, ...] = ()
+    parameter_texts: dict[str, str] = field(default_factory=dict)
     remaps: tuple[ResolvedRemap, ...] = ()
+    _journal: list[tuple[dict[str, Any], str, Any]] = field(default_factory=list)
 
     def get(self, name: str, reader: Location) -> Evaluated | None:
         """Return a variable's value, None where it is unset."""
@@ -68,39 +100,70 @@ class Scope:
 
     def set(self, name: str, value: Evaluated, location: Location) -> None:
         """Set a variable."""
-        self.variables[name] = Variable(value, location)
+        self._put(self.variables, name, Variable(value, location))
 
     def change(self, name: str, value: str | None, location: Location) -> None:
         """Set or remove an environment variable."""
-        self.changes[name] = (*self.changes.get(name, ()), EnvironmentChange(value, location))
-        if value is None:
-            self.environment.pop(name, None)
-        else:
-            self.environment[name] = value
+        changes = (*self.changes.get(name, ()), EnvironmentChange(value, location))
+        self._put(self.changes, name, changes)
+        self._put(self.environment, name, _ABSENT if value is None else value)
 
-    @property
-    def namespace(self) -> Value | None:
-        """The pushed namespace."""
+    def set_parameter(self, parameter: InlineParameter) -> None:
+        """Set a parameter of every node."""
+        self.parameters = (*self.parameters, parameter)
+        self._put(self.parameter_texts, parameter.name, str(parameter.value))
+
+    def namespace(self, reader: Location) -> Evaluated | None:
+        """Return the pushed namespace; `reader` is the place that asks."""
         variable = self.variables.get(NAMESPACE)
-        return variable.value if variable is not None and isinstance(variable.value, Value) else None
+        if variable is None:
+            return None
+        if variable.leaked_from is not None:
+            self._warn_of_leak(NAMESPACE, variable, reader)
+        return variable.value
 
-    def copy(self) -> Scope:
-        """Return a scope whose changes leave this one as it is."""
-        return replace(
-            self,
-            environment=dict(self.environment),
-            variables=dict(self.variables),
-            changes=dict(self.changes),
+    @contextmanager
+    def nested(self) -> Iterator[None]:
+        """Begin an inner scope: what is set in it is gone where it ends."""
+        mark, parameters, remaps = self.mark(), self.parameters, self.remaps
+        try:
+            yield
+        finally:
+            while len(self._journal) > mark:
+                _write(*self._journal.pop())
+            self.parameters, self.remaps = parameters, remaps
+
+    def mark(self) -> int:
+        """Return a mark of the present state."""
+        return len(self._journal)
+
+    def unchanged_since(self, mark: int) -> bool:
+        """Return whether variables, environment and parameters are what they were at a mark."""
+        return not any(
+            _comparable(earlier) != _comparable(table.get(name, _ABSENT))
+            for table, name, earlier in self._earliest(mark)
+            if table is not self.changes
         )
 
-    def mark_leaks(self, before: dict[str, Variable], include: Span) -> None:
+    def mark_leaks(self, mark: int, include: Span) -> None:
         """Mark what an include has set, where it differs from what stood there before."""
-        for name, variable in self.variables.items():
-            earlier = before.get(name)
-            if earlier is variable or variable.leaked_from is not None:
+        for table, name, earlier in self._earliest(mark):
+            variable = table.get(name)
+            if not isinstance(variable, Variable) or variable.leaked_from is not None:
                 continue
-            if earlier is None or _text(earlier) != _text(variable):
-                self.variables[name] = replace(variable, leaked_from=include)
+            if _comparable(earlier) != _comparable(variable):
+                self._put(self.variables, name, replace(variable, leaked_from=include))
+
+    def _put(self, table: dict[str, Any], name: str, value: object) -> None:
+        self._journal.append((table, name, table.get(name, _ABSENT)))
+        _write(table, name, value)
+
+    def _earliest(self, mark: int) -> list[tuple[dict[str, Any], str, Any]]:
+        """Return what has changed since a mark, with what stood there at the mark."""
+        changes: dict[tuple[int, str], tuple[dict[str, Any], str, Any]] = {}
+        for table, name, earlier in self._journal[mark:]:
+            changes.setdefault((id(table), name), (table, name, earlier))
+        return list(changes.values())
 
     def _warn_of_leak(self, name: str, variable: Variable, reader: Location) -> None:
         self.problems.warning(
@@ -109,8 +172,17 @@ class Scope:
             reader,
             notes=(f"set at {variable.location}", f"included at {variable.leaked_from}"),
         )
-        self.variables[name] = replace(variable, leaked_from=None)
+        self._put(self.variables, name, replace(variable, leaked_from=None))
 
 
-def _text(variable: Variable) -> object:
-    return variable.value.text if isinstance(variable.value, Value) else POISON
+def _write(table: dict[str, Any], name: str, value: object) -> None:
+    if value is _ABSENT:
+        table.pop(name, None)
+    else:
+        table[name] = value
+
+
+def _comparable(value: object) -> object:
+    if not isinstance(value, Variable):
+        return value
+    return value.value.text if isinstance(value.value, Value) else POISON

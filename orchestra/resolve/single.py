@@ -61,7 +61,7 @@ def single_node(
         conditional=False,
         faulty=words is None,
     )
-    return Resolved(COMMAND_LINE, (), (process,), (), (), (), incomplete=False)
+    return Resolved(COMMAND_LINE, (), (process,), (), (), ())
 
 
 def _report(package: str, executable: str, at: Span, problems: Problems, packages: Packages) -> None:

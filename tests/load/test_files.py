@@ -94,20 +94,35 @@ def test_a_fault_is_reported_once_at_its_place(case: str, tmp_path: Path) -> Non
 
 
 def test_all_faults_of_a_file_are_reported_in_one_pass(tmp_path: Path) -> None:
-    text = "launch:\n- node: {exce: a}\n- lgo: {}\n- let: {name: a, value: $(nix)}\n"
+    text = "launch:\n- node: {exce: a}\n- lgo: {message: a}\n- let: {name: a, value: $(nix)}\n"
     _, problems = _load(text, tmp_path)
     assert [fault[1] for fault in _faults(problems)] == [2, 3, 4]
 
 
-def test_a_faulty_key_leaves_the_rest_of_the_action(tmp_path: Path) -> None:
-    description, _ = _load("launch:\n- node: {exec: a, nmae: b, namespace: c}", tmp_path)
+def test_an_unknown_key_leaves_the_rest_of_the_action(tmp_path: Path) -> None:
+    description, _ = _load("launch:\n- node: {exec: a, colour: b, namespace: c}", tmp_path)
     assert description is not None
     node = description.actions[0]
     assert isinstance(node, Node)
     assert node.faulty
     assert node.namespace is not None
     assert node.namespace.constant == "c"
-    assert description.incomplete
+    assert description.lost == {"a", "b", "c"}
+
+
+def test_a_mistyped_key_counts_as_what_was_meant(tmp_path: Path) -> None:
+    text = "launch:\n- nod: {exce: a, nmae: $(vra b), params: [{name: p, valeu: 1}]}"
+    description, problems = _load(text, tmp_path)
+    assert [(fault[2], fault[3]) for fault in _faults(problems)] == [
+        (3, "node"),
+        (9, "exec"),
+        (18, "name"),
+        (26, "var"),
+        (34, "param"),
+        (53, "value"),
+    ]
+    assert description is not None
+    assert isinstance(description.actions[0], Node)
 
 
 @pytest.mark.parametrize(
@@ -129,7 +144,7 @@ def test_what_is_plainly_meant_is_accepted(text: str, tmp_path: Path) -> None:
     description, problems = _load(text, tmp_path)
     assert list(problems) == []
     assert description is not None
-    assert not description.incomplete
+    assert not description.lost
 
 
 def test_children_of_a_group_stand_in_order(tmp_path: Path) -> None:

@@ -21,4 +21,4 @@ class Group(Action):
     )
     keep: tuple[Pair, ...] = Field(default=(), description="Variables to set inside.")
     for_each: ForEach | None = Field(default=None, description="Carry the group out once per value.")
-    children: Children = Field(default=(), description="The actions of the group.")
+    children: Children = Field(description="The actions of the group.")

@@ -43,9 +43,7 @@ def _default(action: Arg, name: str, run: Resolution) -> Evaluated:
     if action.default is not None:
         return run.evaluate(action.default) or POISON
     if not action.faulty and run.inputs.required:
-        given = f"give '{name}:=VALUE`" if len(run.frames) == 1 else f"the include gives no '{name}'"
-        message = f"the argument '{name}' has no default and no value: {given}"
-        run.problems.error(Code.MISSING_ARGUMENT, message, run.at(action.name.span))
+        run.scope.ledger.missing.setdefault(name, run.at(action.name.span))
     return POISON
 
 

@@ -5,9 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from orchestra.resolve.context import Poison
+from orchestra.errors import Code
+from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.programs import program_words
-from orchestra.resolve.running import Program, add_process, texts
+from orchestra.resolve.running import Program, add_process
+from orchestra.resolve.words import split
 
 if TYPE_CHECKING:
     from orchestra.description.actions.executable import Executable
@@ -16,19 +18,30 @@ if TYPE_CHECKING:
 
 def visit(action: Executable, run: Resolution) -> None:
     """Start a program."""
-    words = texts(action.cmd, run)
-    label = run.text(action.name)
-    shell = run.flag(action.shell, default=False)
-    if not isinstance(words, Poison) and words and shell is not True:
-        first = program_words(words[0], run.at(action.cmd.span), run)
-        words = first if isinstance(first, Poison) else (*first, *words[1:])
+    words, label = _words(action, run), run.text(action.name)
+    namespace = run.scope.namespace(run.at(action.span))
     found: tuple[str, ...] = () if isinstance(words, Poison) else words
     program = Program(
         kind="process",
         executable=Path(found[0]).name if found else action.cmd.raw,
         words=found,
-        namespace=run.scope.namespace,
+        namespace=namespace if isinstance(namespace, Value) else None,
         label=label if isinstance(label, str) else None,
-        faulty=isinstance(words, Poison) or isinstance(label, Poison),
+        faulty=any(isinstance(value, Poison) for value in (words, label, namespace)),
     )
     add_process(action, program, run)
+
+
+def _words(action: Executable, run: Resolution) -> tuple[str, ...] | Poison:
+    """Return the words of the command, its program found where it is a path."""
+    words = split(action.cmd, run.context)
+    if isinstance(words, Poison):
+        return POISON
+    rest = tuple(word.text for word in words[1:])
+    if not words or not words[0].text:
+        run.problems.error(Code.BAD_VALUE, "the command is empty", run.at(action.cmd.span))
+        return POISON
+    if run.flag(action.shell, default=False) is True:
+        return (words[0].text, *rest)
+    program = program_words(words[0].text, words[0].location, run)
+    return POISON if isinstance(program, Poison) else (*program, *rest)

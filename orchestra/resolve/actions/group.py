@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
 from orchestra.resolve.context import Value
@@ -9,34 +10,37 @@ from orchestra.resolve.repetition import repeated
 from orchestra.resolve.scope import Scope
 
 if TYPE_CHECKING:
+    from contextlib import AbstractContextManager
+
     from orchestra.description.actions.group import Group
+    from orchestra.location import Location
+    from orchestra.resolve.context import Evaluated
     from orchestra.resolve.resolution import Resolution
 
 
 def visit(action: Group, run: Resolution) -> None:
     """Visit the children, in a scope of their own unless `scoped` is false."""
     for _ in repeated(action.for_each, run):
-        if run.flag(action.scoped, default=True) is False:
-            _keep(action, run, run.scope)
-            run.visit(action.children, run)
-            continue
-        forwarding = run.flag(action.forwarding, default=True) is not False
-        scope = run.scope.copy() if forwarding else _fresh(run)
-        _keep(action, run, scope)
-        with run.scoped(scope):
+        kept = _kept(action, run)
+        with _scope(action, run):
+            for name, value, location in kept:
+                run.scope.set(name, value, location)
             run.visit(action.children, run)
 
 
-def _fresh(run: Resolution) -> Scope:
-    """Return a scope in which nothing is set, with the environment that the launch began with."""
-    return Scope(run.problems, run.scope.ledger, dict(run.inputs.environment))
+def _scope(action: Group, run: Resolution) -> AbstractContextManager[None]:
+    if run.flag(action.scoped, default=True) is False:
+        return nullcontext()
+    if run.flag(action.forwarding, default=True) is False:
+        return run.scoped(Scope(run.problems, run.scope.ledger, dict(run.inputs.environment)))
+    return run.scope.nested()
 
 
-def _keep(action: Group, run: Resolution, scope: Scope) -> None:
-    """Set the variables of `keep`; they are evaluated outside."""
-    kept = [
-        (run.evaluate(pair.name), run.evaluate(pair.value), run.at(pair.value.span)) for pair in action.keep
-    ]
-    for name, value, location in kept:
+def _kept(action: Group, run: Resolution) -> list[tuple[str, Evaluated, Location]]:
+    """Return the variables of `keep`, which are evaluated outside."""
+    kept = []
+    for pair in action.keep:
+        name, value = run.evaluate(pair.name), run.evaluate(pair.value)
         if isinstance(name, Value) and value is not None:
-            scope.set(name.text, value, location)
+            kept.append((name.text, value, run.at(pair.value.span)))
+    return kept

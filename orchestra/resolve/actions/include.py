@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
-from orchestra.nearest import nearest
-from orchestra.resolve.context import POISON, Evaluated, Value
-from orchestra.resolve.dependencies import dependency
+from orchestra.resolve.arguments import Given, settle
+from orchestra.resolve.context import POISON, Evaluated, Poison, Value
+from orchestra.resolve.dependencies import dependencies
+from orchestra.resolve.interpret import visit_file
 from orchestra.resolve.paths import existing_file
 from orchestra.resolve.repetition import repeated
 from orchestra.resolve.resolution import Frame
@@ -15,10 +17,11 @@ from orchestra.resolve.resolution import Frame
 if TYPE_CHECKING:
     from orchestra.description.actions.include import Include
     from orchestra.description.launch import Description
-    from orchestra.description.parts import Pair
     from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
-    from orchestra.resolve.scope import Ledger
+
+# How deep includes and groups may nest: far more than anybody writes, far from the interpreter's recursion limit.
+_DEEPEST = 150
 
 
 def visit(action: Include, run: Resolution) -> None:
@@ -26,57 +29,47 @@ def visit(action: Include, run: Resolution) -> None:
     for _ in repeated(action.for_each, run):
         value = run.evaluate(action.file)
         path = existing_file(value, "launch file", run) if isinstance(value, Value) else None
-        if path is None:
-            run.found.incomplete = True
+        description = _description(path, run.at(action.span), run) if path is not None else None
+        if path is None or description is None:
+            run.scope.ledger.incomplete = True
             continue
-        if run.flag(action.scoped) is True:
-            with run.scoped(run.scope.copy()):
-                _include(action, path, run)
-        else:
-            _include(action, path, run)
+        with run.scope.nested() if run.flag(action.scoped) is True else nullcontext():
+            _include(action, path, description, run)
 
 
-def _include(action: Include, path: str, run: Resolution) -> None:
+def _include(action: Include, path: str, description: Description, run: Resolution) -> None:
     location = run.at(action.span)
+    before = run.scope.mark()
     given = _arguments(action, run)
-    if _circles(path, location, run):
+    for item, value, at in given:
+        run.scope.set(item.name, value, at)
+    frame = _frame(action, path, frozenset(item.name for item, _, _ in given), run)
+    if _is_endless(frame, run):
+        run.scope.ledger.incomplete = True
         return
-    description = _description(path, location, run)
-    if description is None:
-        run.found.incomplete = True
-        return
-    run.found.incomplete |= description.incomplete
-    frame = _frame(action, path, frozenset(given), run)
-    before = dict(run.scope.variables)
-    for name, (value, at) in given.items():
-        run.scope.set(name, value, at)
-    with run.inside(frame, location):
-        run.visit(description.actions, run)
-        ledger = run.scope.ledger
-    _check_unread(action, ledger, description, run)
+    with run.inside(frame) as ledger:
+        visit_file(description, run)
+    settle([item for item, _, _ in given], description, ledger, run, location)
     run.scope.mark_leaks(before, action.span)
 
 
 def _frame(action: Include, path: str, given: frozenset[str], run: Resolution) -> Frame:
     label = run.text(action.label)
     labels = run.frame.labels + ((label,) if isinstance(label, str) else ())
-    edges = [dependency(item, run) for item in action.depends_on]
-    depends_on = run.frame.depends_on + tuple(edge for edge in edges if edge is not None)
-    return Frame(path, given, labels, depends_on)
+    edges = dependencies(action.depends_on, run)
+    depends_on = run.frame.depends_on + (() if isinstance(edges, Poison) else edges)
+    return Frame(path, run.scope, run.scope.mark(), run.at(action.span), given, labels, depends_on)
 
 
-def _arguments(action: Include, run: Resolution) -> dict[str, tuple[Evaluated, Location]]:
+def _arguments(action: Include, run: Resolution) -> list[tuple[Given, Evaluated, Location]]:
     """Evaluate the arguments in order: a later one sees nothing of an earlier one, as both are outside the file."""
-    given: dict[str, tuple[Evaluated, Location]] = {}
-    for pair in _pairs(action):
+    given = []
+    for pair in (*action.arg, *action.let):
         name, value = run.evaluate(pair.name), run.evaluate(pair.value)
         if isinstance(name, Value):
-            given[name.text] = (value or POISON, run.at(pair.value.span))
+            item = Given(name.text, name.location)
+            given.append((item, value or POISON, run.at(pair.value.span)))
     return given
-
-
-def _pairs(action: Include) -> tuple[Pair, ...]:
-    return (*action.arg, *action.let)
 
 
 def _description(path: str, location: Location, run: Resolution) -> Description | None:
@@ -86,27 +79,21 @@ def _description(path: str, location: Location, run: Resolution) -> Description 
     return run.descriptions[path]
 
 
-def _circles(path: str, location: Location, run: Resolution) -> bool:
-    """Report a file that includes itself, however far around."""
-    if path not in (frame.path for frame in run.frames):
+def _is_endless(frame: Frame, run: Resolution) -> bool:
+    """Report a file that includes itself, however far around, and never ends.
+
+    It never does where everything is set as it was at the last time, which would be the same again; and it has not
+    ended where it is included too deep to go on. A condition may end it before, as upstream.
+    """
+    if frame.path in run.found.endless:
+        return True
+    around = [outer for outer in run.frames if outer.path == frame.path]
+    last = around[-1] if around else None
+    again = last is not None and last.scope is run.scope and run.scope.unchanged_since(last.mark)
+    if not again and run.depth < _DEEPEST:
         return False
-    run.found.incomplete = True
-    run.problems.error(Code.INCLUDE_CYCLE, "the file includes itself", location)
+    run.found.endless.add(frame.path)
+    again_at = around[1] if len(around) > 1 else frame
+    message = "the file includes itself without end" if around else f"includes nest deeper than {_DEEPEST}"
+    run.problems.error(Code.INCLUDE_CYCLE, message, again_at.included_at)
     return True
-
-
-def _check_unread(action: Include, ledger: Ledger, description: Description, run: Resolution) -> None:
-    """Report arguments that the file neither declares nor reads."""
-    for pair in _pairs(action):
-        name = pair.name.constant
-        if name is None or name in ledger.declared or name in ledger.read:
-            continue
-        meant = nearest(name, ledger.defaulted)
-        if description.incomplete and meant is None:
-            continue
-        at = run.at(pair.name.span)
-        message = f"{description.file} has no argument '{name}'"
-        if meant is not None:
-            run.problems.error(Code.UNKNOWN_ARGUMENT, message, at, suggestion=meant)
-        else:
-            run.problems.warning(Code.UNREAD_ARGUMENT, f"{message} and reads no variable of that name", at)

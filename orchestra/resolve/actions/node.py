@@ -73,7 +73,4 @@ def _name(action: Node, run: Resolution) -> Evaluated | None:
 
 
 def _namespace(action: Node, run: Resolution) -> Evaluated | None:
-    value = run.evaluate(action.namespace)
-    if isinstance(value, Poison):
-        return POISON
-    return below(run.scope.namespace, value, run.problems)
+    return below(run.scope.namespace(run.at(action.span)), run.evaluate(action.namespace), run.problems)

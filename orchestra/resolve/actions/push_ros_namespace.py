@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.resolve.context import POISON, Value
 from orchestra.resolve.namespaces import below
 from orchestra.resolve.scope import NAMESPACE
 
@@ -15,7 +14,7 @@ if TYPE_CHECKING:
 
 def visit(action: PushRosNamespace, run: Resolution) -> None:
     """Put what follows below a namespace."""
-    value = run.evaluate(action.namespace)
-    pushed = below(run.scope.namespace, value, run.problems) if isinstance(value, Value) else POISON
+    value, at = run.evaluate(action.namespace), run.at(action.namespace.span)
+    pushed = below(run.scope.namespace(at), value, run.problems)
     if pushed is not None:
-        run.scope.set(NAMESPACE, pushed, run.at(action.namespace.span))
+        run.scope.set(NAMESPACE, pushed, at)

@@ -14,4 +14,5 @@ def visit(action: SetEnv, run: Resolution) -> None:
     name, value = run.text(action.name), run.text(action.value)
     if isinstance(name, str) and isinstance(value, str):
         run.scope.change(name, value, run.at(action.value.span))
-        run.refresh()
+    elif isinstance(name, str):
+        run.found.lost.add(name)

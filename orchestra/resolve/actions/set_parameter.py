@@ -16,9 +16,10 @@ if TYPE_CHECKING:
 def visit(action: SetParameter, run: Resolution) -> None:
     """Set a parameter of every node that follows."""
     name, value = run.text(action.name), typed(action.value, None, run)
+    if isinstance(name, str) and isinstance(value, Poison):
+        run.found.lost.add(name)
     if not isinstance(name, str) or isinstance(value, Poison):
         return
     first = action.value[0] if isinstance(action.value, tuple) else action.value
     parameter = InlineParameter(name, value, run.at(first.span), everywhere=True)
-    run.scope.parameters = (*run.scope.parameters, parameter)
-    run.refresh()
+    run.scope.set_parameter(parameter)

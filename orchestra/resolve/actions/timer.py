@@ -16,7 +16,7 @@ def visit(action: Timer, run: Resolution) -> None:
     period = run.number(action.period)
     outer, outer_delay = run.delayed, run.delay
     run.delayed, run.delay = [], outer_delay + (period if isinstance(period, float) else 0.0)
-    with run.scoped(run.scope.copy()):
+    with run.scope.nested():
         run.visit(action.children, run)
     trigger = ResolvedTrigger(tuple(run.delayed), run.delay, run.at(action.span))
     run.delayed, run.delay = outer, outer_delay

@@ -14,4 +14,3 @@ def visit(action: UnsetEnv, run: Resolution) -> None:
     name = run.text(action.name)
     if isinstance(name, str):
         run.scope.change(name, None, run.at(action.span))
-        run.refresh()

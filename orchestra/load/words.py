@@ -1,0 +1,37 @@
+"""Names of actions that are none here: what they are called here, or that they are still to come."""
+
+from __future__ import annotations
+
+from typing import Final
+
+# Words of the Python launch files and of ROS 1, and how they are spelled here.
+ELSEWHERE: Final = {
+    "declare_argument": "arg",
+    "declare_launch_argument": "arg",
+    "execute_process": "executable",
+    "group_action": "group",
+    "include_launch_description": "include",
+    "log_info": "log",
+    "push_namespace": "push_ros_namespace",
+    "remap": "set_remap",
+    "rosparam": "set_parameter",
+    "set_environment_variable": "set_env",
+    "set_launch_configuration": "let",
+    "timer_action": "timer",
+    "unset_environment_variable": "unset_env",
+}
+
+# Actions of ROS 2 Jazzy that are not supported yet: to guess what was meant by them would mislead.
+UNSUPPORTED: Final = frozenset(
+    {
+        "append_env",
+        "load_composable_node",
+        "node_container",
+        "reset",
+        "reset_env",
+        "ros_timer",
+        "set_parameters_from_file",
+        "set_ros_log_dir",
+        "set_use_sim_time",
+    }
+)

@@ -1,0 +1,103 @@
+"""Launch arguments that are given and not known, or wanted and not given: settled where a file ends."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code, Problems
+from orchestra.location import Location
+from orchestra.nearest import nearest
+from orchestra.resolve.mentions import names_behind, names_in
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from orchestra.description.launch import Description
+    from orchestra.resolve.resolution import Resolution
+    from orchestra.resolve.scope import Ledger
+
+# Variables that upstream itself gives a meaning, so that they need no declaration.
+_KNOWN = frozenset(
+    {"launch-prefix", "launch-prefix-filter", "emulate_tty", "sigterm_timeout", "sigkill_timeout"}
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """The name of an argument, and where it is given."""
+
+    name: str
+    location: Location
+
+
+def settle(
+    given: Iterable[Given],
+    description: Description,
+    ledger: Ledger,
+    run: Resolution,
+    included_at: Location | None = None,
+) -> None:
+    """Report arguments that the file neither declares nor reads, and those that it lacks.
+
+    A lacking one for which a given name is misspelt is reported as that. An include may give more than a file takes,
+    as upstream: then what is not near to anything that was left at its default is only a warning.
+    """
+    misspelt = set()
+    for item in _unknown(given, description, ledger, run):
+        meant = nearest(item.name, ledger.defaulted if included_at is not None else ledger.declared)
+        misspelt.add(meant)
+        _report_unknown(item, meant, description, ledger, run, included=included_at is not None)
+    for name, declared_at in ledger.missing.items():
+        if name not in misspelt:
+            _report_missing(name, declared_at, description, run, included_at)
+
+
+def _unknown(
+    given: Iterable[Given], description: Description, ledger: Ledger, run: Resolution
+) -> tuple[Given, ...]:
+    known = ledger.declared | ledger.read | run.found.lost | _KNOWN
+    unknown = tuple(item for item in given if item.name not in known)
+    if not unknown:
+        return ()
+    unvisited, more = names_behind(ledger.hidden, run.context, lambda path: _glance(path, run))
+    unvisited |= names_in(description.actions)
+    ledger.incomplete |= more
+    return tuple(item for item in unknown if item.name not in unvisited)
+
+
+def _glance(path: str, run: Resolution) -> Description | None:
+    """Return a description that is not part of this launch, without a word about its faults."""
+    return run.descriptions.get(path) or run.load(path, Problems(), ())
+
+
+def _report_unknown(
+    item: Given,
+    meant: str | None,
+    description: Description,
+    ledger: Ledger,
+    run: Resolution,
+    *,
+    included: bool,
+) -> None:
+    message = f"{description.file} has no argument '{item.name}'"
+    if meant is not None or not (included or ledger.incomplete):
+        run.problems.error(Code.UNKNOWN_ARGUMENT, message, item.location, suggestion=meant)
+    elif not included:
+        message = f"what could be read of {description.file} has no argument '{item.name}'"
+        run.problems.warning(Code.UNREAD_ARGUMENT, message, item.location)
+    elif not ledger.incomplete:
+        message += " and reads no variable of that name"
+        run.problems.warning(Code.UNREAD_ARGUMENT, message, item.location)
+
+
+def _report_missing(
+    name: str, declared_at: Location, description: Description, run: Resolution, included_at: Location | None
+) -> None:
+    message = f"the argument '{name}' has no default and no value"
+    if included_at is None:
+        run.problems.error(Code.MISSING_ARGUMENT, f"{message}: give '{name}:=VALUE'", declared_at)
+        return
+    note = f"declared at {declared_at}"
+    message = f"{message}: {description.file} needs one from its include"
+    run.problems.error(Code.MISSING_ARGUMENT, message, included_at, notes=(note,))

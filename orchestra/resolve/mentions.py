@@ -1,0 +1,141 @@
+"""Which names the parts of a description mention that have not been visited.
+
+An argument that only such a part declares or reads is no mistake.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING, TypeAlias
+
+from orchestra.description.actions.arg import Arg
+from orchestra.description.actions.include import Include
+from orchestra.description.entity import Entity
+from orchestra.description.text import Call, Template
+from orchestra.errors import Problems
+from orchestra.resolve.context import Value
+from orchestra.resolve.evaluate import evaluate
+from orchestra.resolve.paths import beside
+from orchestra.resolve.scope import Hidden, Variable
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    from orchestra.description.entity import Action
+    from orchestra.description.launch import Description
+    from orchestra.location import Location
+    from orchestra.resolve.context import Context, Evaluated
+
+    Open: TypeAlias = Callable[[str], Description | None]
+
+
+def hidden(action: Action, context: Context, variables: Mapping[str, Variable]) -> Hidden:
+    """Return an action that is not visited; `variables` are those that are set around it."""
+    return Hidden(
+        action, _files((action,), replace(context, problems=Problems(), variables=_Glance(variables)))
+    )
+
+
+def names_in(actions: Iterable[Action]) -> set[str]:
+    """Return the arguments that actions declare and the variables that they read, whatever their conditions say."""
+    found = set()
+    for entity in _entities(tuple(actions)):
+        if isinstance(entity, Arg) and entity.name.constant is not None:
+            found.add(entity.name.constant)
+        for template in _templates(entity):
+            found.update(_variables(template))
+    return found
+
+
+def words_in(action: Action) -> set[str]:
+    """Return every constant text of an action and the actions in it."""
+    texts = (template.constant for entity in _entities(action) for template in _templates(entity))
+    return {text for text in texts if text is not None}
+
+
+def names_behind(parts: Iterable[Hidden], context: Context, open_file: Open) -> tuple[set[str], bool]:
+    """Return the names that hidden parts and the files they include mention, and whether there may be more."""
+    names: set[str] = set()
+    waiting: list[str | None] = []
+    for part in parts:
+        names |= names_in((part.action,))
+        waiting += part.files
+    seen: set[str] = set()
+    more = False
+    while waiting:
+        path = waiting.pop()
+        if path in seen:
+            continue
+        description = open_file(path) if path is not None else None
+        if path is None or description is None:
+            more = True
+            continue
+        seen.add(path)
+        names |= names_in(description.actions) | description.lost
+        quiet = replace(context, problems=Problems(), variables=_Glance({}), file=path)
+        waiting += _files(description.actions, quiet)
+    return names, more
+
+
+@dataclass(frozen=True, slots=True)
+class _Glance:
+    """Variables that may be looked at without a word."""
+
+    variables: Mapping[str, Variable]
+
+    def get(self, name: str, reader: Location) -> Evaluated | None:
+        """Return the value, None where it is unset."""
+        del reader
+        variable = self.variables.get(name)
+        return None if variable is None else variable.value
+
+    def names(self) -> tuple[str, ...]:
+        """Return the names that are set."""
+        return tuple(self.variables)
+
+
+def _files(actions: tuple[Action, ...], quiet: Context) -> tuple[str | None, ...]:
+    includes = [entity for entity in _entities(actions) if isinstance(entity, Include)]
+    return tuple(_file(include, quiet) for include in includes)
+
+
+def _file(include: Include, quiet: Context) -> str | None:
+    if any(call.name == "command" for call in _calls(include.file)):
+        return None  # it was not to be run
+    value = evaluate(include.file, quiet)
+    return beside(quiet.file, value.text) if isinstance(value, Value) else None
+
+
+def _entities(value: object) -> Iterator[Entity]:
+    if isinstance(value, Entity):
+        yield value
+        for name in type(value).model_fields:
+            yield from _entities(getattr(value, name))
+    elif isinstance(value, tuple):
+        for item in value:
+            yield from _entities(item)
+
+
+def _templates(entity: Entity) -> Iterator[Template]:
+    for name in type(entity).model_fields:
+        value = getattr(entity, name)
+        for item in value.values() if isinstance(value, dict) else (value,):
+            for template in item if isinstance(item, tuple) else (item,):
+                if isinstance(template, Template):
+                    yield template
+
+
+def _calls(template: Template) -> Iterator[Call]:
+    for part in template.parts:
+        if isinstance(part, Call):
+            yield part
+            for argument in part.arguments:
+                yield from _calls(argument)
+
+
+def _variables(template: Template) -> Iterator[str]:
+    for call in _calls(template):
+        name = call.arguments[0].constant if call.name == "var" and call.arguments else None
+        if name is not None:
+            yield name
