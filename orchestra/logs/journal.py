@@ -47,7 +47,8 @@ class Sheets:
 class Journal:
     """Writes what processes and we ourselves have to say.
 
-    `words` maps each process, in plan order, to its `output` word. `failed` hears of a file that cannot be written.
+    `words` maps each process, in plan order, to its `output` word. `failed` hears of a file that cannot be written,
+    `told` of everything that we say.
     """
 
     def __init__(
@@ -56,9 +57,11 @@ class Journal:
         words: dict[str, str | None],
         sheets: Sheets,
         failed: Callable[[Path, OSError], None],
+        told: Callable[[str], None],
         wall: Callable[[], float] = time.time,
     ) -> None:
         self._sheets = sheets
+        self._told = told
         self._wall = wall
         self._shown = {process: outputs.on_screen(word) for process, word in words.items()}
         self._prefixes = names.prefixes(words)
@@ -81,6 +84,7 @@ class Journal:
 
     def say(self, text: str) -> None:
         """Tell the user something, in whole lines."""
+        self._told(text)
         self._write_all(OURSELVES, OURSELVES, f"{text}\n")
         sheet = self._sheets.messages
         prefix = f"[{OURSELVES}] "

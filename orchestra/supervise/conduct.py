@@ -119,6 +119,8 @@ def _conclude(system: System, around: Surroundings, beginnings: Beginnings) -> O
         around.loop.run_once()
     left = end_leftovers(around, beginnings.run_id, remaining=system.stopping.remaining)
     outcome = judge(system.facts(left))
+    if around.journal.lost:
+        around.journal.say(f"{around.journal.lost} bytes of logs could not be written")
     if os.getppid() != beginnings.keeper:
         around.journal.say("the keeper was killed")
     around.journal.say(f"run ended with status {outcome.status}: {outcome.reason}")

@@ -46,11 +46,13 @@ def surroundings(
         sheets = opened.enter_context(_screens(loop, options))
         warn = _Warning()
         words = {process.id: process.output for process in plan.processes}
-        journal = Journal(run_directory.logs, words, sheets, warn)
-        warn.say = journal.say
-        opened.callback(_close_journal, journal)
         recorder = Recorder(LogFile(run_directory.events, warn))
         opened.callback(recorder.close)
+        journal = Journal(
+            run_directory.logs, words, sheets, warn, lambda text: recorder.record("message", text=text)
+        )
+        warn.say = journal.say
+        opened.callback(journal.close)
         kin = Kin(run_id)
         yield Surroundings(
             loop=loop,
@@ -72,12 +74,6 @@ class _Warning:
         say, self.say = self.say, None
         if say:
             say(f"logs are incomplete: {path} cannot be written: {error.strerror}")
-
-
-def _close_journal(journal: Journal) -> None:
-    if journal.lost:
-        journal.say(f"{journal.lost} bytes of logs could not be written")
-    journal.close()
 
 
 def _environment(

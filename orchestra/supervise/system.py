@@ -153,6 +153,10 @@ class System:
         self._around.recorder.record("trigger_fired", trigger.on.target, on=trigger.on.event, do=names)
         for action in actions:
             self._carry_out(action)
+        if trigger.deferred:
+            self.failed(
+                f"{trigger.location}: what a Python function decides at run time cannot be carried out"
+            )
         self.changed()
 
     def _carry_out(self, action: TriggeredAction) -> None:

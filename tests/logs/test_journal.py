@@ -16,15 +16,16 @@ if TYPE_CHECKING:
 def test_output_goes_to_its_file_the_merged_file_and_the_screen(tmp_path: Path) -> None:
     readable, writable = os.pipe()
     sheet = Sheet(Screen(writable, lambda _wanted: None), colour=False)
-    journal = Journal(
-        tmp_path, {"/a": None, "/b": "own_log"}, Sheets(sheet, sheet), lambda *_: None, lambda: 12.5
-    )
+    told: list[str] = []
+    words = {"/a": None, "/b": "own_log"}
+    journal = Journal(tmp_path, words, Sheets(sheet, sheet), lambda *_: None, told.append, lambda: 12.5)
     journal.output("/a", "stdout", "\x1b[32mone\x1b[0m\nhal")
     journal.output("/b", "stdout", "hidden\n")
     journal.say("two\nlines")
     journal.output("/a", "stdout", "f\n")
     journal.output("/a", "stdout", "")
     journal.close()
+    assert told == ["two\nlines"]
     assert (tmp_path / "a.log").read_text() == "\x1b[32mone\x1b[0m\nhalf\n"
     assert (tmp_path / "b.log").read_text() == "hidden\n"
     assert (tmp_path / "all.log").read_text() == (

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import signal
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
@@ -175,3 +176,17 @@ def test_a_program_gets_default_signals_no_input_and_its_marks(tmp_path: Path) -
         "ORCHESTRA_PROCESS=/ns/a",
         "PYTHONFAULTHANDLER=1",
     ]
+
+
+def test_what_nobody_can_carry_out_ends_the_run(tmp_path: Path) -> None:
+    deferred = replace(at_start(), deferred=True)
+    run = finished(tmp_path, plan(process("a", "linger"), triggers=(deferred,)))
+    assert run.popen.returncode == 1
+    assert "by_hand.yaml:1:1: what a Python function decides at run time" in run.stderr
+
+
+def test_what_the_user_was_told_is_in_the_events(tmp_path: Path) -> None:
+    run = finished(tmp_path, plan(process("a", "exit=3"), triggers=(at_start(log("hello")),)))
+    told = [event.data["text"] for event in run.of_kind("message")]
+    assert told == [line.removeprefix("[orchestra] ") for line in run.stderr.splitlines()]
+    assert "hello" in told
