@@ -49,7 +49,7 @@ def keep(supervise: Callable[[], int]) -> int:
     status = _wait(supervisor)
     if os.WIFEXITED(status) and os.WEXITSTATUS(status) == UNSTOPPABLE:
         return UNSTOPPABLE  # the supervisor has tried everything, and has named what is left
-    left = sweep(os.getpid()) if proc.children(os.getpid()) else []
+    left = sweep(os.getpid())
     if os.WIFEXITED(status):
         return UNSTOPPABLE if left else os.WEXITSTATUS(status)
     name = signal.Signals(os.WTERMSIG(status)).name

@@ -10,6 +10,7 @@ import json
 import os
 import signal
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.supervise.ending import Ending
@@ -27,7 +28,8 @@ if TYPE_CHECKING:
     from orchestra.supervise.kin import Kin
     from orchestra.supervise.loop import Loop
 
-_COMMAND = (sys.executable, "-m", "orchestra.ros.observer")
+# By its file and with `-P`: with `-m`, modules in the user's working directory would come before all others.
+_COMMAND = (sys.executable, "-P", str(Path(__file__).parents[1] / "ros" / "observer" / "__main__.py"))
 # A participant that leaves without saying so stays in the graphs of others for 20 s, so it is asked first.
 _LEAVE_WITHIN = 1.0
 

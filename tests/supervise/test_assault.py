@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import time
 from typing import TYPE_CHECKING
 
 import pytest
@@ -78,6 +79,7 @@ def test_the_observer(tmp_path: Path, number: signal.Signals) -> None:
         assert f"the observer, which looks into the ROS graph, ended ({number.name})" in run.stderr
 
 
+@pytest.mark.long
 def test_a_supervisor_that_is_stuck_is_killed_in_the_end(tmp_path: Path) -> None:
     with launched(tmp_path, plan(POLITE)) as run:
         run.await_line("polite", "up")
@@ -86,3 +88,14 @@ def test_a_supervisor_that_is_stuck_is_killed_in_the_end(tmp_path: Path) -> None
         assert run.wait() == 1
         run.assert_gone()
         assert "the supervisor does not answer" in run.stderr
+
+
+def test_ctrl_c_hurries_the_keeper_too(tmp_path: Path) -> None:
+    with launched(tmp_path, plan(STUBBORN)) as run:
+        run.await_line("stubborn", "up")
+        begin = time.monotonic()
+        os.kill(run.own("orc-supervisor"), signal.SIGKILL)
+        run.send(signal.SIGINT)
+        assert run.wait() == 1
+        assert time.monotonic() - begin < 3.0
+        assert not run.everything()

@@ -161,6 +161,7 @@ def test_sigstopped_members_end_too(tmp_path: Path) -> None:
         assert signals(run, "a") == ["SIGINT"]
 
 
+@pytest.mark.long
 def test_the_longest_possible_tree_of_orders(tmp_path: Path) -> None:
     """Twenty levels, each stubborn: the last one is asked before the deadline, and nothing is left."""
     names = [f"n{number}" for number in range(20)]

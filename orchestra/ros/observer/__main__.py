@@ -5,6 +5,10 @@ from __future__ import annotations
 import os
 import signal
 import sys
+from pathlib import Path
+
+# Where this is not installed but run from its sources.
+sys.path.append(str(Path(__file__).parents[3]))
 
 
 def main() -> int:

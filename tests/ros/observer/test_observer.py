@@ -112,3 +112,15 @@ def ask(observer: subprocess.Popen[str], *requests: dict[str, str]) -> None:
     assert observer.stdin
     for request in requests:
         observer.stdin.write(json.dumps(request) + "\n")
+
+
+def test_files_in_the_working_directory_are_not_taken_for_modules(tmp_path: Path) -> None:
+    folder = tmp_path / "work"
+    folder.mkdir()
+    for name in ("json", "rclpy", "orchestra"):
+        (folder / f"{name}.py").write_text("raise SystemExit('the wrong module')")
+    node = publisher(
+        "/chat,RELIABLE,VOLATILE,0", ready=ready_when(message="/chat", timeout=60.0), required=True
+    )
+    with launched(tmp_path, plan(node), environment=DOMAIN, cwd=folder) as run:
+        run.await_event("process_ready", "publisher")
