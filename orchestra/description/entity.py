@@ -1,7 +1,8 @@
 """The root of the models, and how it reads what a loader hands over.
 
-A faulty key does not hide the rest of an entity: it is reported and left out, and the entity is marked `faulty`, so
-that later stages report nothing that only follows from it. Reporting itself is the loader's business (`Reader`).
+A faulty key does not hide the rest of an entity: it is reported and left out, or stands for a value that is not known
+where the entity cannot be without it. The entity is marked `faulty`, so that later stages report nothing that only
+follows from it. Reporting itself is the loader's business (`Reader`).
 """
 
 from __future__ import annotations
@@ -24,6 +25,7 @@ from pydantic_core import ErrorDetails, PydanticCustomError
 
 from orchestra.description.fields import Flag
 from orchestra.description.source import Keyed
+from orchestra.description.text import Template
 from orchestra.location import Span
 
 REPORTED = "reported"
@@ -72,6 +74,14 @@ class Entity(BaseModel):
         """Return the keys that a user may write."""
         return frozenset(entry.alias or name for name, entry in cls.model_fields.items())
 
+    @classmethod
+    @cache
+    def required_keys(cls) -> frozenset[str]:
+        """Return the keys that a user must write."""
+        return frozenset(
+            entry.alias or name for name, entry in cls.model_fields.items() if entry.is_required()
+        )
+
     @model_validator(mode="wrap")
     @classmethod
     def _read(cls, data: Any, handler: ModelWrapValidatorHandler[Self], info: ValidationInfo) -> Self:  # noqa: ANN401 - whatever stands in the file
@@ -88,7 +98,7 @@ class Entity(BaseModel):
             entity = handler(dict(mapping))
         except ValidationError as error:
             faulty = True
-            entity = _without(reader.faults(mapping, _details(error)), mapping, handler)
+            entity = _without(reader.faults(mapping, _details(error)), mapping, cls.required_keys(), handler)
         if (conflict := entity.conflict()) is not None:
             if not faulty:
                 reader.conflict(mapping, conflict)
@@ -125,10 +135,15 @@ def _details(error: ValidationError) -> Sequence[ErrorDetails]:
 
 
 def _without(
-    wrong: set[str], values: dict[str, Any], handler: ModelWrapValidatorHandler[_EntityT]
+    wrong: set[str],
+    mapping: Keyed,
+    required: frozenset[str],
+    handler: ModelWrapValidatorHandler[_EntityT],
 ) -> _EntityT:
     """Read the entity again without the keys whose faults have been reported."""
+    values = {key: value for key, value in mapping.items() if key not in wrong}
+    unknown = Template((), "", mapping.head, faulty=True)
     try:
-        return handler({key: value for key, value in values.items() if key not in wrong})
+        return handler({**dict.fromkeys(required, unknown), **values})
     except ValidationError:
         raise PydanticCustomError(REPORTED, "reported") from None

@@ -113,9 +113,9 @@ def _warn_of_surprise(text: str, location: Location, run: Resolution) -> None:
 
 def _file(param: Param, run: Resolution) -> FileParameters | None:
     value, substitute = run.evaluate(param.from_), run.flag(param.allow_substs, default=False)
-    if not isinstance(value, Value) or isinstance(substitute, Poison):
+    if not isinstance(value, Value) or param.from_ is None or isinstance(substitute, Poison):
         return None
-    path = existing_file(value, "parameter file", run)
+    path = existing_file(value, param.from_, "parameter file", run)
     if path is None:
         return None
     if substitute:

@@ -11,35 +11,55 @@ from orchestra.location import displayed
 from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
+    from orchestra.description.text import Template
     from orchestra.resolve.context import Value
     from orchestra.resolve.resolution import Resolution
 
 
-def existing_file(value: Value, what: str, run: Resolution) -> str | None:
-    """Return the absolute path of a file, None where there is none (which has been reported)."""
-    return file_below(_folder(run.context.file), value, what, run)
+def folder_of(file: str | None) -> Path:
+    """Return the folder that relative paths of a launch file begin in."""
+    return Path(file).parent if file else Path.cwd()
+
+
+def existing_file(value: Value, written: Template, what: str, run: Resolution) -> str | None:
+    """Return the absolute path of a file, None where there is none (which has been reported).
+
+    `written` is the text that the value is from.
+    """
+    return file_below(folder_of(run.context.file), value, what, run, written.raw)
 
 
 def beside(file: str | None, written: str) -> str | None:
     """Return the absolute path of a file that a launch file names, None where there is none."""
-    return _found(_folder(file), written)
+    return _found(folder_of(file), written)
 
 
-def file_below(folder: Path, value: Value, what: str, run: Resolution) -> str | None:
+def file_below(
+    folder: Path, value: Value, what: str, run: Resolution, written: str | None = None
+) -> str | None:
     """Return the absolute path of a file given relative to a folder, or to the working directory."""
     found = _found(folder, value.text)
-    if found is not None:
-        return found
-    path = folder / _expanded(value.text)
-    near = _near(path)
-    suggestion = str(Path(value.text).with_name(near)) if near is not None else None
-    message = f"there is no {what} {displayed(str(path))}"
-    run.problems.error(Code.MISSING_FILE, message, value.location, suggestion=suggestion)
-    return None
+    if found is None:
+        path = folder / _expanded(value.text)
+        message = f"there is no {what} {displayed(str(path))}"
+        suggestion = near_path(path, value.text if written is None else written)
+        run.problems.error(Code.MISSING_FILE, message, value.location, suggestion=suggestion)
+    return found
 
 
-def _folder(file: str | None) -> Path:
-    return Path(file).parent if file else Path.cwd()
+def near_path(path: Path, written: str) -> str | None:
+    """Return how a path that does not exist was probably to be written: one with near names that does exist."""
+    there, names = path, list[str]()
+    while not _exists(there) and there != there.parent:
+        names.insert(0, there.name)
+        there = there.parent
+    for name in names:
+        near = name if _exists(there / name) else _near(there, name)
+        if near is None:
+            return None
+        written = _replaced(written, name, near)
+        there /= near
+    return written
 
 
 def _found(folder: Path, written: str) -> str | None:
@@ -60,10 +80,22 @@ def _expanded(written: str) -> Path:
         return Path(written)
 
 
-def _near(path: Path) -> str | None:
-    """Return the name of a file in the same folder that was probably meant."""
+def _near(folder: Path, name: str) -> str | None:
+    """Return the name in a folder that was probably meant."""
     try:
-        names = [entry.name for entry in path.parent.iterdir() if entry.is_file()]
+        return nearest(name, [entry.name for entry in folder.iterdir()])
     except (OSError, ValueError):
         return None
-    return nearest(path.name, names)
+
+
+def _replaced(written: str, name: str, near: str) -> str:
+    """Return a path with the last part of this name replaced."""
+    before, found, after = written.rpartition(name)
+    return f"{before}{near}{after}" if found else written
+
+
+def _exists(path: Path) -> bool:
+    try:
+        return path.exists()
+    except (OSError, ValueError):
+        return False

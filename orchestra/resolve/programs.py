@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from orchestra.errors import Code
 from orchestra.location import displayed
 from orchestra.resolve.context import POISON
+from orchestra.resolve.paths import beside, folder_of, near_path
 from orchestra.resolve.refusals import report_missing_executable, report_missing_package
 
 if TYPE_CHECKING:
@@ -18,21 +19,29 @@ if TYPE_CHECKING:
     from orchestra.resolve.resolution import Resolution
 
 
-def program_words(written: str, location: Location, run: Resolution) -> tuple[str, ...] | Poison:
+def program_words(
+    written: str, location: Location, run: Resolution, *, elsewhere: bool = False
+) -> tuple[str, ...] | Poison:
     """Return the words that start a program given by name or path.
 
     A bare name is looked up when the process starts. A relative path is one below the working directory or beside
-    the launch file; one that is neither is reported.
+    the launch file; one that is neither is reported, unless the process runs `elsewhere` and may find it there.
     """
     path = Path(written)
-    if len(path.parts) <= 1 or path.is_absolute() or path.exists():
+    if os.sep not in written or path.is_absolute():
         return (written,)
-    folder = Path(run.context.file).parent if run.context.file else Path.cwd()
-    if (folder / path).exists():
-        return (os.path.normpath(folder / path),)
-    message = f"there is no executable {displayed(str(folder / path))}"
-    run.problems.error(Code.MISSING_EXECUTABLE, message, location)
-    return POISON
+    found = beside(run.context.file, written)
+    if found is None:
+        if elsewhere:
+            return (written,)
+        near = folder_of(run.context.file) / path
+        message, suggestion = f"there is no executable {displayed(str(near))}", near_path(near, written)
+        run.problems.error(Code.MISSING_EXECUTABLE, message, location, suggestion=suggestion)
+        return POISON
+    if not os.access(found, os.X_OK):
+        run.problems.error(Code.MISSING_EXECUTABLE, f"{displayed(found)} is not executable", location)
+        return POISON
+    return (found,)
 
 
 def packaged_words(

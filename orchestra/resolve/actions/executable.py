@@ -43,5 +43,6 @@ def _words(action: Executable, run: Resolution) -> tuple[str, ...] | Poison:
         return POISON
     if run.flag(action.shell, default=False) is True:
         return (words[0].text, *rest)
-    program = program_words(words[0].text, words[0].location, run)
+    first = words[0]
+    program = program_words(first.text, first.location, run, elsewhere=action.cwd is not None)
     return POISON if isinstance(program, Poison) else (*program, *rest)

@@ -28,7 +28,7 @@ def visit(action: Include, run: Resolution) -> None:
     """Visit the actions of another file: in this scope as upstream, in one of its own where that is asked for."""
     for _ in repeated(action.for_each, run):
         value = run.evaluate(action.file)
-        path = existing_file(value, "launch file", run) if isinstance(value, Value) else None
+        path = existing_file(value, action.file, "launch file", run) if isinstance(value, Value) else None
         description = _description(path, run.at(action.span), run) if path is not None else None
         if path is None or description is None:
             run.scope.ledger.incomplete = True

@@ -27,6 +27,9 @@ def visit(action: Node, run: Resolution) -> None:
     )
     words = _words(package, executable, action, run)
     name, namespace = _name(action, run), _namespace(action, run)
+    if isinstance(name, Value) and isinstance(namespace, Poison):
+        run.found.lost.add(name.text)  # its full name is not known
+        name = POISON
     arguments, ros_arguments = texts(action.args, run), texts(action.ros_args, run)
     own, whole = parameters(action.param, run)
     rules = [remap(item.from_, item.to, run) for item in action.remap]
