@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from orchestra.supervise import proc
 from orchestra.values import Stop
-from tests.supervise.plans import assert_ended, launched, plan, process, ready_when
+from tests.supervise.plans import assert_ended, launched, plan, process, ready_when, wait_for
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -94,7 +95,9 @@ def test_ctrl_c_hurries_the_keeper_too(tmp_path: Path) -> None:
     with launched(tmp_path, plan(STUBBORN)) as run:
         run.await_line("stubborn", "up")
         begin = time.monotonic()
-        os.kill(run.own("orc-supervisor"), signal.SIGKILL)
+        supervisor = run.own("orc-supervisor")
+        os.kill(supervisor, signal.SIGKILL)
+        wait_for(lambda: proc.stat(supervisor) is None, "the keeper to notice")
         run.send(signal.SIGINT)
         assert run.wait() == 1
         assert time.monotonic() - begin < 3.0
