@@ -9,6 +9,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 _LEAST_LIKENESS = 0.6
+_LIKENESS_OF_A_SLIP = 0.7
+_CHARACTERS_OF_A_SLIP = 2  # more or less
 
 
 def nearest(word: str, candidates: Iterable[str]) -> str | None:
@@ -22,6 +24,17 @@ def nearest(word: str, candidates: Iterable[str]) -> str | None:
         if likeness > best_likeness:
             best, best_likeness = candidate, likeness
     return best
+
+
+def is_slip(word: str, meant: str) -> bool:
+    """Return whether the word is hardly anything but a slip of the keys: `robot1` is none of `robot2`."""
+    if abs(len(word) - len(meant)) > _CHARACTERS_OF_A_SLIP or _digits(word) != _digits(meant):
+        return False
+    return SequenceMatcher(None, _folded(word), _folded(meant), autojunk=False).ratio() >= _LIKENESS_OF_A_SLIP
+
+
+def _digits(text: str) -> str:
+    return "".join(character for character in text if character.isdigit())
 
 
 def _folded(word: str) -> str:

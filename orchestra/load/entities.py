@@ -70,7 +70,8 @@ class _Builder:
             keyed.put("children", content, at)
             content = keyed
         if not isinstance(content, Keyed):
-            self._wrong(f"expected a mapping, found {kind_of(content)}", _span(content, at))
+            wanted = "a list of actions" if nested else "a mapping"
+            self._wrong(f"expected {wanted}, found {kind_of(content)}", _span(content, at))
             return None
         content = self.reader.keys(model.known_keys(), content)
         if nested and "children" in content:
@@ -95,8 +96,13 @@ class _Builder:
         if name is None:
             return None
         at = item.keys_at[name]
-        model = self._model(name, at)
-        return self.entity(model, self.content(content, at, model)) if model is not None else None
+        model, certain = self._model(name, at)
+        if model is None:
+            return None
+        content = self.content(content, at, model)
+        if content is not None and not certain:
+            content.meant |= model.required_keys()  # what a guess lacks is not told
+        return self.entity(model, content)
 
     def _named(self, item: Keyed) -> tuple[str | None, Any]:
         """Return the name of an action and what stands behind it.
@@ -120,16 +126,17 @@ class _Builder:
         self._wrong(f"the keys of '{name}' stand beside it: indent them more than its name", first)
         return name, content
 
-    def _model(self, name: str, at: Span) -> type[Action] | None:
+    def _model(self, name: str, at: Span) -> tuple[type[Action] | None, bool]:
+        """Return the model of an action, and whether it is certain to be meant."""
         model = model_of(spelled(name))
         if model is not None:
-            return model
+            return model, True
         if spelled(name) in UNSUPPORTED:
             self.reader.error(Code.UNKNOWN_ACTION, f"the action '{name}' is not supported yet", at)
-            return None
-        near, mistyped = meant(name, ACTIONS, ELSEWHERE)
+            return None, False
+        near, slip = meant(name, ACTIONS, ELSEWHERE)
         self.reader.error(Code.UNKNOWN_ACTION, f"unknown action '{name}'", at, suggestion=near)
-        return model_of(near) if near is not None and mistyped else None
+        return (model_of(near) if near is not None and slip else None), False
 
     def _wrong(self, message: str, span: Span) -> None:
         self.reader.error(Code.WRONG_TYPE, message, span)

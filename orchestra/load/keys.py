@@ -1,6 +1,6 @@
 """The keys of a mapping as its entity knows them: `-` and `_` are alike, other spellings are reported.
 
-What is clearly a typing mistake is read as what was meant, so that a value behind it is checked too and nothing that
+What is clearly a slip of the keys is read as what was meant, so that a value behind it is checked too and nothing that
 depends on it is reported missing.
 """
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from orchestra.description.source import Keyed
 from orchestra.errors import Code
-from orchestra.nearest import nearest
+from orchestra.nearest import is_slip, nearest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -36,7 +36,6 @@ _ELSEWHERE = {
     "remappings": "remap",
     "ros_arguments": "ros_args",
 }
-_TYPING_MISTAKE = 2  # characters more or less
 
 
 class Report(Protocol):
@@ -60,12 +59,12 @@ def spelled(key: str) -> str:
 
 
 def meant(word: str, known: Iterable[str], elsewhere: Mapping[str, str]) -> tuple[str | None, bool]:
-    """Return the known word that another one probably means, and whether it is only mistyped."""
+    """Return the known word that another one probably means, and whether it is only a slip."""
     known = frozenset(known)
     if (other := elsewhere.get(spelled(word))) in known:
         return other, False
     near = nearest(word, known)
-    return near, near is not None and abs(len(near) - len(word)) <= _TYPING_MISTAKE
+    return near, near is not None and is_slip(word, near)
 
 
 def known_keys(known: frozenset[str], mapping: Keyed, report: Report) -> Keyed:
@@ -78,9 +77,9 @@ def known_keys(known: frozenset[str], mapping: Keyed, report: Report) -> Keyed:
     for key, value in mapping.items():
         at, name = mapping.keys_at[key], spelled(key)
         if name not in known:
-            near, mistyped = meant(key, free, _ELSEWHERE)
+            near, slip = meant(key, free, _ELSEWHERE)
             report(Code.UNKNOWN_KEY, f"unknown key '{key}'", at, suggestion=near)
-            if near is None or not mistyped:
+            if near is None or not slip:
                 read.lossy = True
                 read.meant |= {near} if near is not None else set()
                 continue

@@ -35,7 +35,8 @@ def read(text: str, file: str, reader: Reader) -> Any | None:  # noqa: ANN401 - 
     try:
         node = yaml.compose(text, Loader=_PARSER)
     except yaml.MarkedYAMLError as error:
-        reader.error(Code.SYNTAX, _reason(error), _mark(whole, error.problem_mark or error.context_mark))
+        at = _mark(whole, error.problem_mark or error.context_mark)
+        reader.error(Code.SYNTAX, _reason(error, whole, at), at)
         return None
     except (yaml.YAMLError, RecursionError) as error:
         offset = getattr(error, "position", 0)
@@ -118,7 +119,9 @@ class _Tree:
         return mapping
 
 
-def _reason(error: yaml.MarkedYAMLError) -> str:
+def _reason(error: yaml.MarkedYAMLError, whole: Source, at: Span) -> str:
+    if whole.text.startswith("\t", whole.lines[at.line - 1] + at.column - 1):
+        return "this is not YAML: a tab cannot indent"
     parts = [part for part in (error.context, error.problem) if part]
     return "this is not YAML: " + ", ".join(parts)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.nearest import nearest
+from orchestra.nearest import is_slip, nearest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -15,16 +15,12 @@ if TYPE_CHECKING:
 def is_mistake(name: str, known: Iterable[str], resolved: Resolved) -> bool:
     """Return whether a name that is not known is to be reported.
 
-    Where something has been left out for its faults, the name may be of that. It is a mistake all the same if it is
-    near to a known name, numbers apart: `robot1` is no misspelling of `robot2`.
+    Where something has been left out for its faults, the name may be of that. It is a mistake all the same if it is a
+    slip for a known name.
     """
     if name.rpartition("/")[2] in resolved.lost:
         return False
     if not resolved.incomplete and not any(process.faulty for process in resolved.processes):
         return True
     near = nearest(name, known)
-    return near is not None and _digits(near) == _digits(name)
-
-
-def _digits(text: str) -> str:
-    return "".join(character for character in text if character.isdigit())
+    return near is not None and is_slip(name, near)

@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 
 from orchestra.errors import Code, Problems
 from orchestra.location import Location
-from orchestra.nearest import nearest
+from orchestra.nearest import is_slip, nearest
 from orchestra.resolve.mentions import names_behind, names_in
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Sequence
 
     from orchestra.description.launch import Description
     from orchestra.resolve.resolution import Resolution
@@ -32,7 +32,7 @@ class Given:
 
 
 def settle(
-    given: Iterable[Given],
+    given: Sequence[Given],
     description: Description,
     ledger: Ledger,
     run: Resolution,
@@ -41,20 +41,24 @@ def settle(
     """Report arguments that the file neither declares nor reads, and those that it lacks.
 
     A lacking one for which a given name is misspelt is reported as that. An include may give more than a file takes,
-    as upstream: then what is not near to anything that was left at its default is only a warning.
+    as upstream: then what is not a slip for something that it could have given is only a warning.
     """
+    others = ledger.declared - {item.name for item in given if included_at is not None}
     misspelt = set()
     for item in _unknown(given, description, ledger, run):
-        meant = nearest(item.name, ledger.defaulted if included_at is not None else ledger.declared)
+        meant = nearest(item.name, others)
+        if included_at is None:
+            _refuse(item, meant, description, ledger, run)
+        else:
+            _refuse_in_include(item, meant, description, ledger, run)
         misspelt.add(meant)
-        _report_unknown(item, meant, description, ledger, run, included=included_at is not None)
     for name, declared_at in ledger.missing.items():
         if name not in misspelt:
             _report_missing(name, declared_at, description, run, included_at)
 
 
 def _unknown(
-    given: Iterable[Given], description: Description, ledger: Ledger, run: Resolution
+    given: Sequence[Given], description: Description, ledger: Ledger, run: Resolution
 ) -> tuple[Given, ...]:
     known = ledger.declared | ledger.read | run.found.lost | _KNOWN
     unknown = tuple(item for item in given if item.name not in known)
@@ -71,24 +75,26 @@ def _glance(path: str, run: Resolution) -> Description | None:
     return run.descriptions.get(path) or run.load(path, Problems(), ())
 
 
-def _report_unknown(
-    item: Given,
-    meant: str | None,
-    description: Description,
-    ledger: Ledger,
-    run: Resolution,
-    *,
-    included: bool,
+def _refuse(
+    item: Given, meant: str | None, description: Description, ledger: Ledger, run: Resolution
 ) -> None:
-    message = f"{description.file} has no argument '{item.name}'"
-    if meant is not None or not (included or ledger.incomplete):
-        run.problems.error(Code.UNKNOWN_ARGUMENT, message, item.location, suggestion=meant)
-    elif not included:
+    if meant is None and ledger.incomplete:
         message = f"what could be read of {description.file} has no argument '{item.name}'"
         run.problems.warning(Code.UNREAD_ARGUMENT, message, item.location)
+        return
+    message = f"{description.file} has no argument '{item.name}'"
+    run.problems.error(Code.UNKNOWN_ARGUMENT, message, item.location, suggestion=meant)
+
+
+def _refuse_in_include(
+    item: Given, meant: str | None, description: Description, ledger: Ledger, run: Resolution
+) -> None:
+    message = f"{description.file} has no argument '{item.name}'"
+    if meant is not None and (is_slip(item.name, meant) or meant in ledger.missing):
+        run.problems.error(Code.UNKNOWN_ARGUMENT, message, item.location, suggestion=meant)
     elif not ledger.incomplete:
         message += " and reads no variable of that name"
-        run.problems.warning(Code.UNREAD_ARGUMENT, message, item.location)
+        run.problems.warning(Code.UNREAD_ARGUMENT, message, item.location, suggestion=meant)
 
 
 def _report_missing(

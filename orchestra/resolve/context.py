@@ -82,7 +82,8 @@ class Context:
     `file` is the absolute path of the launch file that is being read, `included_from` the chain of includes to it,
     innermost first. `anonymous` remembers the names that `$(anon)` made. `parameters` are the values that
     `set_parameter` put in scope, for `$(param)`. `launching` is false where nothing will be started here: then a
-    missing package is a warning about this host. `lost` has the names that something faulty would have set.
+    missing package is a warning about this host. `elsewhere` are the packages for which there has
+    been one. `lost` has the names that something faulty would have set.
     """
 
     problems: Problems
@@ -95,6 +96,7 @@ class Context:
     log_folder: str = "${run}/logs"
     launching: bool = True
     anonymous: dict[str, str] = field(default_factory=dict)
+    elsewhere: set[str] = field(default_factory=set)
     parameters: Mapping[str, str] = field(default_factory=dict)
     lost: AbstractSet[str] = frozenset()
 

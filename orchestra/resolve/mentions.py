@@ -30,11 +30,17 @@ if TYPE_CHECKING:
     Open: TypeAlias = Callable[[str], Description | None]
 
 
+def glimpse(template: Template, context: Context, variables: Mapping[str, Variable]) -> Value | None:
+    """Return what a text comes to, without a word and without running anything; None where that cannot be told."""
+    if any(call.name == "command" for call in _calls(template)):
+        return None
+    value = evaluate(template, replace(context, problems=Problems(), variables=_Glance(variables)))
+    return value if isinstance(value, Value) else None
+
+
 def hidden(action: Action, context: Context, variables: Mapping[str, Variable]) -> Hidden:
     """Return an action that is not visited; `variables` are those that are set around it."""
-    return Hidden(
-        action, _files((action,), replace(context, problems=Problems(), variables=_Glance(variables)))
-    )
+    return Hidden(action, _files((action,), context, variables))
 
 
 def names_in(actions: Iterable[Action]) -> set[str]:
@@ -73,8 +79,7 @@ def names_behind(parts: Iterable[Hidden], context: Context, open_file: Open) -> 
             continue
         seen.add(path)
         names |= names_in(description.actions) | description.lost
-        quiet = replace(context, problems=Problems(), variables=_Glance({}), file=path)
-        waiting += _files(description.actions, quiet)
+        waiting += _files(description.actions, replace(context, file=path), {})
     return names, more
 
 
@@ -95,16 +100,12 @@ class _Glance:
         return tuple(self.variables)
 
 
-def _files(actions: tuple[Action, ...], quiet: Context) -> tuple[str | None, ...]:
+def _files(
+    actions: tuple[Action, ...], context: Context, variables: Mapping[str, Variable]
+) -> tuple[str | None, ...]:
     includes = [entity for entity in _entities(actions) if isinstance(entity, Include)]
-    return tuple(_file(include, quiet) for include in includes)
-
-
-def _file(include: Include, quiet: Context) -> str | None:
-    if any(call.name == "command" for call in _calls(include.file)):
-        return None  # it was not to be run
-    value = evaluate(include.file, quiet)
-    return beside(quiet.file, value.text) if isinstance(value, Value) else None
+    values = [glimpse(include.file, context, variables) for include in includes]
+    return tuple(None if value is None else beside(context.file, value.text) for value in values)
 
 
 def _entities(value: object) -> Iterator[Entity]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
-from orchestra.nearest import nearest
+from orchestra.nearest import is_slip, nearest
 from orchestra.resolve.context import POISON
 
 if TYPE_CHECKING:
@@ -44,12 +44,15 @@ def refuse(
 def report_missing_package(package: str, written: Template, context: Context) -> Poison:
     """Report a package that is not here; `written` is the text that names it.
 
-    Where nothing will be started it may be elsewhere, so that it is only a warning, unless a near name is installed.
+    Where nothing will be started it may be elsewhere: then it is a warning, given once, unless the name is a slip for
+    one that is installed.
     """
     meant = nearest(package, context.packages.names())
-    if meant is None and not context.launching:
-        told = f"there is no package {package!r} on this machine: what it would give is left open"
-        context.problems.warning(Code.MISSING_PACKAGE, told, context.at(written.span))
+    if not context.launching and not (meant is not None and is_slip(package, meant)):
+        if package not in context.elsewhere:
+            told = f"there is no package {package!r} on this machine: what it would give is left open"
+            context.problems.warning(Code.MISSING_PACKAGE, told, context.at(written.span))
+        context.elsewhere.add(package)
         return POISON
     return refuse(
         written, context, Code.MISSING_PACKAGE, f"there is no package {package!r} here", meant=meant

@@ -102,6 +102,10 @@ class Scope:
         """Set a variable."""
         self._put(self.variables, name, Variable(value, location))
 
+    def forget(self, name: str) -> None:
+        """Unset a variable."""
+        self._put(self.variables, name, _ABSENT)
+
     def change(self, name: str, value: str | None, location: Location) -> None:
         """Set or remove an environment variable."""
         changes = (*self.changes.get(name, ()), EnvironmentChange(value, location))
@@ -150,6 +154,8 @@ class Scope:
         for table, name, earlier in self._earliest(mark):
             variable = table.get(name)
             if not isinstance(variable, Variable) or variable.leaked_from is not None:
+                continue
+            if not isinstance(variable.value, Value):
                 continue
             if _comparable(earlier) != _comparable(variable):
                 self._put(self.variables, name, replace(variable, leaked_from=include))

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from orchestra.errors import Code
 from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON, Evaluated, Value
+from orchestra.resolve.mentions import glimpse
 from orchestra.resolve.model import ResolvedArgument
 
 if TYPE_CHECKING:
@@ -17,26 +18,49 @@ if TYPE_CHECKING:
 
 def visit(action: Arg, run: Resolution) -> None:
     """Declare a launch argument: a value that is already set stays, else the default counts."""
-    name = _text(action.name)
-    choices = _choices(action)
-    variable = run.scope.variables.get(name)
+    name, choices, at = _text(action.name), _choices(action), run.at(action.span)
     run.scope.ledger.declared.add(name)
-    if variable is None:
-        run.scope.ledger.defaulted.add(name)
-        value = _default(action, name, run)
-        run.scope.set(name, value, run.at(action.span))
-    else:
-        value = variable.value
-        if variable.leaked_from is not None:
-            run.scope.get(name, run.at(action.span))  # warns
+    value = _value(action, name, run)
+    _check_default(action, value, choices, run)
     if isinstance(value, Value) and choices is not None and value.text not in choices:
-        message = f"'{value.text}' is none of the values of '{name}': " + ", ".join(choices)
-        run.problems.error(
-            Code.NOT_A_CHOICE, message, value.location, suggestion=nearest(value.text, choices)
-        )
-        run.scope.set(name, POISON, run.at(action.span))
+        _refuse(name, value, choices, run)
+        run.scope.set(name, POISON, at)
     if name not in run.frame.given:
         _record(action, name, value, choices, run)
+
+
+def _value(action: Arg, name: str, run: Resolution) -> Evaluated:
+    """Return the value of the argument; one that an include has left behind is a surprise unless it is the default."""
+    variable = run.scope.variables.get(name)
+    if variable is not None and variable.leaked_from is None:
+        return variable.value
+    run.scope.ledger.defaulted.add(name)
+    if variable is not None and not _is_default(action, variable.value, run):
+        return run.scope.get(name, run.at(action.span)) or POISON  # warns
+    value = _default(action, name, run)
+    run.scope.set(name, value, run.at(action.span))
+    return value
+
+
+def _is_default(action: Arg, value: Evaluated, run: Resolution) -> bool:
+    default = (
+        glimpse(action.default, run.context, run.scope.variables) if action.default is not None else None
+    )
+    return default is not None and isinstance(value, Value) and default.text == value.text
+
+
+def _check_default(action: Arg, value: Evaluated, choices: tuple[str, ...] | None, run: Resolution) -> None:
+    """Report a default that is no choice, even where another value is given."""
+    text = action.default.constant if action.default is not None else None
+    if action.default is None or text is None or choices is None or text in choices:
+        return
+    if not isinstance(value, Value) or value.text != text:
+        _refuse(_text(action.name), Value(text, run.at(action.default.span)), choices, run)
+
+
+def _refuse(name: str, value: Value, choices: tuple[str, ...], run: Resolution) -> None:
+    message = f"'{value.text}' is none of the values of '{name}': " + ", ".join(choices)
+    run.problems.error(Code.NOT_A_CHOICE, message, value.location, suggestion=nearest(value.text, choices))
 
 
 def _default(action: Arg, name: str, run: Resolution) -> Evaluated:

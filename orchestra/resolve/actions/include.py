@@ -50,7 +50,10 @@ def _include(action: Include, path: str, description: Description, run: Resoluti
     with run.inside(frame) as ledger:
         visit_file(description, run)
     settle([item for item, _, _ in given], description, ledger, run, location)
-    run.scope.mark_leaks(before, action.span)
+    for name in ledger.missing:
+        run.scope.forget(name)
+    if path not in run.found.endless:
+        run.scope.mark_leaks(before, action.span)
 
 
 def _frame(action: Include, path: str, given: frozenset[str], run: Resolution) -> Frame:
