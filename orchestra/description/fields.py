@@ -10,8 +10,8 @@ import math
 from collections.abc import Callable
 from typing import Annotated, Protocol, TypeAlias
 
-from pydantic import PlainValidator, ValidationInfo, WithJsonSchema
-from pydantic_core import PydanticCustomError
+from pydantic import PlainValidator, ValidationError, ValidationInfo, WithJsonSchema
+from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from orchestra.description.source import Written, kind_of
 from orchestra.description.text import Template, Words
@@ -99,13 +99,20 @@ def _is_integer(text: str) -> bool:
     return True
 
 
-def any_value(value: object, info: ValidationInfo) -> Template | tuple[Template, ...]:
-    """Read a scalar or a list of scalars."""
+def _any_value(value: object, info: ValidationInfo) -> Template | tuple[Template, ...]:
     if isinstance(value, tuple):
         return value
     if isinstance(value, list):
-        return tuple(_text(item, info) for item in value)
+        return tuple(_item(index, item, info) for index, item in enumerate(value))
     return _text(value, info)
+
+
+def _item(index: int, value: object, info: ValidationInfo) -> Template:
+    try:
+        return _text(value, info)
+    except PydanticCustomError as error:
+        place = InitErrorDetails(type=error, loc=(index,), input=value)
+        raise ValidationError.from_exception_data("list", [place]) from None
 
 
 Text: TypeAlias = Annotated[Template, PlainValidator(_text), WithJsonSchema(_TEXT)]
@@ -138,7 +145,7 @@ Integer: TypeAlias = Annotated[
 ]
 AnyValue: TypeAlias = Annotated[
     Template | tuple[Template, ...],
-    PlainValidator(any_value),
+    PlainValidator(_any_value),
     WithJsonSchema({"anyOf": [_TEXT, {"type": "array", "items": _TEXT}]}),
 ]
 

@@ -88,7 +88,7 @@ class Reader:
         if kind in _WANTED:
             message = f"expected {_WANTED[kind]}, found {kind_of(error['input'])}"
         elif kind == "too_short":
-            message = "expected at least one item"
+            message = f"expected at least one item, found {kind_of(error['input'])} without any"
         else:
             message = error["msg"]
         self.error(Code.WRONG_TYPE, message, _at(mapping, place))

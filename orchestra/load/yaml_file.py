@@ -22,8 +22,10 @@ if TYPE_CHECKING:
 _NULL = frozenset({"", "~", "null", "Null", "NULL"})
 _PLAIN_TAG = "tag:yaml.org,2002:str"
 _KNOWN_TAGS = frozenset({_PLAIN_TAG, "tag:yaml.org,2002:map", "tag:yaml.org,2002:seq"})
-_MOST_VALUES = 1_000_000
 _DEEPEST = 100
+# How many values aliases may expand to beyond what is written.
+_MOST_VALUES = 100_000
+_VALUES_PER_CHARACTER = 4
 _SCALAR_TYPES = ("bool", "int", "float", "null")
 
 _PARSER: type[Any] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
@@ -47,7 +49,20 @@ def read(text: str, file: str, reader: Reader) -> Any | None:  # noqa: ANN401 - 
     if node is None:
         reader.error(Code.SYNTAX, "the file is empty: a launch file has a 'launch' key", whole.span(0, 0))
         return None
-    return _Tree(whole, reader).of(node, None, ())
+    try:
+        return _Tree(whole, reader).of(node, None, ())
+    except _TooMuchError as error:
+        reader.error(Code.SYNTAX, error.reason, error.span)
+        return None
+
+
+class _TooMuchError(Exception):
+    """The file has more in it than anybody writes."""
+
+    def __init__(self, reason: str, span: Span) -> None:
+        super().__init__(reason)
+        self.reason = reason
+        self.span = span
 
 
 @dataclass(slots=True)
@@ -61,11 +76,12 @@ class _Tree:
     def of(self, node: yaml.Node, head: Span | None, above: tuple[yaml.Node, ...]) -> Any:  # noqa: ANN401 - a tree
         span = self.whole.span(node.start_mark.index, node.end_mark.index)
         self.built += 1
-        if self.built > _MOST_VALUES or len(above) > _DEEPEST or node in above:
-            if self.built != _MOST_VALUES + 2:
-                self.reader.error(Code.SYNTAX, "the file nests too deeply or refers to itself", span)
-            self.built = _MOST_VALUES + 1
-            return Written("", span, lambda _first, _last: span, null=True)
+        if node in above:
+            raise _TooMuchError("the alias refers to what it stands in", span)
+        if len(above) > _DEEPEST:
+            raise _TooMuchError(f"the file nests more than {_DEEPEST} deep", span)
+        if self.built > _MOST_VALUES + _VALUES_PER_CHARACTER * len(self.whole.text):
+            raise _TooMuchError("the aliases of the file expand to too much", span)
         if isinstance(node, yaml.ScalarNode):
             return self._scalar(node, span)
         if node.tag not in _KNOWN_TAGS:

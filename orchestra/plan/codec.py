@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import dataclasses
 import json
+import re
 import types
 import typing
 from enum import Enum
@@ -14,10 +15,16 @@ from orchestra.errors import Problem
 from orchestra.location import Location, Span
 from orchestra.plan import model
 
+_SURROGATE = re.compile("[\ud800-\udfff]")
+
 
 def dumps(plan: model.Plan, *, indent: int | None = None) -> str:
-    """Return the plan as JSON: the same plan always gives the same text."""
-    return json.dumps(encode(plan), indent=indent, ensure_ascii=False)
+    """Return the plan as JSON: the same plan always gives the same text.
+
+    Texts that are no Unicode, as bytes of the command line may be, are written as escapes, so that it is always UTF-8.
+    """
+    text = json.dumps(encode(plan), indent=indent, ensure_ascii=False)
+    return text if text.isascii() else _SURROGATE.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
 def loads(text: str | bytes) -> model.Plan:

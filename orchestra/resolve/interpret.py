@@ -49,6 +49,8 @@ def visit(actions: Sequence[Action], run: Resolution) -> None:
     """Visit actions in order, leaving out those whose condition says so."""
     run.depth += 1
     for action in actions:
+        if not run.goes_on(action.span):
+            break
         if not _wanted(action, run):
             continue
         outer = run.conditional

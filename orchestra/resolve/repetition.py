@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
     from orchestra.description.text import Template
+    from orchestra.location import Span
     from orchestra.resolve.resolution import Resolution
 
 
@@ -26,12 +27,18 @@ def repeated(
         yield
         return
     values = [_values(written, run) for written in for_each.values()]
+    spans = [_span(written) for written in for_each.values() if written != ()]
     for combination in product(*values):
+        if not run.goes_on(spans[0]):
+            return
         with run.scope.nested():
-            for (name, written), value in zip(for_each.items(), combination, strict=True):
-                first = written if not isinstance(written, tuple) else written[0]
-                run.scope.set(name, value, value.location if isinstance(value, Value) else run.at(first.span))
+            for name, value, span in zip(for_each, combination, spans, strict=True):
+                run.scope.set(name, value, value.location if isinstance(value, Value) else run.at(span))
             yield
+
+
+def _span(written: Template | tuple[Template, ...]) -> Span:
+    return written.span if not isinstance(written, tuple) else written[0].span
 
 
 def _values(written: Template | tuple[Template, ...], run: Resolution) -> tuple[Evaluated, ...]:

@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 LoadFile: TypeAlias = Callable[[str, Problems, tuple[Span, ...]], Description | None]
 Visit: TypeAlias = Callable[[Sequence[Action], "Resolution"], None]
 
+_MOST_STEPS = 200_000
+
 
 @dataclass(slots=True)
 class Found:
@@ -82,6 +84,7 @@ class Resolution:
     delayed: list[TriggeredAction] | None = None
     delay: float = 0.0
     depth: int = 0
+    steps: int = 0
     conditional: bool = False
     descriptions: dict[str, Description | None] = field(default_factory=dict)
     parameter_files: dict[str, FileParameters | None] = field(default_factory=dict)
@@ -90,6 +93,14 @@ class Resolution:
     def frame(self) -> Frame:
         """The file that is being visited."""
         return self.frames[-1]
+
+    def goes_on(self, span: Span) -> bool:
+        """Count a step of the visit; false where there have been more than any description needs."""
+        self.steps += 1
+        if self.steps == _MOST_STEPS:
+            message = f"the description comes to more than {_MOST_STEPS} actions"
+            self.problems.error(Code.INCLUDE_CYCLE, message, self.at(span))
+        return self.steps < _MOST_STEPS
 
     def at(self, span: Span) -> Location:
         """Return the location of a span of the file that is being visited."""
