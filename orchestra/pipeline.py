@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 import os
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from orchestra.errors import DescriptionError, Problem, Problems
@@ -16,7 +18,7 @@ from orchestra.resolve.resolve import resolve
 from orchestra.resolve.single import single_node
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from orchestra.description.launch import Description
     from orchestra.plan.model import Plan
@@ -61,10 +63,23 @@ def find_launch_file(words: Sequence[str]) -> tuple[str, tuple[str, ...]]:
 
 
 def _plan(path: str, inputs: Inputs, problems: Problems) -> Plan | None:
-    description = load(path, problems)
-    if description is None:
-        return None
-    return build(_resolved(description, inputs, problems), problems)
+    with _collector_paused():
+        description = load(path, problems)
+        if description is None:
+            return None
+        return build(_resolved(description, inputs, problems), problems)
+
+
+@contextmanager
+def _collector_paused() -> Iterator[None]:
+    """Keep the garbage collector from walking the trees as they grow, which takes almost half of the time."""
+    enabled = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if enabled:
+            gc.enable()
 
 
 def _resolved(description: Description, inputs: Inputs, problems: Problems) -> Resolved:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 _BREAKS = "\n\r\x85\u2028\u2029"
+_BREAK = re.compile(f"\r\n|[{_BREAKS}]")
 _PROPERTIES = re.compile(r"([!&]\S*\s+)*")
 _HEXADECIMAL = {"x": 2, "u": 4, "U": 8}
 
@@ -37,17 +38,16 @@ class Source:
 
 def source(file: str, text: str) -> Source:
     """Return the text of a file with its lines."""
-    starts = [0]
-    for offset, character in enumerate(text):
-        if character in _BREAKS and not (character == "\r" and text[offset + 1 : offset + 2] == "\n"):
-            starts.append(offset + 1)
-    return Source(file, text, tuple(starts))
+    return Source(file, text, (0, *(found.end() for found in _BREAK.finditer(text))))
 
 
 def spans_of(
     whole: Source, start: int, end: int, value: str, style: str | None
 ) -> Callable[[int, int], Span]:
     """Return a function from offsets in the value to spans in the file. The alignment is made when first asked."""
+    inset = 1 if style in ('"', "'") else 0
+    if whole.text[start + inset : end - inset] == value:  # written as it reads
+        return lambda first, last: whole.span(start + inset + first, start + inset + last)
     aligned: list[int] = []
 
     def spans(first: int, last: int) -> Span:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.description.entity import REPORTED
 from orchestra.description.source import Keyed, Listed, Written, kind_of
+from orchestra.description.text import Template, Words
 from orchestra.errors import Code, Problems
 from orchestra.load.grammar import parse_template, unescaped
 from orchestra.load.keys import known_keys
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
 
     from pydantic_core import ErrorDetails
 
-    from orchestra.description.text import Template
 
 _WANTED = {
     "model_type": "a mapping",
@@ -50,6 +50,9 @@ class Reader:
 
     def template(self, written: Written) -> Template:
         """Read a text with substitutions."""
+        if written.text and "$(" not in written.text and "\\" not in written.text:
+            span = written.spans(0, len(written.text))
+            return Template((Words(written.text, span),), written.text, span, quoted=written.quoted)
         found = Problems()
         template = parse_template(written.text, written.spans, found, quoted=written.quoted)
         for problem in found:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeVar
 
@@ -82,11 +82,11 @@ def add_process(action: Running, program: Program, run: Resolution) -> None:
         labels=run.frame.labels,
         location=location,
         conditional=run.conditional,
-        faulty=False,
+        faulty=sound.faulty or program.faulty or action.faulty,  # the last one: all others have been looked at
     )
     if run.delayed is not None:
         run.delayed.append(ResolvedStart(len(run.found.processes), location))
-    run.found.processes.append(replace(process, faulty=sound.faulty or program.faulty or action.faulty))
+    run.found.processes.append(process)
 
 
 def texts(template: Template | None, run: Resolution) -> tuple[str, ...] | Poison:
