@@ -41,7 +41,7 @@ class Listener(Node):
         self.poses: dict[str, tuple[float, float, float]] = {}
         heard = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
         kept = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        self.create_subscription(Clock, "/clock", self._clock, heard)
+        self.create_subscription(Clock, "/clock", self._hear_clock, heard)
         for robot in ROBOTS:
             for name, kind in TOPICS.items():
                 self._subscribe(kind, f"/{robot}/{name}", heard)
@@ -80,7 +80,7 @@ class Listener(Node):
             yaw = 2 * math.atan2(pose.orientation.z, pose.orientation.w)
             self.poses[topic] = (pose.position.x, pose.position.y, yaw)
 
-    def _clock(self, message: Clock) -> None:
+    def _hear_clock(self, message: Clock) -> None:
         self.stamps["/clock"].append(_seconds(message.clock))
 
     def _tf(self, message: Any, *, moving: bool) -> None:

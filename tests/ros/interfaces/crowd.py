@@ -42,6 +42,8 @@ def main() -> None:
         executor.spin_once(timeout_sec=0.05)
     assert all(found == message for found in received)
     print("done")  # noqa: T201  # the test reads it
+    # rclpy's shutdown destroys what a handler that is just ending still touches: let the threads end first.
+    executor._executor.shutdown()
     executor.shutdown()
     rclpy.shutdown()
 
