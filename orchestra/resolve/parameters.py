@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.description.parts import VALUE_TYPES
-from orchestra.errors import Code
-from orchestra.load.grammar import parse_template
-from orchestra.load.offsets import source
+from orchestra.errors import Code, Problems
 from orchestra.location import displayed
 from orchestra.resolve.context import POISON, Poison, Value
-from orchestra.resolve.evaluate import evaluate
 from orchestra.resolve.model import FileParameters, InlineParameter, ParameterSource
 from orchestra.resolve.paths import existing_file
 from orchestra.resolve.rcl.files import read_parameter_file
 from orchestra.resolve.scalars import coerced, differs, unified, upstream_value
+from orchestra.resolve.substituted import Back, placed_back, substituted
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -63,15 +62,33 @@ def typed(
     return result
 
 
-def read_file(path: str, location: Location, run: Resolution) -> FileParameters | None:
-    """Return the sections of a parameter file, None where it cannot be read (which has been reported)."""
+def read_file(
+    path: str, location: Location, run: Resolution, *, substitute: bool = False
+) -> FileParameters | None:
+    """Return the sections of a parameter file, None where it cannot be read (which has been reported).
+
+    With `substitute`, `$(...)` in it is evaluated.
+    """
     text = _text(path, location, run)
     if text is None:
         return None
-    before = len(run.problems.errors)
-    chain = (location.span, *location.included_from)
-    sections = read_parameter_file(text, displayed(path), run.problems, chain)
-    return None if len(run.problems.errors) > before else FileParameters(path, sections, location)
+    file, chain = displayed(path), (location.span, *location.included_from)
+    back: Back | None = None
+    if substitute:
+        evaluated = substituted(text, file, replace(run.context, included_from=chain))
+        if evaluated is None:
+            return None
+        text, back = evaluated
+    found = Problems()
+    sections = read_parameter_file(text, file, found, chain)
+    for problem in found:
+        span = back(problem.span) if back is not None and problem.span is not None else problem.span
+        run.problems.report(replace(problem, span=span))
+    if found.errors:
+        return None
+    if back is not None:
+        sections = tuple(placed_back(section, back) for section in sections)
+    return FileParameters(path, sections, location)
 
 
 def _inline(param: Param, above: str, run: Resolution) -> list[InlineParameter | None]:
@@ -119,26 +136,10 @@ def _file(param: Param, run: Resolution) -> FileParameters | None:
     if path is None:
         return None
     if substitute:
-        return _substituted(path, value.location, run)
+        return read_file(path, value.location, run, substitute=True)
     if path not in run.parameter_files:
         run.parameter_files[path] = read_file(path, value.location, run)
     return run.parameter_files[path]
-
-
-def _substituted(path: str, location: Location, run: Resolution) -> FileParameters | None:
-    """Read a file in which `$(...)` is evaluated; places in it are those of the text that this gives."""
-    text = _text(path, location, run)
-    if text is None:
-        return None
-    file = displayed(path)
-    before = len(run.problems.errors)
-    template = parse_template(text, source(file, text).span, run.problems)
-    value = evaluate(template, run.context)
-    if not isinstance(value, Value):
-        return None
-    chain = (location.span, *location.included_from)
-    sections = read_parameter_file(value.text, file, run.problems, chain)
-    return None if len(run.problems.errors) > before else FileParameters(path, sections, location)
 
 
 def _text(path: str, location: Location, run: Resolution) -> str | None:

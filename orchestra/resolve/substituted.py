@@ -1,0 +1,118 @@
+"""Files in which `$(...)` is evaluated, and the way back from the text that this gives to the file."""
+
+from __future__ import annotations
+
+from bisect import bisect_right
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from typing import TYPE_CHECKING, TypeAlias
+
+from orchestra.description.text import Words
+from orchestra.errors import Problems
+from orchestra.load.grammar import parse_template
+from orchestra.load.offsets import Source, source
+from orchestra.resolve.context import Value
+from orchestra.resolve.evaluate import perform
+
+if TYPE_CHECKING:
+    from orchestra.location import Location, Span
+    from orchestra.resolve.context import Context
+    from orchestra.resolve.rcl.sections import Entry, Section
+
+Back: TypeAlias = Callable[["Span"], "Span"]
+
+
+def substituted(text: str, file: str, context: Context) -> tuple[str, Back] | None:
+    """Return a text evaluated, with a function from its spans to those of the file; None where it is faulty.
+
+    As upstream, backslashes escape in the whole text. What is faulty has been reported to the context's collector.
+    """
+    whole = source(file, text)
+    found = Problems()
+    template = parse_template(text, whole.span, found)
+    for problem in found:
+        context.problems.report(replace(problem, included_from=context.included_from))
+    made = _Made(whole)
+    sound = not template.faulty
+    for part in template.parts:
+        if isinstance(part, Words):
+            made.words(part)
+        elif isinstance(value := perform(part, context), Value):
+            made.value(value.text, part.span)
+        else:
+            sound = False
+    if not sound:
+        return None
+    evaluated = source(file, "".join(made.texts))
+    return evaluated.text, lambda span: made.back(span, evaluated)
+
+
+def placed_back(section: Section, back: Back) -> Section:
+    """Return a section with its places in the file itself."""
+    entries = tuple(_entry_placed_back(entry, back) for entry in section.entries)
+    return replace(section, entries=entries, location=_location(section.location, back))
+
+
+def _entry_placed_back(entry: Entry, back: Back) -> Entry:
+    return replace(entry, location=_location(entry.location, back), key=_location(entry.key, back))
+
+
+def _location(location: Location, back: Back) -> Location:
+    return replace(location, span=back(location.span))
+
+
+@dataclass(slots=True)
+class _Made:
+    """The pieces of the evaluated text: where each begins in it, and the offsets in the file that it is from."""
+
+    whole: Source
+    texts: list[str] = field(default_factory=list)
+    begins: list[int] = field(default_factory=list)
+    origins: list[range | list[int]] = field(default_factory=list)
+    length: int = 0
+
+    def words(self, words: Words) -> None:
+        """Take literal text, which is written as it reads but for the backslashes."""
+        offsets: list[int] = []
+        at = self._offset(words.span.line, words.span.column)
+        for _ in words.text:
+            offsets.append(at)
+            at += 2 if self.whole.text[at] == "\\" and at + 1 < len(self.whole.text) else 1
+        self._take(words.text, offsets)
+
+    def value(self, text: str, span: Span) -> None:
+        """Take what a substitution came to; all of it is from the whole substitution."""
+        begin, end = self._offset(span.line, span.column), self._offset(span.end_line, span.end_column)
+        self._take(text, range(begin, end))
+
+    def back(self, span: Span, evaluated: Source) -> Span:
+        """Return where a span of the evaluated text is from."""
+        first = self._origin(evaluated.lines[span.line - 1] + span.column - 1)
+        last = evaluated.lines[span.end_line - 1] + span.end_column - 2
+        begin = first[0]
+        end = max(begin, self._origin(last)[1]) if (span.line, span.column) != _end(span) else begin
+        return self.whole.span(begin, end)
+
+    def _take(self, text: str, origin: range | list[int]) -> None:
+        self.texts.append(text)
+        self.begins.append(self.length)
+        self.origins.append(origin)
+        self.length += len(text)
+
+    def _origin(self, offset: int) -> tuple[int, int]:
+        """Return the range in the file that a character of the evaluated text is from."""
+        index = bisect_right(self.begins, offset) - 1
+        if index < 0 or offset >= self.length:
+            return len(self.whole.text), len(self.whole.text)
+        origin = self.origins[index]
+        if isinstance(origin, range):
+            return origin.start, origin.stop
+        at = origin[offset - self.begins[index]]
+        return at, at + 1
+
+    def _offset(self, line: int, column: int) -> int:
+        return self.whole.lines[line - 1] + column - 1
+
+
+def _end(span: Span) -> tuple[int, int]:
+    return span.end_line, span.end_column
