@@ -38,7 +38,7 @@ class Listener(Node):
         self.frames: dict[str, list[str]] = {}
         self.transforms: dict[str, str] = {}
         self.dynamic: set[str] = set()
-        self.poses: dict[str, tuple[float, float, float]] = {}
+        self.tracks: dict[str, dict[float, tuple[float, float, float]]] = defaultdict(dict)
         heard = QoSProfile(depth=100, reliability=ReliabilityPolicy.BEST_EFFORT)
         kept = QoSProfile(depth=100, durability=DurabilityPolicy.TRANSIENT_LOCAL)
         self.create_subscription(Clock, "/clock", self._hear_clock, heard)
@@ -66,8 +66,14 @@ class Listener(Node):
             "frames": self.frames,
             "transforms": self.transforms,
             "moving": sorted(self.dynamic),
-            "poses": self.poses,
+            "poses": {robot: self._last_poses(robot) for robot in ROBOTS},
         }
+
+    def _last_poses(self, robot: str) -> dict[str, tuple[float, float, float]]:
+        """Return all poses of a robot at the last moment for which all of them were heard."""
+        tracks = {name: self.tracks[f"/{robot}/{name}"] for name in POSES}
+        moments = set.intersection(*(set(track) for track in tracks.values()))
+        return {name: track[max(moments)] for name, track in tracks.items()} if moments else {}
 
     def _subscribe(self, kind: Any, topic: str, qos: QoSProfile) -> None:
         self.create_subscription(kind, topic, lambda message: self._hear(topic, message), qos)
@@ -78,7 +84,7 @@ class Listener(Node):
         if isinstance(message, Odometry):
             pose = message.pose.pose
             yaw = 2 * math.atan2(pose.orientation.z, pose.orientation.w)
-            self.poses[topic] = (pose.position.x, pose.position.y, yaw)
+            self.tracks[topic][self.stamps[topic][-1]] = (pose.position.x, pose.position.y, yaw)
 
     def _hear_clock(self, message: Clock) -> None:
         self.stamps["/clock"].append(_seconds(message.clock))

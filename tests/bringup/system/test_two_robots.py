@@ -56,7 +56,7 @@ def test_two_robots_drive_and_are_heard(launch: Callable[..., Run]) -> None:
             assert heard["rates"][f"/{robot}/{topic}"] == pytest.approx(rate, rel=0.2), (robot, topic)
         assert heard["rates"][f"/tf {robot}/base_footprint"] == pytest.approx(50, rel=0.2)
         _check_frames(heard, robot)
-        _check_poses(heard["poses"], robot)
+        _check_poses(heard["poses"][robot])
     assert run.stop() == 130
     contacts = re.findall(r"(robot\d): (\d+) contacts", run.logs("simulation"))
     assert contacts == [("robot1", "0"), ("robot2", "0")]
@@ -77,9 +77,8 @@ def _check_frames(heard: dict[str, Any], robot: str) -> None:
         assert frame == odom
 
 
-def _check_poses(poses: dict[str, tuple[float, float, float]], robot: str) -> None:
-    truth, filtered = poses[f"/{robot}/ground_truth"], poses[f"/{robot}/odometry/filtered"]
-    wheels = poses[f"/{robot}/wheel/odometry"]
+def _check_poses(poses: dict[str, tuple[float, float, float]]) -> None:
+    truth, filtered, wheels = poses["ground_truth"], poses["odometry/filtered"], poses["wheel/odometry"]
     error = math.dist(truth[:2], filtered[:2])
     assert error < 0.3
     assert abs(math.remainder(truth[2] - filtered[2], 2 * math.pi)) < 0.1
