@@ -51,7 +51,7 @@ def dependencies(
                 continue  # a label covers the process that waits for the others
             if written.condition == "ready":
                 _check_ready(written, target, targets, problems)
-            edge = Dependency(target, written.condition, written.timeout, written.location)
+            edge = Dependency(target, written.condition, written.timeout, written.name.location)
             edges.setdefault((target, written.condition), edge)
     return tuple(edges.values())
 
@@ -114,6 +114,6 @@ def _check_ready(written: ResolvedDependency, target: str, targets: Targets, pro
         problems.error(
             Code.NEVER_READY,
             f"'{target}' does not say when it is ready",
-            written.location,
+            written.name.location,
             notes=(f"it is described at {awaited.location}: give it a `ready`",),
         )

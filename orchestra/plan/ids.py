@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.errors import Problems
-    from orchestra.location import Location
+    from orchestra.location import Location, Span
     from orchestra.resolve.model import ResolvedProcess
 
 
@@ -50,22 +50,30 @@ def node_name(process: ResolvedProcess) -> str | None:
 def check_names(processes: Sequence[ResolvedProcess], problems: Problems) -> None:
     """Report nodes that were given the same full name; only a warning where a condition stands on one of them."""
     first: dict[str, ResolvedProcess] = {}
+    told: set[tuple[Location | Span, Location | Span]] = set()
     for process in processes:
         name = node_name(process)
-        if name is None:
+        if name is None or process.name is None:
             continue
         earlier = first.setdefault(name, process)
-        if earlier is process:
+        mistake = _mistake(earlier, process)
+        if earlier is process or mistake in told:
             continue
-        conditional = earlier.conditional or process.conditional
-        report = problems.warning if conditional else problems.error
-        at = process.name.location if process.name is not None else process.location
+        told.add(mistake)
+        report = problems.warning if earlier.conditional or process.conditional else problems.error
         report(
             Code.DUPLICATE_NODE,
             f"two nodes are called '{name}'",
-            at,
+            process.name.location,
             notes=(f"the other one is at {_with_includes(earlier.location)}",),
         )
+
+
+def _mistake(one: ResolvedProcess, other: ResolvedProcess) -> tuple[Location | Span, Location | Span]:
+    """Return what makes two nodes of one name one mistake: within a file it is one, however often it is included."""
+    if one.location.included_from == other.location.included_from:
+        return one.location.span, other.location.span
+    return one.location, other.location
 
 
 def _with_includes(location: Location) -> str:

@@ -32,13 +32,8 @@ def _dependency(written: DependsOn, run: Resolution) -> ResolvedDependency | Poi
     condition = run.word(written.condition, CONDITIONS)
     if not isinstance(name, Value) or isinstance(timeout, Poison) or isinstance(condition, Poison):
         return POISON
-    return ResolvedDependency(
-        cast("DependencyKind", kind),
-        name,
-        cast("Condition", condition or "started"),
-        timeout,
-        run.at(written.span),
-    )
+    awaited = cast("Condition", condition or "started")
+    return ResolvedDependency(cast("DependencyKind", kind), name, awaited, timeout)
 
 
 def readiness(written: Ready | None, run: Resolution) -> ResolvedReady | Poison | None:

@@ -64,7 +64,6 @@ class ResolvedDependency:
     name: Value
     condition: Condition
     timeout: float | None
-    location: Location
 
 
 @dataclass(frozen=True, slots=True)

@@ -81,11 +81,20 @@ def _expanded(written: str) -> Path:
 
 
 def _near(folder: Path, name: str) -> str | None:
-    """Return the name in a folder that was probably meant."""
+    """Return the name in a folder that was probably meant; the endings alone make no two names alike."""
     try:
-        return nearest(name, [entry.name for entry in folder.iterdir()])
+        names = [entry.name for entry in folder.iterdir()]
     except (OSError, ValueError):
         return None
+    stem = _stem(name)
+    stems = {_stem(other) for other in names}
+    meant = stem if stem in stems else nearest(stem, stems)
+    alike = [other for other in names if _stem(other) == meant]
+    return nearest(name, alike) or min(alike, default=None)
+
+
+def _stem(name: str) -> str:
+    return name.partition(".")[0]
 
 
 def _replaced(written: str, name: str, near: str) -> str:

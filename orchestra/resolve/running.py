@@ -82,7 +82,9 @@ def add_process(action: Running, program: Program, run: Resolution) -> None:
         labels=run.frame.labels,
         location=location,
         conditional=run.conditional,
-        faulty=sound.faulty or program.faulty or action.faulty,  # the last one: all others have been looked at
+        faulty=sound.faulty
+        or program.faulty
+        or action.faulty,  # the last one: all others have been looked at
     )
     if run.delayed is not None:
         run.delayed.append(ResolvedStart(len(run.found.processes), location))

@@ -23,9 +23,6 @@ class _Configuration(str):
 
     __slots__ = ()
 
-    def __new__(cls, name: str) -> _Configuration:
-        return super().__new__(cls, f"$(var {name})")
-
 
 class _Typed:
     """`ParameterValue`."""
@@ -37,7 +34,7 @@ class _Typed:
 _WORDS: dict[str, Any] = {
     "float": float,
     "str": str,
-    "LaunchConfiguration": _Configuration,
+    "LaunchConfiguration": lambda name: _Configuration(f"$(var {name})"),
     "ParameterValue": _Typed,
     "PushROSNamespace": lambda namespace: {"push_ros_namespace": {"namespace": namespace}},
     "SetLaunchConfiguration": lambda name, value: {"let": {"name": name, "value": value}},
@@ -116,6 +113,6 @@ def test_a_node_is_started_as_by_upstream(record: dict[str, Any], tmp_path: Path
         ours = iter(process.command)
         assert [word for word in ours if word != "--params-file" or not next(ours)] == words
         assert json.loads(json.dumps(process.parameters)) == parameters
-        assert {name: type(value) for name, value in process.parameters.items() if not isinstance(value, tuple)} == {
-            name: type(value) for name, value in parameters.items() if not isinstance(value, list)
-        }
+        assert {
+            name: type(value) for name, value in process.parameters.items() if not isinstance(value, tuple)
+        } == {name: type(value) for name, value in parameters.items() if not isinstance(value, list)}

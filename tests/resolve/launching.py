@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from orchestra.errors import Code, Problems
@@ -55,6 +55,7 @@ def outcome(
     *words: str,
     environment: dict[str, str] | None = None,
     params_files: tuple[str, ...] = (),
+    launching: bool = True,
 ) -> Outcome:
     """Write launch files (the first is the one that is launched), resolve and plan them."""
     if isinstance(files, str):
@@ -62,13 +63,14 @@ def outcome(
     for name, text in files.items():
         path = folder / name
         path.parent.mkdir(parents=True, exist_ok=True)
-        path.write_text(text)
+        path.write_bytes(text.encode())
     problems = Problems()
     inputs = inputs_from(
         words,
         environment=dict(os.environ) if environment is None else environment,
         params_files=params_files,
     )
+    inputs = replace(inputs, launching=launching)
     description = load(str(folder / next(iter(files))), problems)
     assert description is not None, list(problems)
     packages = InstalledPackages(inputs.environment)
