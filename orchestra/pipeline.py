@@ -20,19 +20,18 @@ from orchestra.resolve.single import single_node
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from orchestra.description.launch import Description
     from orchestra.plan.model import Plan
     from orchestra.resolve.inputs import Inputs
-    from orchestra.resolve.model import Resolved
+    from orchestra.resolve.resolution import LoadFile
 
 
-__all__ = ["check", "find_launch_file", "inputs_from", "make_plan", "plan_of_node"]
+__all__ = ["check", "collect", "find_launch_file", "inputs_from", "make_plan", "plan_of_node"]
 
 
 def make_plan(path: str, inputs: Inputs) -> Plan:
     """Return the plan of a launch file. Raises `DescriptionError` with all problems where there are errors."""
     problems = Problems()
-    plan = _plan(path, inputs, problems)
+    plan = collect(path, inputs, problems)
     if plan is None or problems.errors:
         raise DescriptionError(problems.ordered)
     return plan
@@ -41,7 +40,7 @@ def make_plan(path: str, inputs: Inputs) -> Plan:
 def check(path: str, inputs: Inputs) -> tuple[Problem, ...]:
     """Return everything that is wrong with a launch file."""
     problems = Problems()
-    _plan(path, inputs, problems)
+    collect(path, inputs, problems)
     return problems.ordered
 
 
@@ -62,12 +61,20 @@ def find_launch_file(words: Sequence[str]) -> tuple[str, tuple[str, ...]]:
     return launch_files.find_launch_file(words, InstalledPackages(os.environ))
 
 
-def _plan(path: str, inputs: Inputs, problems: Problems) -> Plan | None:
+def collect(path: str, inputs: Inputs, problems: Problems, *, load: LoadFile = load) -> Plan | None:
+    """Return the plan of a launch file as far as it goes, with everything that is wrong in `problems`.
+
+    `load` reads the files. None where the file itself cannot be read as a launch file.
+    """
     with _collector_paused():
-        description = load(path, problems)
+        description = load(path, problems, ())
         if description is None:
             return None
-        return build(_resolved(description, inputs, problems), problems)
+        packages = InstalledPackages(inputs.environment)
+        resolved = resolve(
+            description, inputs, problems, load=load, packages=packages, run_command=run_command
+        )
+        return build(resolved, problems)
 
 
 @contextmanager
@@ -80,8 +87,3 @@ def _collector_paused() -> Iterator[None]:
     finally:
         if enabled:
             gc.enable()
-
-
-def _resolved(description: Description, inputs: Inputs, problems: Problems) -> Resolved:
-    packages = InstalledPackages(inputs.environment)
-    return resolve(description, inputs, problems, load=load, packages=packages, run_command=run_command)

@@ -7,14 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from orchestra import pipeline
 from orchestra.errors import Code, Problem, Problems
 from orchestra.load.files import load
 from orchestra.location import Location, Span, displayed, point
-from orchestra.plan.build import build
-from orchestra.resolve.commands import run_command
-from orchestra.resolve.packages import InstalledPackages
 from orchestra.resolve.rcl.files import read_parameter_file
-from orchestra.resolve.resolve import resolve
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -48,19 +45,11 @@ class _LaunchFile:
         self.path = os.path.realpath(path)
         self.problems = Problems()
         self.included: set[str] = set()
-        description = load(str(Path(path).absolute()), self.problems)
-        if description is not None:
-            self._go_on(description, inputs)
+        pipeline.collect(str(Path(path).absolute()), inputs, self.problems, load=self._load)
 
-    def _go_on(self, description: Description, inputs: Inputs) -> None:
-        packages = InstalledPackages(inputs.environment)
-        resolved = resolve(
-            description, inputs, self.problems, load=self._include, packages=packages, run_command=run_command
-        )
-        build(resolved, self.problems)
-
-    def _include(self, path: str, problems: Problems, chain: tuple[Span, ...] = ()) -> Description | None:
-        self.included.add(os.path.realpath(path))
+    def _load(self, path: str, problems: Problems, chain: tuple[Span, ...] = ()) -> Description | None:
+        if chain:
+            self.included.add(os.path.realpath(path))
         return load(path, problems, chain)
 
 
