@@ -139,7 +139,8 @@ def _file(param: Param, run: Resolution) -> FileParameters | None:
         return read_file(path, value.location, run, substitute=True)
     if path not in run.parameter_files:
         run.parameter_files[path] = read_file(path, value.location, run)
-    return run.parameter_files[path]
+    known = run.parameter_files[path]
+    return None if known is None else replace(known, location=value.location)
 
 
 def _text(path: str, location: Location, run: Resolution) -> str | None:
