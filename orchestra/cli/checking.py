@@ -11,6 +11,8 @@ from orchestra import pipeline
 from orchestra.errors import Code, Problem, Problems
 from orchestra.load.files import load
 from orchestra.location import Location, Span, displayed, point
+from orchestra.resolve.mentions import files_named
+from orchestra.resolve.packages import InstalledPackages
 from orchestra.resolve.rcl.files import read_parameter_file
 
 if TYPE_CHECKING:
@@ -20,22 +22,26 @@ if TYPE_CHECKING:
     from orchestra.description.launch import Description
     from orchestra.resolve.inputs import Inputs
 
+_LACKS = (Code.MISSING_ARGUMENT, Code.UNDEFINED_VARIABLE)
+
 
 def problems_in(targets: Sequence[Target], inputs: Inputs) -> tuple[Problem, ...]:
     """Return the problems of all targets.
 
     A launch file that another of them includes is judged by how that one uses it: alone it would lack the arguments
-    and variables that it is given there. A problem that is found on several ways is told with the shortest.
+    and variables that it is given there. Where a condition keeps it from being included, what it lacks is not told.
     """
     given = replace(inputs, launching=False)
     launch_files = [_LaunchFile(target.path, given) for target in targets if target.kind == "launch"]
     found = Problems()
+    named = {path for file in launch_files for path in file.named}
     for file in _outermost(launch_files):
-        found.extend(file.problems)
+        lacks = _LACKS if file.path in named else ()
+        found.extend(problem for problem in file.problems if problem.code not in lacks)
     for target in targets:
         if target.kind == "parameters":
             _read_parameters(target.path, found)
-    return _shortest(found)
+    return found.ordered
 
 
 class _LaunchFile:
@@ -45,12 +51,19 @@ class _LaunchFile:
         self.path = os.path.realpath(path)
         self.problems = Problems()
         self.included: set[str] = set()
+        self.named: set[str] = set()
+        self._environment = inputs.environment
+        self._packages = InstalledPackages(inputs.environment)
         pipeline.collect(str(Path(path).absolute()), inputs, self.problems, load=self._load)
 
     def _load(self, path: str, problems: Problems, chain: tuple[Span, ...] = ()) -> Description | None:
         if chain:
             self.included.add(os.path.realpath(path))
-        return load(path, problems, chain)
+        description = load(path, problems, chain)
+        if description is not None:
+            files = files_named(description, self._environment, self._packages)
+            self.named.update(map(os.path.realpath, files))
+        return description
 
 
 def _outermost(files: Sequence[_LaunchFile]) -> list[_LaunchFile]:
@@ -75,16 +88,3 @@ def _read_parameters(path: str, problems: Problems) -> None:
         )
         return
     read_parameter_file(text, file, problems, ())
-
-
-def _shortest(problems: Problems) -> tuple[Problem, ...]:
-    """Return each problem of a place once, with the fewest includes."""
-    best: dict[tuple[object, ...], Problem] = {}
-    for problem in problems:
-        key = (problem.code, problem.span, problem.message)
-        known = best.get(key)
-        if known is None or len(problem.included_from) < len(known.included_from):
-            best[key] = problem
-    once = Problems()
-    once.extend(best.values())
-    return once.ordered

@@ -53,10 +53,10 @@ def visit(actions: Sequence[Action], run: Resolution) -> None:
             break
         if not _wanted(action, run):
             continue
-        outer = run.conditional
-        run.conditional |= action.if_ is not None or action.unless is not None
+        conditional = action.if_ is not None or action.unless is not None
+        run.conditions += conditional
         _visitor(type(action).__name__).visit(action, run)
-        run.conditional = outer
+        run.conditions -= conditional
     run.depth -= 1
 
 

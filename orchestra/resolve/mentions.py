@@ -14,7 +14,7 @@ from orchestra.description.actions.include import Include
 from orchestra.description.entity import Entity
 from orchestra.description.text import Call, Template
 from orchestra.errors import Problems
-from orchestra.resolve.context import Value
+from orchestra.resolve.context import CommandResult, Context, Value
 from orchestra.resolve.evaluate import evaluate
 from orchestra.resolve.paths import beside
 from orchestra.resolve.scope import Hidden, Variable
@@ -25,9 +25,14 @@ if TYPE_CHECKING:
     from orchestra.description.entity import Action
     from orchestra.description.launch import Description
     from orchestra.location import Location
-    from orchestra.resolve.context import Context, Evaluated
+    from orchestra.resolve.context import Evaluated, Packages
 
     Open: TypeAlias = Callable[[str], Description | None]
+
+
+def is_fixed(template: Template) -> bool:
+    """Return whether a text comes to the same whatever is set."""
+    return all(call.name in _FIXED for call in _calls(template))
 
 
 def glimpse(template: Template, context: Context, variables: Mapping[str, Variable]) -> Value | None:
@@ -41,6 +46,12 @@ def glimpse(template: Template, context: Context, variables: Mapping[str, Variab
 def hidden(action: Action, context: Context, variables: Mapping[str, Variable]) -> Hidden:
     """Return an action that is not visited; `variables` are those that are set around it."""
     return Hidden(action, _files((action,), context, variables))
+
+
+def files_named(description: Description, environment: Mapping[str, str], packages: Packages) -> set[str]:
+    """Return the files that includes name, whatever their conditions say, as far as no variable is needed for that."""
+    context = Context(Problems(), _Glance({}), environment, packages, _run_nothing, description.path)
+    return {path for path in _files(description.actions, context, {}) if path is not None}
 
 
 def names_in(actions: Iterable[Action]) -> set[str]:
@@ -83,6 +94,9 @@ def names_behind(parts: Iterable[Hidden], context: Context, open_file: Open) -> 
     return names, more
 
 
+_FIXED = frozenset({"dirname", "filename", "find-pkg-prefix", "find-pkg-share"})
+
+
 @dataclass(frozen=True, slots=True)
 class _Glance:
     """Variables that may be looked at without a word."""
@@ -98,6 +112,11 @@ class _Glance:
     def names(self) -> tuple[str, ...]:
         """Return the names that are set."""
         return tuple(self.variables)
+
+
+def _run_nothing(command: tuple[str, ...], environment: Mapping[str, str]) -> CommandResult:
+    del command, environment
+    return CommandResult(0, "", "", "nothing is run here")
 
 
 def _files(

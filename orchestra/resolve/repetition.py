@@ -31,10 +31,12 @@ def repeated(
     for combination in product(*values):
         if not run.goes_on(spans[0]):
             return
+        run.repetitions += 1
         with run.scope.nested():
             for name, value, span in zip(for_each, combination, spans, strict=True):
                 run.scope.set(name, value, value.location if isinstance(value, Value) else run.at(span))
             yield
+        run.repetitions -= 1
 
 
 def _span(written: Template | tuple[Template, ...]) -> Span:

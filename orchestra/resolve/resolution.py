@@ -57,12 +57,15 @@ class Frame:
     """One file on the way to where the visit is.
 
     `given` are the arguments of its include, which stands at `included_at`; `scope` and `mark` tell what was set when
-    its visit began.
+    its visit began, `choices` how many conditions and repetitions are around it. `fixed`: its include can name no
+    other file.
     """
 
     path: str
     scope: Scope
     mark: int = 0
+    choices: int = 0
+    fixed: bool = True
     included_at: Location | None = None
     given: frozenset[str] = frozenset()
     labels: tuple[str, ...] = ()
@@ -85,7 +88,8 @@ class Resolution:
     delay: float = 0.0
     depth: int = 0
     steps: int = 0
-    conditional: bool = False
+    conditions: int = 0
+    repetitions: int = 0
     descriptions: dict[str, Description | None] = field(default_factory=dict)
     parameter_files: dict[str, FileParameters | None] = field(default_factory=dict)
 

@@ -81,7 +81,7 @@ def add_process(action: Running, program: Program, run: Resolution) -> None:
         depends_on=run.frame.depends_on + (sound(dependencies(action.depends_on, run)) or ()),
         labels=run.frame.labels,
         location=location,
-        conditional=run.conditional,
+        conditional=run.conditions > 0,
         faulty=sound.faulty
         or program.faulty
         or action.faulty,  # the last one: all others have been looked at

@@ -10,6 +10,7 @@ from orchestra.resolve.arguments import Given, settle
 from orchestra.resolve.context import POISON, Evaluated, Poison, Value
 from orchestra.resolve.dependencies import dependencies
 from orchestra.resolve.interpret import visit_file
+from orchestra.resolve.mentions import is_fixed
 from orchestra.resolve.paths import existing_file
 from orchestra.resolve.repetition import repeated
 from orchestra.resolve.resolution import Frame
@@ -61,7 +62,17 @@ def _frame(action: Include, path: str, given: frozenset[str], run: Resolution) -
     labels = run.frame.labels + ((label,) if isinstance(label, str) else ())
     edges = dependencies(action.depends_on, run)
     depends_on = run.frame.depends_on + (() if isinstance(edges, Poison) else edges)
-    return Frame(path, run.scope, run.scope.mark(), run.at(action.span), given, labels, depends_on)
+    return Frame(
+        path,
+        run.scope,
+        run.scope.mark(),
+        run.conditions + run.repetitions,
+        is_fixed(action.file),
+        run.at(action.span),
+        given,
+        labels,
+        depends_on,
+    )
 
 
 def _arguments(action: Include, run: Resolution) -> list[tuple[Given, Evaluated, Location]]:
@@ -85,18 +96,24 @@ def _description(path: str, location: Location, run: Resolution) -> Description 
 def _is_endless(frame: Frame, run: Resolution) -> bool:
     """Report a file that includes itself, however far around, and never ends.
 
-    It never does where everything is set as it was at the last time, which would be the same again; and it has not
-    ended where it is included too deep to go on. A condition may end it before, as upstream.
+    It never does where no condition and no repetition is on the way, nor where everything is set as it was at the
+    last time; and it has not ended where it is included too deep to go on. Otherwise it may end, as upstream.
     """
     if frame.path in run.found.endless:
         return True
-    around = [outer for outer in run.frames if outer.path == frame.path]
-    last = around[-1] if around else None
-    again = last is not None and last.scope is run.scope and run.scope.unchanged_since(last.mark)
-    if not again and run.depth < _DEEPEST:
+    around = [index for index, outer in enumerate(run.frames) if outer.path == frame.path]
+    if not (around and _repeats(run.frames[around[-1] :], frame, run)) and run.depth < _DEEPEST:
         return False
     run.found.endless.add(frame.path)
-    again_at = around[1] if len(around) > 1 else frame
+    again = (*run.frames, frame)[around[1]] if len(around) > 1 else frame
     message = "the file includes itself without end" if around else f"includes nest deeper than {_DEEPEST}"
-    run.problems.error(Code.INCLUDE_CYCLE, message, again_at.included_at)
+    run.problems.error(Code.INCLUDE_CYCLE, message, again.included_at)
     return True
+
+
+def _repeats(circle: tuple[Frame, ...], frame: Frame, run: Resolution) -> bool:
+    """Return whether the way from a file to itself will be gone again; `frame` is the file once more."""
+    last = circle[0]
+    if frame.choices == last.choices and all(step.fixed for step in (*circle[1:], frame)):
+        return True
+    return last.scope is run.scope and run.scope.unchanged_since(last.mark)
