@@ -35,7 +35,11 @@ def read(text: str, file: str, reader: Reader) -> Any | None:  # noqa: ANN401 - 
     """Return the tree of a YAML text, None where it is no YAML (which has been reported)."""
     whole = source(file, text)
     try:
+        _check_depth(whole)
         node = yaml.compose(text, Loader=_PARSER)
+    except _TooMuchError as error:
+        reader.error(Code.SYNTAX, error.reason, error.span)
+        return None
     except yaml.MarkedYAMLError as error:
         at = _mark(whole, error.problem_mark or error.context_mark)
         reader.error(Code.SYNTAX, _reason(error, whole, at), at)
@@ -63,6 +67,18 @@ class _TooMuchError(Exception):
         super().__init__(reason)
         self.reason = reason
         self.span = span
+
+
+def _check_depth(whole: Source) -> None:
+    """Refuse what nests too deep, event by event: the C parser itself would run out of stack and end the process."""
+    depth = 0
+    for event in yaml.parse(whole.text, Loader=_PARSER):
+        if isinstance(event, yaml.CollectionStartEvent):
+            depth += 1
+            if depth > _DEEPEST:
+                raise _TooMuchError(f"the file nests more than {_DEEPEST} deep", _mark(whole, event.start_mark))
+        elif isinstance(event, yaml.CollectionEndEvent):
+            depth -= 1
 
 
 @dataclass(slots=True)

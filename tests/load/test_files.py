@@ -110,6 +110,24 @@ def test_an_unknown_key_leaves_the_rest_of_the_action(tmp_path: Path) -> None:
     assert description.lost == {"a", "b", "c"}
 
 
+TOO_MUCH = {
+    "brackets": "launch: " + "[" * 100_000 + "]" * 100_000,
+    "brackets that are never closed": "launch: " + "[{a: " * 60_000,
+    "lists in lists": "launch:\n" + "- " * 100_000 + "a",
+    "questions": "? " * 100_000 + "a",
+    "an alias in what it names": "launch: &a [*a]",
+    "aliases of aliases": "launch:\n- &a0 [x]\n"
+    + "".join(f"- &a{i + 1} [*a{i}, *a{i}]\n" for i in range(40)),
+}
+
+
+@pytest.mark.parametrize("case", TOO_MUCH)
+def test_what_nobody_writes_is_told_once_and_ends_nothing(case: str, tmp_path: Path) -> None:
+    description, problems = _load(TOO_MUCH[case], tmp_path)
+    assert description is None
+    assert [problem.code for problem in problems] == [Code.SYNTAX]
+
+
 def test_a_mistyped_key_counts_as_what_was_meant(tmp_path: Path) -> None:
     text = "launch:\n- nod: {exce: a, nmae: $(vra b), params: [{name: p, valeu: 1}]}"
     description, problems = _load(text, tmp_path)
