@@ -41,3 +41,8 @@ def displayed(path: str) -> str:
     absolute = os.path.realpath(path)
     prefix = os.path.join(os.path.realpath(os.getcwd()), "")  # noqa: PTH118, PTH109 - pathlib is slow to import
     return absolute.removeprefix(prefix)
+
+
+def is_file(path: str | os.PathLike[str]) -> bool:
+    """Return whether a file can be seen there; a path that the system refuses (too long, no permission) is none."""
+    return os.path.isfile(path)  # noqa: PTH113 - pathlib raises for such paths

@@ -5,6 +5,7 @@ UsageError         the message, and where to read more              2
 RunError           the message                                      1
 KeyboardInterrupt  nothing                                          130
 BrokenPipeError    nothing: whoever read the output has gone        141
+OSError            the reason the system gives, and the file        1
 anything else      a bug: a report is written to a file and named   3
 """
 
@@ -52,6 +53,7 @@ class Telling:
 
 def guarded(work: Callable[[], int], telling: Telling) -> int:
     """Do the work of one command and return its exit status, or that of the error it ended with."""
+    _open_closed_streams()
     try:
         status = work()
         sys.stdout.flush()
@@ -71,6 +73,11 @@ def guarded(work: Callable[[], int], telling: Telling) -> int:
     except BrokenPipeError:
         _forget_output()
         return BROKEN_PIPE
+    except OSError as error:
+        # The machine says no: no space, no permission. That is the user's to know, and no bug.
+        _say("error", f"{error.strerror or error}" + (f": {error.filename}" if error.filename else ""))
+        _forget_output()
+        return FAILED
     except Exception as error:  # noqa: BLE001 - whatever else ends a command is a bug, and this is where it is shown
         _show_bug(error, debug=telling.debug)
         return BUG
@@ -102,6 +109,13 @@ def _show_bug(error: Exception, *, debug: bool) -> None:
 def _say(kind: str, text: str) -> None:
     paint = colour.painter(enabled=colour.wanted(sys.stderr, os.environ))
     sys.stderr.write(f"{paint(kind, f'{kind}:')} {text}\n")
+
+
+def _open_closed_streams() -> None:
+    """Give standard streams that the caller has closed somewhere to go."""
+    for name in ("stdout", "stderr"):
+        if getattr(sys, name) is None:
+            setattr(sys, name, open(os.devnull, "w"))  # noqa: PTH123, SIM115 - it lives as long as the process
 
 
 def _forget_output() -> None:

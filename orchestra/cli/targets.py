@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from orchestra.errors import UsageError
+from orchestra.location import is_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -57,9 +58,9 @@ def kind_of(name: str, text: str) -> Kind | None:
 
 
 def _behind(path: str) -> list[Target]:
-    if Path(path).is_file():
+    if is_file(path):
         return [Target(path, _kind_of_file(Path(path)) or "launch")]
-    if not Path(path).is_dir():
+    if not os.path.isdir(path):  # noqa: PTH112 - pathlib raises for paths that the system refuses
         raise UsageError(f"there is no file or folder {path}")
     found = [Target(str(file), kind) for file in sorted(_files(path)) if (kind := _kind_of_file(file))]
     if not found:

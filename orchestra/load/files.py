@@ -57,4 +57,7 @@ def _text(path: str, file: str, problems: Problems, location: Location) -> str |
 
 
 def _unknown_format(file: str) -> str:
+    for ending, language in (((".xml", ".launch"), "XML"), ((".py",), "Python")):
+        if file.endswith(ending):
+            return f"{file} is a launch file in {language}, which cannot be read yet: only YAML can"
     return f"cannot tell the format of {file}: launch files end in " + ", ".join(sorted(FORMATS))

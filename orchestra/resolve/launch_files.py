@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.errors import UsageError
+from orchestra.location import is_file
 from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
@@ -22,9 +23,13 @@ def find_launch_file(words: Sequence[str], packages: Packages) -> tuple[str, tup
     its share folder. Raises `UsageError` where there is no such file, or more than one.
     """
     first, rest = words[0], tuple(words[1:])
-    if Path(first).is_file():
+    if ":=" in first:
+        raise UsageError(f"the launch file comes before its arguments, '{first}' is one")
+    if is_file(first):
         return os.path.normpath(Path.cwd() / first), rest
     if os.sep in first or not rest or ":=" in rest[0]:
+        if os.path.lexists(first):
+            raise UsageError(f"{first} is there, but it is no file")
         raise UsageError(f"there is no launch file {first}" + _hint(Path(first)))
     share = packages.share(first)
     if share is None:
@@ -51,5 +56,8 @@ def _in_share(share: Path, package: str, name: str) -> str:
 def _hint(path: Path) -> str:
     """Return a question about a file in the same folder that was probably meant."""
     folder = path.parent
-    meant = nearest(path.name, [entry.name for entry in folder.iterdir()]) if folder.is_dir() else None
+    try:
+        meant = nearest(path.name, [entry.name for entry in folder.iterdir()])
+    except OSError:
+        return ""
     return f": did you mean {folder / meant}?" if meant else ""

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
-from orchestra.location import displayed
+from orchestra.location import displayed, is_file
 from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
@@ -64,13 +64,8 @@ def near_path(path: Path, written: str) -> str | None:
 
 def _found(folder: Path, written: str) -> str | None:
     path = _expanded(written)
-    for candidate in (folder / path, Path.cwd() / path):
-        try:
-            if candidate.is_file():
-                return os.path.normpath(candidate)
-        except ValueError:  # a text with NUL is no path
-            return None
-    return None
+    candidates = (folder / path, Path.cwd() / path)
+    return next((os.path.normpath(candidate) for candidate in candidates if is_file(candidate)), None)
 
 
 def _expanded(written: str) -> Path:
