@@ -158,6 +158,6 @@ def _reason(error: yaml.MarkedYAMLError, whole: Source, at: Span) -> str:
     return "this is not YAML: " + ", ".join(parts)
 
 
-def _mark(whole: Source, mark: yaml.Mark | None) -> Span:
+def _mark(whole: Source, mark: Any) -> Span:  # noqa: ANN401 - a mark of either parser, or None
     offset = min(mark.index, len(whole.text)) if mark else 0
     return whole.span(offset, offset)

@@ -44,7 +44,7 @@ def _value(given: GivenParameter, run: Resolution) -> GivenSections | None:
         if value is None:
             raise ValueError(f"'{given.value}' has no type")  # noqa: TRY301 - one report for both
     except ValueError as error:
-        run.problems.error(Code.PARAMETER_TYPE, str(error), location)
+        run.problems.error(Code.PARAMETER_TYPE, " ".join(str(error).split()), location)
         return None
     section = Section(pattern, (entry(given.name, value, location),), location)
     return GivenSections((section,), location, strict=True)
