@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import difflib
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
@@ -29,6 +30,7 @@ class Parameters:
     def __init__(self, node: Node, changed: Callable[[Settings], None]) -> None:
         for each in table():
             node.declare_parameter(each.name, each.default, descriptor(each))
+        _tell_unknown(node)
         self.settings = Settings(**{each.name: node.get_parameter(each.name).value for each in table()})
         reason = objection(self.settings)
         if reason is not None:
@@ -49,6 +51,17 @@ class Parameters:
         # rclpy's own parameters, such as use_sim_time, come by here as well.
         ours = {each.name for each in table()}
         return replace(self.settings, **{each.name: each.value for each in parameters if each.name in ours})
+
+
+def _tell_unknown(node: Node) -> None:
+    """Warn of values given at the start that no parameter takes: rclpy drops them without a word."""
+    known = [each.name for each in table()]
+    for name in sorted(node._parameter_overrides):  # noqa: SLF001 - rclpy tells it nowhere else
+        if node.has_parameter(name) or name.startswith("qos_overrides."):
+            continue
+        near = difflib.get_close_matches(name, known, n=1)
+        hint = f"; did you mean {near[0]}?" if near else ""
+        node.get_logger().warning(f"parameter {name} is unknown and has no effect{hint}")
 
 
 def descriptor(setting: Setting) -> ParameterDescriptor:

@@ -12,6 +12,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from bringup.control_node.node import VelocityController
 from bringup.control_node.parameters import UnusableSettingsError
+from bringup.filter.settings import NANOSECONDS
 from bringup.filter_node.ticks import Ticks
 
 ENDING = (signal.SIGINT, signal.SIGTERM)
@@ -50,16 +51,28 @@ def _spin(node: rclpy.node.Node, controller: VelocityController) -> None:
         told_to_end.set()
         wake_up.trigger()
 
-    Thread(target=wait_for_the_end, daemon=True).start()
+    ending = Thread(target=wait_for_the_end, daemon=True)
+    ending.start()
     ticks = Ticks(node, FREQUENCY)
     executor = SingleThreadedExecutor()
     executor.add_node(node)
     try:
         while not told_to_end.is_set():
-            executor.spin_once()
+            executor.spin_once(longest_wait(ticks.left()))
             if ticks.take() is not None:
                 controller.tick()
+        # A message may have ended the last wait before the trigger could: it must not meet a destroyed node.
+        ending.join()
         controller.stand_still()
     finally:
         executor.remove_node(node)
         executor.shutdown()
+
+
+def longest_wait(left: int | None) -> float | None:
+    """Seconds to wait for something to happen when the next tick is `left` ns away; None: until it happens.
+
+    On simulated time a clock message wakes the node. On the machine's clock nothing may, if the sensors are
+    silent, and the time left may be any number if that clock is set back: never more than a period.
+    """
+    return None if left is None else min(left / NANOSECONDS, 1.0 / FREQUENCY)
