@@ -62,6 +62,14 @@ def test_repeats_are_told_apart_in_plan_order(tmp_path: Path) -> None:
     assert [process.id for process in outcome(tmp_path, text).plan.processes] == ["sleep", "sleep#2", "x"]
 
 
+def test_a_name_like_a_repeat_is_kept_apart_too(tmp_path: Path) -> None:
+    text = "launch:\n" + "".join(
+        f"- executable: {{cmd: x, name: {name}}}\n" for name in ("a", "a#2", "a", "a#3", "a")
+    )
+    found = outcome(tmp_path, text)
+    assert [process.id for process in found.plan.processes] == ["a", "a#2", "a#3", "a#3#2", "a#4"]
+
+
 def test_two_nodes_with_one_name_are_refused_where_the_second_is(tmp_path: Path) -> None:
     text = "launch:\n- node: {exec: a, name: n}\n- push_ros_namespace: {namespace: /}\n- node: {exec: b, name: n}"
     assert outcome(tmp_path, text).faults == [(Code.DUPLICATE_NODE, "main.yaml", 4, 25)]

@@ -1,0 +1,40 @@
+"""What was probably meant, and what is only a slip of the keys."""
+
+from __future__ import annotations
+
+import pytest
+
+from orchestra.nearest import is_slip, nearest
+
+
+@pytest.mark.parametrize(
+    ("word", "candidates", "meant"),
+    [
+        ("outptu", ["output", "on_exit"], "output"),
+        ("launch-prefx", ["launch_prefix"], "launch_prefix"),
+        ("World", ["world", "word"], "world"),
+        ("same", ["same", "sane"], "sane"),
+        ("colour", ["name", "value"], None),
+        ("", ["a"], None),
+        ("a", [], None),
+    ],
+)
+def test_the_nearest_word(word: str, candidates: list[str], meant: str | None) -> None:
+    assert nearest(word, candidates) == meant
+    assert nearest(word, reversed(candidates)) == meant
+
+
+@pytest.mark.parametrize(
+    ("word", "meant", "slip"),
+    [
+        ("exce", "exec", True),
+        ("wrold", "world", True),
+        ("defualt", "default", True),
+        ("robot_name", "robot_sdf", False),
+        ("remappings", "remap", False),
+        ("robot1", "robot2", False),
+        ("params_file", "slam_params_file", False),
+    ],
+)
+def test_a_slip_of_the_keys(word: str, meant: str, slip: bool) -> None:
+    assert is_slip(word, meant) is slip
