@@ -5,7 +5,8 @@ command's words and its environment, marshalled, and then stays open as long as 
 
 This process is a subreaper, so whatever the command starts, detached or not, is its child sooner or later, and nothing
 else ever is. Doing this in the caller would make the caller inherit the orphans of everything else it runs, and tell
-them apart by guessing; following descent from outside loses a daemon as soon as its parent has ended.
+them apart by guessing; it does so only where this process has been killed. Following descent from outside loses a
+daemon as soon as its parent has ended.
 
 Every import here delays the command, so there are few: json and typing alone would double the time.
 """
@@ -20,7 +21,7 @@ import signal
 import sys
 
 _PR_SET_PDEATHSIG = 1
-_PR_SET_CHILD_SUBREAPER = 36
+_PR_SET_CHILD_SUBREAPER, _PR_GET_CHILD_SUBREAPER = 36, 37
 _CONTROL = 0
 _NOT_STARTED = 127
 
@@ -31,7 +32,9 @@ def main() -> None:
     os.set_inheritable(report, False)
     # Where the caller ignores it, there would be no status to wait for.
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
-    _prctl(_PR_SET_CHILD_SUBREAPER, 1)
+    # A traceback would look like words of the command.
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    set_subreaper(1)
     argv, environment = marshal.load(sys.stdin.buffer)  # noqa: S302 - the caller is this same program
     leader = os.fork()
     if leader == 0:
@@ -78,14 +81,14 @@ def _end_children() -> None:
             ended, _ = os.waitpid(-1, os.WNOHANG)
             if ended:
                 continue
-            for child in _children():
-                _kill(child)
+            for child in children():
+                kill(child)
             os.waitpid(-1, 0)
         except ChildProcessError:
             return
 
 
-def _children() -> list[int]:
+def children() -> list[int]:
     """Return the children of this process; none of their numbers can be used again before it waits for them."""
     found = []
     for entry in os.listdir("/proc"):  # noqa: PTH208 - pathlib is slow to import
@@ -101,14 +104,23 @@ def _children() -> list[int]:
     return found
 
 
-def _kill(child: int) -> None:
+def kill(child: int) -> None:
+    """Kill a child that has not been waited for."""
     try:
         os.kill(child, signal.SIGKILL)
     except PermissionError:
         return  # it has become another user's: all that can be done is to wait for it, and the caller has a limit
 
 
-def _prctl(option: int, value: int) -> None:
+def set_subreaper(value: int) -> int:
+    """Let this process inherit the orphans below it (1) or not (0); return what was so before."""
+    before = ctypes.c_int()
+    _prctl(_PR_GET_CHILD_SUBREAPER, ctypes.byref(before))
+    _prctl(_PR_SET_CHILD_SUBREAPER, value)
+    return before.value
+
+
+def _prctl(option: int, value: object) -> None:
     libc = ctypes.CDLL(None, use_errno=True)
     if libc.prctl(option, value, 0, 0, 0) != 0:
         raise OSError(ctypes.get_errno(), f"prctl {option}")

@@ -13,6 +13,7 @@ from orchestra.resolve.commands import run_command
 
 _PATIENCE = 30.0
 _ENVIRONMENT = {"PATH": os.defpath, "ODD": "a\nb=\udcff"}
+_UNKEPT = "was ended because its keeper, the process above it, was ended"
 
 
 def _python(script: str) -> tuple[str, ...]:
@@ -166,11 +167,49 @@ def test_nothing_outlives_the_caller(ended_by: signal.Signals, tmp_path: Path) -
         _wait_until_gone(pid)
 
 
+_KEPT = """
+(setsid sh -c 'trap "" TERM INT HUP; echo $$ >>$PIDS; exec sleep 1000' &)
+env -i setsid sleep 1000 & echo $! >>$PIDS
+sleep 1000 >/dev/null 2>&1 & echo $! >>$PIDS
+until [ $(wc -l <$PIDS) = 3 ]; do sleep 0.02; done
+echo $$ >>$PIDS; kill -NUMBER $PPID; wait
+"""
+
+
+@pytest.mark.parametrize("number", [signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP])
+def test_nothing_outlives_its_reaper(number: signal.Signals, tmp_path: Path) -> None:
+    """The command itself ends the process above it, once everything below the command runs."""
+    bystander = subprocess.Popen(["sleep", "1000"])
+    environment = {**_ENVIRONMENT, "PIDS": str(tmp_path / "pids")}
+    (tmp_path / "pids").touch()
+    try:
+        result = run_command(
+            ("sh", "-c", _KEPT.replace("NUMBER", str(int(number)))), environment, timeout=300
+        )
+        assert bystander.poll() is None, "what was there before is not touched"
+    finally:
+        bystander.kill()
+        bystander.wait()
+    assert (result.failure, result.stderr) == (_UNKEPT, "")
+    pids = (tmp_path / "pids").read_text().split()
+    assert len(pids) == 4
+    assert all(_gone(int(pid)) for pid in pids)
+
+
+def test_a_stopped_reaper_is_no_refuge() -> None:
+    """It cannot act on losing its caller; so it is killed, and what it had below it ended."""
+    result = run_command(
+        ("sh", "-c", "(setsid sleep 1000 & echo $!); kill -STOP $PPID; sleep 1000"), _ENVIRONMENT, timeout=1
+    )
+    assert result.failure == "ran longer than 1 s"
+    assert all(_gone(int(pid)) for pid in result.stdout.split())
+
+
 def test_a_reaper_that_does_not_begin_is_a_failure(monkeypatch: pytest.MonkeyPatch) -> None:
     """The order is larger than a pipe holds, so that writing it meets the closed end."""
     monkeypatch.setattr(sys, "executable", "/bin/false")
     result = run_command(("true",), {"LARGE": "x" * (1 << 20)})
-    assert result.failure == "was ended together with the process above it"
+    assert result.failure == _UNKEPT
 
 
 def test_no_descriptor_is_left_open() -> None:
