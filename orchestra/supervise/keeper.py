@@ -5,7 +5,8 @@ that whatever the supervisor started becomes its child when the supervisor dies 
 fail or block: no plan, no logs, no import of user code.
 
 Signals are blocked and fetched with sigtimedwait(2): no handler runs, nothing is lost between two waits, and it makes
-no difference that SIGINT was ignored when we were started, as a shell does for a job in the background.
+no difference that SIGINT was ignored when we were started, as a shell does for a job in the background. An ignored
+SIGHUP stays ignored (`signals` says why).
 """
 
 from __future__ import annotations
@@ -18,13 +19,11 @@ import sys
 import time
 
 from orchestra.supervise import kernel, proc
+from orchestra.supervise.signals import stop_signals
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable
-
-STOP_SIGNALS = frozenset({signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
-_FETCHED = STOP_SIGNALS | {signal.SIGCHLD}
 
 # The supervisor ends everything within 5 s of a request and gives up within 6 s. One that has done neither by now is
 # stuck itself.
@@ -42,9 +41,9 @@ def keep(supervise: Callable[[], int]) -> int:
     _fill_standard_descriptors()
     kernel.set_name("orc-keeper")
     kernel.become_subreaper()
-    for number in _FETCHED:
+    for number in _fetched():
         signal.signal(number, signal.SIG_DFL)
-    signal.pthread_sigmask(signal.SIG_SETMASK, _FETCHED)
+    signal.pthread_sigmask(signal.SIG_SETMASK, _fetched())
     supervisor = _fork(supervise)
     status = _wait(supervisor)
     if os.WIFEXITED(status) and os.WEXITSTATUS(status) == UNSTOPPABLE:
@@ -91,7 +90,7 @@ def _wait(supervisor: int) -> int:
             say(f"the supervisor does not answer; it is killed after {PATIENCE:.0f} s")
             os.kill(supervisor, signal.SIGKILL)
             deadline = None
-        elif received in STOP_SIGNALS:
+        elif received in stop_signals():
             os.kill(supervisor, received)
             deadline = deadline or time.monotonic() + PATIENCE
         status = _reap(supervisor)
@@ -99,11 +98,15 @@ def _wait(supervisor: int) -> int:
             return status
 
 
+def _fetched() -> frozenset[signal.Signals]:
+    return stop_signals() | {signal.SIGCHLD}
+
+
 def _fetch(timeout: float | None) -> int | None:
     """Return the next signal, None where the time is over."""
     if timeout is None:
-        return signal.sigwaitinfo(_FETCHED).si_signo
-    received = signal.sigtimedwait(_FETCHED, timeout)
+        return signal.sigwaitinfo(_fetched()).si_signo
+    received = signal.sigtimedwait(_fetched(), timeout)
     return received.si_signo if received else None
 
 
@@ -142,7 +145,7 @@ def sweep(root: int) -> list[int]:
             for pid in left if number == signal.SIGKILL else set(left) - told:
                 _send(pid, number)
             told.update(left)
-            hurry = hurry or _fetch(_LOOK_AGAIN) in STOP_SIGNALS
+            hurry = hurry or _fetch(_LOOK_AGAIN) in stop_signals()
             if hurry and number != signal.SIGKILL:
                 break
     return proc.descendants(root)

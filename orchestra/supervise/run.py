@@ -15,10 +15,10 @@ import sys
 import time
 
 from orchestra.supervise.beginnings import Beginnings
-from orchestra.supervise.keeper import STOP_SIGNALS, keep
+from orchestra.supervise.keeper import keep
 from orchestra.supervise.marks import RUN
 from orchestra.supervise.resolver import fork_resolver
-from orchestra.supervise.signals import receive_signals, reset_signals
+from orchestra.supervise.signals import receive_signals, reset_signals, stop_signals
 
 TYPE_CHECKING = False  # `typing` itself costs more than the rest of this module
 if TYPE_CHECKING:
@@ -42,7 +42,7 @@ def _supervise(prepare: Callable[[BinaryIO], int], keeper: int) -> int:
     # The keeper's mask is still in force: no signal can reach the resolver with our handlers, nor us without them.
     resolver = fork_resolver(prepare)
     reset_signals(unblock=False)
-    signals = receive_signals((*STOP_SIGNALS, signal.SIGCHLD))
+    signals = receive_signals((*stop_signals(), signal.SIGCHLD))
     signal.pthread_sigmask(signal.SIG_SETMASK, ())
     try:
         # Imported while the resolver works, so that neither waits for the other.
