@@ -10,6 +10,7 @@ from orchestra.logs.files import LogFile
 from orchestra.logs.journal import Journal, Sheet, Sheets
 from orchestra.logs.screen import Screen, same_file
 from orchestra.logs.terminal_text import wants_colour
+from orchestra.supervise.discovery import quick_discovery
 from orchestra.supervise.environment import node_environment
 from orchestra.supervise.host import this_host
 from orchestra.supervise.kin import Kin
@@ -79,7 +80,8 @@ class _Warning:
 def _environment(
     run_directory: RunDirectory, run_id: str, *, colour: bool
 ) -> Callable[[Process], dict[str, str]]:
-    host, caller, ros_logs = this_host(), dict(os.environ), str(run_directory.logs / "ros")
+    host, ros_logs = this_host(), str(run_directory.logs / "ros")
+    caller = {**os.environ, **quick_discovery(os.environ, run_directory.path)}
 
     def environment(process: Process) -> dict[str, str]:
         return node_environment(
