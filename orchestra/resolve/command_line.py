@@ -12,12 +12,15 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
 COMMAND_LINE = "command line"
+PARAMS_FILE = "--params-file"
 
 
 def inputs_from(
     words: Sequence[str], *, environment: Mapping[str, str], params_files: Sequence[str] = ()
 ) -> Inputs:
     """Read `NAME:=VALUE` and `NODE:NAME:=VALUE`; the last of a repeated launch argument counts, as upstream.
+
+    Places are those on a line of the words and after them the parameter files, each behind its option.
 
     Raises `UsageError` for a word of another form.
     """
@@ -35,5 +38,10 @@ def inputs_from(
             parameters.append(GivenParameter(node, parameter, value, span))
         else:
             arguments[name] = GivenArgument(name, value, span)
-    files = tuple(GivenFile(path, Span(COMMAND_LINE, 1, 1, 1, 1)) for path in params_files)
-    return Inputs(environment, tuple(arguments.values()), tuple(parameters), files)
+    files = []
+    for path in params_files:
+        start = column + len(PARAMS_FILE) + 1
+        column = start + len(path)
+        files.append(GivenFile(path, Span(COMMAND_LINE, 1, start, 1, column)))
+        column += 1
+    return Inputs(environment, tuple(arguments.values()), tuple(parameters), tuple(files))

@@ -103,7 +103,8 @@ def _run(
             directory=str(run_directory.path),
             file=plan.file,
         )
-        around.journal.say(f"{len(plan.processes)} processes; logs in {run_directory.logs}")
+        count = len(plan.processes)
+        around.journal.say(f"{count} process{'' if count == 1 else 'es'}; logs in {run_directory.logs}")
         system.begin()
         while not system.over:
             loop.run_once()
