@@ -167,7 +167,7 @@ def test_a_shell_gets_one_line(tmp_path: Path) -> None:
 def test_a_program_gets_default_signals_no_input_and_its_marks(tmp_path: Path) -> None:
     """Although SIGINT was ignored when we were started, as for a job in the background of a script."""
     words = ("disposition", "terminal", "show=ORCHESTRA_PROCESS", "show=PYTHONFAULTHANDLER")
-    script = ("/bin/sh", "-c", 'trap "" INT HUP USR1; exec "$@"', "sh")
+    script = ("/bin/sh", "-c", 'trap "" INT TERM USR1; exec "$@"', "sh")
     run = finished(tmp_path, plan(process("/ns/a", *words)), through=script)
     assert run.log("ns.a").splitlines() == [
         "SigBlk:\t0000000000000000",
