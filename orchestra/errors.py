@@ -11,6 +11,7 @@ Everything else stops by raising:
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import TYPE_CHECKING
@@ -19,6 +20,8 @@ from orchestra.location import Location, Span
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
+
+_BREAKS = re.compile(r"\s*[\n\r\x0b\x0c\x85\u2028\u2029]\s*")
 
 
 class Severity(StrEnum):
@@ -194,4 +197,5 @@ def _problem(
 ) -> Problem:
     span = at.span if isinstance(at, Location) else at
     included_from = at.included_from if isinstance(at, Location) else ()
-    return Problem(code, severity, message, span, included_from, suggestion, tuple(notes))
+    one_line = _BREAKS.sub(" ", message)  # what users wrote is quoted in it
+    return Problem(code, severity, one_line, span, included_from, suggestion, tuple(notes))
