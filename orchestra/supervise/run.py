@@ -18,7 +18,7 @@ from orchestra.supervise.beginnings import Beginnings
 from orchestra.supervise.keeper import keep
 from orchestra.supervise.marks import RUN
 from orchestra.supervise.resolver import fork_resolver
-from orchestra.supervise.signals import receive_signals, reset_signals, stop_signals
+from orchestra.supervise.signals import disregard_hang_up, receive_signals, reset_signals, stop_signals
 
 TYPE_CHECKING = False  # `typing` itself costs more than the rest of this module
 if TYPE_CHECKING:
@@ -43,6 +43,7 @@ def _supervise(prepare: Callable[[BinaryIO], int], keeper: int) -> int:
     resolver = fork_resolver(prepare)
     reset_signals(unblock=False)
     signals = receive_signals((*stop_signals(), signal.SIGCHLD))
+    disregard_hang_up()
     signal.pthread_sigmask(signal.SIG_SETMASK, ())
     try:
         # Imported while the resolver works, so that neither waits for the other.

@@ -1,13 +1,14 @@
 """Dispositions and masks: what a process inherits is not what it needs, with one exception.
 
-A hang-up that is ignored at the start stays ignored, in everything of ours and in the programs: that is how nohup(1)
-says that a run is to go on when its terminal is closed. An ignored SIGINT says nothing, since shells give that to
-every job in the background.
+A hang-up that is ignored at the start ends nothing of ours: that is how nohup(1) says that a run is to go on when its
+terminal is closed. An ignored SIGINT says nothing, since shells give that to every job in the background. Programs
+begin with default actions all the same: they have sessions of their own, and no terminal hangs up on them.
 """
 
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import os
 import signal
 
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 _STOP_SIGNALS = frozenset({signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
+_SIG_ERR = -1  # signal(2)
 _LEFT_ALONE = frozenset({signal.SIGPIPE, signal.SIGXFSZ})
 
 
@@ -39,6 +41,19 @@ def reset_signals(*, unblock: bool = True) -> None:
             signal.signal(number, signal.SIG_DFL)
     if unblock:
         signal.pthread_sigmask(signal.SIG_SETMASK, ())
+
+
+def disregard_hang_up() -> None:
+    """Where a hang-up is ignored, handle it by doing nothing: execve(2) resets handlers, but leaves ignored signals so.
+
+    The handler is a C function, for one of Python's would be told through the wakeup descriptor like a stop signal.
+    getpid(2) may be called there (signal-safety(7)) and changes nothing.
+    """
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.signal.restype = ctypes.c_ssize_t
+    for number in _kept():
+        if libc.signal(number, ctypes.cast(libc.getpid, ctypes.c_void_p)) == _SIG_ERR:
+            raise OSError(ctypes.get_errno(), f"signal({number})")
 
 
 def receive_signals(numbers: Iterable[int]) -> int:

@@ -48,15 +48,15 @@ def test_a_run_goes_on_without_its_terminal(tmp_path: Path) -> None:
         assert run.log("polite") == "up\nbye\n"
 
 
-def test_everything_inherits_the_ignored_hang_up_and_nothing_else(tmp_path: Path) -> None:
+def test_only_what_is_ours_disregards_the_hang_up(tmp_path: Path) -> None:
     with launched(tmp_path, plan(CLOCK), through=NOHUP) as run:
         run.await_line("clock", "tick")
         (shell,) = (pid for pid in run.everything() if name_of(pid) == "sh")
-        for pid in (run.popen.pid, run.own("orc-supervisor"), shell):
-            assert ignores(pid, signal.SIGHUP)
-            assert not ignores(pid, signal.SIGINT)
-        run.send(signal.SIGINT)
-        assert run.wait() == 130
+        assert ignores(run.popen.pid, signal.SIGHUP)
+        assert not ignores(run.popen.pid, signal.SIGINT)
+        assert not ignores(shell, signal.SIGHUP)
+        os.kill(shell, signal.SIGHUP)
+        assert run.await_event("process_ended", "clock").data["signal"] == signal.SIGHUP
 
 
 @pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGHUP])
