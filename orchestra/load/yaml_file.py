@@ -76,7 +76,9 @@ def _check_depth(whole: Source) -> None:
         if isinstance(event, yaml.CollectionStartEvent):
             depth += 1
             if depth > _DEEPEST:
-                raise _TooMuchError(f"the file nests more than {_DEEPEST} deep", _mark(whole, event.start_mark))
+                raise _TooMuchError(
+                    f"the file nests more than {_DEEPEST} deep", _mark(whole, event.start_mark)
+                )
         elif isinstance(event, yaml.CollectionEndEvent):
             depth -= 1
 
