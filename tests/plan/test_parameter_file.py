@@ -7,47 +7,13 @@ from typing import TYPE_CHECKING
 import pytest
 import yaml
 
-from orchestra.location import Location, point
-from orchestra.plan.model import Process, Provenance
 from orchestra.plan.parameter_file import file_name, path, render, rendered
+from tests.supervise.plans import process as described
 
 if TYPE_CHECKING:
     from orchestra.values import ParameterValue
 
-_PROCESS = Process(
-    id="/robot1/ekf",
-    kind="node",
-    package="bringup",
-    executable="ekf",
-    name="ekf",
-    namespace="/robot1",
-    command=("ekf",),
-    shell=False,
-    prefix=(),
-    environment={},
-    cwd=None,
-    parameters={},
-    parameter_files=(),
-    remappings=(),
-    arguments=(),
-    output=None,
-    emulate_tty=None,
-    stdin=None,
-    restart=None,
-    required=False,
-    success_exit_codes=None,
-    ready=None,
-    alive=None,
-    lifecycle=None,
-    depends_on=(),
-    stop=None,
-    limits=None,
-    warm=None,
-    machine=None,
-    digest="",
-    location=Location(point("robot.yaml")),
-    provenance=Provenance(),
-)
+_PROCESS = described("/robot1/ekf", kind="node", name="ekf", namespace="/robot1")
 
 
 def test_a_file_is_flat_typed_and_in_order() -> None:

@@ -8,44 +8,12 @@ import pytest
 
 from orchestra.events import Event, Kind
 from orchestra.location import Location, point
-from orchestra.plan.model import VERSION, Plan, Process, Provenance, Ready, StartAction, Trigger, TriggerEvent
+from orchestra.plan.model import VERSION, Plan, Ready, StartAction, Trigger, TriggerEvent
 from orchestra.testing.readiness import identity, standing
+from tests.supervise.plans import process as described
 
 _HERE = Location(point("x.yaml"))
-_PLAIN = Process(
-    id="/plain",
-    kind="node",
-    package=None,
-    executable="x",
-    name=None,
-    namespace=None,
-    command=("x",),
-    shell=False,
-    prefix=(),
-    environment={},
-    cwd=None,
-    parameters={},
-    parameter_files=(),
-    remappings=(),
-    arguments=(),
-    output=None,
-    emulate_tty=None,
-    stdin=None,
-    restart=None,
-    required=False,
-    success_exit_codes=None,
-    ready=None,
-    alive=None,
-    lifecycle=None,
-    depends_on=(),
-    stop=None,
-    limits=None,
-    warm=None,
-    machine=None,
-    digest="",
-    location=_HERE,
-    provenance=Provenance(),
-)
+_PLAIN = described("/plain", kind="node")
 _AWAITED = replace(_PLAIN, id="/awaited", ready=Ready(log="up", message=None, timeout=None))
 _LATER = replace(_PLAIN, id="/later")
 _START_LATER = Trigger(
