@@ -47,7 +47,7 @@ def _listen(run: Run, seconds: float) -> dict[str, Any]:
 @pytest.mark.timeout(300)
 def test_two_robots_drive_and_are_heard(launch: Callable[..., Run]) -> None:
     """Types, frames and rates of everything; the filter is near the truth and nearer than the wheels."""
-    run = launch(TWO_ROBOTS, "speed:=2")
+    run = launch(TWO_ROBOTS)
     run.wait_ready(timeout=60)
     heard = _listen(run, 35)
     assert heard["rates"]["/clock"] == pytest.approx(100, rel=0.2)
