@@ -2,10 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Final
-
-_TRUE: Final = frozenset({"1", "true", "yes", "on"})
-_FALSE: Final = frozenset({"0", "false", "no", "off"})
+from orchestra.description.fields import FALSE_WORDS, TRUE_WORDS
 
 
 def boolean(text: str) -> bool | None:
@@ -14,9 +11,6 @@ def boolean(text: str) -> bool | None:
     Upstream reads conditions and boolean substitutions by two rules. This is the union of both, for every place.
     """
     word = text.strip().lower()
-    if word in _TRUE:
+    if word in TRUE_WORDS:
         return True
-    return False if word in _FALSE else None
-
-
-condition: Final = boolean  # `if` and `unless` read their text by the same rule
+    return False if word in FALSE_WORDS else None

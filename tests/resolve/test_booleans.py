@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from orchestra.resolve.booleans import boolean, condition
+from orchestra.resolve.booleans import boolean
 
 _PROBES = [
     json.loads(line)
@@ -29,7 +29,7 @@ def test_booleans_are_read_as_upstream_reads_them(probe: dict[str, object]) -> N
 )
 def test_conditions_are_read_as_upstream_reads_them_or_more_kindly(probe: dict[str, object]) -> None:
     text = str(probe["in"])
-    assert condition(text) == probe.get("out", _ACCEPTED_HERE.get(text))
+    assert boolean(text) == probe.get("out", _ACCEPTED_HERE.get(text))
 
 
 @pytest.mark.parametrize(
