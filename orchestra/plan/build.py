@@ -75,6 +75,7 @@ def _process(
         shell=process.shell,
         prefix=process.prefix,
         environment=environment_of(process),
+        inherit_environment=True,
         cwd=process.cwd,
         parameters=parameters.values,
         parameter_files=(),

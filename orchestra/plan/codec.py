@@ -106,7 +106,8 @@ def _decode_union(kind: Any, data: Any) -> Any:  # noqa: ANN401 - JSON
             records = [
                 item for item in records if typing.get_args(_hints(item)["action"])[0] == data["action"]
             ]
-        return decode(records[0] if records else alternatives[0], data)
+        mappings = [item for item in alternatives if typing.get_origin(item) is dict]
+        return decode((records or mappings)[0], data)
     if isinstance(data, list):
         pairs = [item for item in alternatives if typing.get_origin(item) is tuple]
         return decode(pairs[0], data) if len(pairs) == 1 else tuple(data)

@@ -11,6 +11,7 @@ from typing import Literal, TypeAlias
 
 from orchestra.errors import Problem
 from orchestra.location import Location
+from orchestra.plan.reactions import Trigger
 from orchestra.values import Condition, ParameterValue, Restart, Stop
 
 VERSION = 1
@@ -88,8 +89,10 @@ class Process:
 
     `id` is the full node name, else namespace and name or executable, with `#2` for repeats in plan order.
     `command` is the exact argv; with `shell` it is joined with spaces and given to the shell. `environment` holds
-    what the description adds (text) or removes (None). `parameters` are the node's effective values; the file that
-    carries them is `${run}/params/NAME.yaml` and stands in `command`.
+    what the description adds (text) or removes (None); without `inherit_environment` it is all that the process gets.
+    `parameters` are the node's effective values; the file that carries them is `${run}/params/NAME.yaml` and stands
+    in `command`. `output` is a word of the launch language, or the places (`screen`, `log`, `own_log`) by stream
+    (`stdout`, `stderr`, `both`). `lifecycle` is the state that a lifecycle node is brought to when it has started.
     """
 
     id: str
@@ -102,12 +105,13 @@ class Process:
     shell: bool
     prefix: tuple[str, ...]
     environment: dict[str, str | None]
+    inherit_environment: bool
     cwd: str | None
     parameters: dict[str, ParameterValue]
     parameter_files: tuple[ParameterFile, ...]
     remappings: tuple[tuple[str, str], ...]
     arguments: tuple[str, ...]
-    output: str | None
+    output: str | dict[str, tuple[str, ...]] | None
     emulate_tty: bool | None
     stdin: bool | None
     restart: Restart | None
@@ -115,7 +119,7 @@ class Process:
     success_exit_codes: tuple[int, ...] | None
     ready: Ready | None
     alive: None
-    lifecycle: None
+    lifecycle: Literal["active"] | None
     depends_on: tuple[Dependency, ...]
     stop: Stop | None
     limits: None
@@ -124,55 +128,6 @@ class Process:
     digest: str
     location: Location
     provenance: Provenance
-
-
-@dataclass(frozen=True, slots=True)
-class TriggerEvent:
-    """What sets a trigger off: the start of the run, or every end of one process."""
-
-    event: Literal["run_started", "process_exited"]
-    target: str | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class LogAction:
-    """Tell the user something."""
-
-    message: str
-    location: Location
-    action: Literal["log"] = "log"
-
-
-@dataclass(frozen=True, slots=True)
-class StartAction:
-    """Start a process of the plan, which then does not start with the run."""
-
-    process: str
-    location: Location
-    action: Literal["start"] = "start"
-
-
-@dataclass(frozen=True, slots=True)
-class ShutdownAction:
-    """End the run."""
-
-    reason: str
-    location: Location
-    action: Literal["shutdown"] = "shutdown"
-
-
-TriggeredAction: TypeAlias = LogAction | StartAction | ShutdownAction
-
-
-@dataclass(frozen=True, slots=True)
-class Trigger:
-    """Actions to carry out `delay` seconds after an event."""
-
-    on: TriggerEvent
-    do: tuple[TriggeredAction, ...]
-    delay: float | None
-    deferred: bool
-    location: Location
 
 
 @dataclass(frozen=True, slots=True)
@@ -189,15 +144,26 @@ class Skipped:
 
 @dataclass(frozen=True, slots=True)
 class Component:
-    """A component to load into a container."""
+    """A component to load into a container.
 
+    `id` is as that of a process. `container` is the full name of the container's node, `process` the id of the
+    process that is it, None where it is none of this plan. `condition` is `started` where the component is loaded as
+    soon as the container takes orders, `event` where a trigger loads it. `extra_arguments` go along with the request
+    (`use_intra_process_comms`). `lifecycle` is the state that it is brought to when it has been loaded.
+    """
+
+    id: str
     name: str | None
     namespace: str | None
     package: str
     plugin: str
     container: str
+    process: str | None
+    condition: Literal["started", "event"]
     parameters: dict[str, ParameterValue]
     remappings: tuple[tuple[str, str], ...]
+    extra_arguments: dict[str, ParameterValue]
+    lifecycle: Literal["active"] | None
     location: Location
     provenance: Provenance
 

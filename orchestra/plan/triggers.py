@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.plan.model import LogAction, ShutdownAction, StartAction, Trigger, TriggerEvent
+from orchestra.plan.reactions import LogAction, ShutdownAction, StartAction, Trigger, TriggerEvent
 from orchestra.resolve.model import ResolvedLog, ResolvedStart
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from orchestra.plan.model import TriggeredAction
+    from orchestra.plan.reactions import TriggeredAction
     from orchestra.resolve.model import Resolved
     from orchestra.resolve.model import TriggeredAction as ResolvedAction
 
@@ -20,16 +20,18 @@ def triggers(resolved: Resolved, ids: Sequence[str]) -> tuple[Trigger, ...]:
     started = TriggerEvent("run_started")
     written = tuple(
         Trigger(
+            f"t{number}",
             started,
             tuple(_action(action, ids) for action in item.do),
             item.delay,
             deferred=False,
             location=item.location,
         )
-        for item in resolved.triggers
+        for number, item in enumerate(resolved.triggers, 1)
     )
     ends = tuple(
         Trigger(
+            f"{identity}:on_exit",
             TriggerEvent("process_exited", identity),
             (ShutdownAction(f"{identity} has ended", process.location),),
             None,

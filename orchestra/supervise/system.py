@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.plan.model import LogAction, ShutdownAction, StartAction
+from orchestra.plan.reactions import LogAction, ShutdownAction, StartAction
 from orchestra.supervise import life
 from orchestra.supervise.beginning import Beginning
 from orchestra.supervise.ending import Ending, signal_name
@@ -15,7 +15,8 @@ from orchestra.supervise.triggers import Triggers, actions_while_stopping, held
 from orchestra.supervise.unit import Unit
 
 if TYPE_CHECKING:
-    from orchestra.plan.model import Plan, Trigger, TriggeredAction
+    from orchestra.plan.model import Plan
+    from orchestra.plan.reactions import Trigger, TriggeredAction
     from orchestra.supervise.options import RunOptions
     from orchestra.supervise.surroundings import Surroundings
 

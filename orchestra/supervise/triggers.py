@@ -5,12 +5,12 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from orchestra.plan.model import LogAction, StartAction
+from orchestra.plan.reactions import LogAction, StartAction
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
-    from orchestra.plan.model import Trigger, TriggeredAction
+    from orchestra.plan.reactions import Trigger, TriggeredAction
     from orchestra.supervise.loop import Loop, Timer
 
 

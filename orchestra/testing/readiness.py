@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from orchestra.nearest import nearest
-from orchestra.plan.model import StartAction
+from orchestra.plan.reactions import StartAction
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -15,18 +15,14 @@ from orchestra.plan.model import (
     Argument,
     Component,
     Dependency,
-    LogAction,
     ParameterFile,
     Plan,
     Process,
     Provenance,
     Ready,
-    ShutdownAction,
     Skipped,
-    StartAction,
-    Trigger,
-    TriggerEvent,
 )
+from orchestra.plan.reactions import LogAction, ShutdownAction, StartAction, Trigger, TriggerEvent
 from orchestra.plan.render.formats import FORMATS
 from orchestra.values import Restart, Stop
 
@@ -46,6 +42,7 @@ _TALKER = Process(
     shell=False,
     prefix=(),
     environment={"LEVEL": "very high", "GONE": None},
+    inherit_environment=True,
     cwd="/data",
     parameters={"rate": 2.0, "name": "yes", "list": (1, 2)},
     parameter_files=(ParameterFile("${run}/params/x.yaml", "/**: {}"),),
@@ -81,6 +78,7 @@ def _bare(identity: str, namespace: str | None, *, by_shell: bool = False) -> Pr
         command=("echo", "$HOME"),
         shell=by_shell,
         environment={},
+        inherit_environment=True,
         cwd=None,
         parameters={},
         parameter_files=(),
@@ -177,9 +175,11 @@ def test_arguments_components_triggers_and_what_was_left_out() -> None:
             ),
         ),
         triggers=(
-            Trigger(start, (LogAction("it's up", _at(5)), StartAction("/b", _at(5))), 2.5, False, _at(5)),
-            Trigger(ended, (ShutdownAction("/a ended", _at(6)),), None, False, _at(6)),
-            Trigger(ended, (), None, True, _at(6)),
+            Trigger(
+                "t1", start, (LogAction("it's up", _at(5)), StartAction("/b", _at(5))), 2.5, False, _at(5)
+            ),
+            Trigger("t2", ended, (ShutdownAction("/a ended", _at(6)),), None, False, _at(6)),
+            Trigger("t3", ended, (), None, True, _at(6)),
         ),
         skipped=(Skipped("node", "gui", "if", "$(var gui)", "false", _at(8)),),
     )

@@ -14,19 +14,8 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra import events
 from orchestra.location import Location, point
-from orchestra.plan.model import (
-    VERSION,
-    Dependency,
-    LogAction,
-    Plan,
-    Process,
-    Provenance,
-    Ready,
-    ShutdownAction,
-    StartAction,
-    Trigger,
-    TriggerEvent,
-)
+from orchestra.plan.model import VERSION, Dependency, Plan, Process, Provenance, Ready
+from orchestra.plan.reactions import LogAction, ShutdownAction, StartAction, Trigger, TriggerEvent
 from orchestra.supervise import document, proc
 from orchestra.supervise.options import RunOptions
 
@@ -61,6 +50,7 @@ def process(identity: str, /, *words: str, **changes: Any) -> Process:
         "shell": False,
         "prefix": (),
         "environment": {},
+        "inherit_environment": True,
         "cwd": None,
         "parameters": {},
         "parameter_files": (),
@@ -99,12 +89,14 @@ def ready_when(log: str | None = None, message: str | None = None, timeout: floa
 
 def when_ended(target: str, *actions: Any, delay: float | None = None) -> Trigger:
     """Return a trigger on the end of a process."""
-    return Trigger(TriggerEvent("process_exited", target), actions, delay, deferred=False, location=HERE)
+    return Trigger(
+        "exit", TriggerEvent("process_exited", target), actions, delay, deferred=False, location=HERE
+    )
 
 
 def at_start(*actions: Any, delay: float | None = None) -> Trigger:
     """Return a trigger on the start of the run."""
-    return Trigger(TriggerEvent("run_started"), actions, delay, deferred=False, location=HERE)
+    return Trigger("start", TriggerEvent("run_started"), actions, delay, deferred=False, location=HERE)
 
 
 def log(message: str) -> LogAction:

@@ -8,7 +8,8 @@ import pytest
 
 from orchestra.events import Event, Kind
 from orchestra.location import Location, point
-from orchestra.plan.model import VERSION, Plan, Ready, StartAction, Trigger, TriggerEvent
+from orchestra.plan.model import VERSION, Plan, Ready
+from orchestra.plan.reactions import StartAction, Trigger, TriggerEvent
 from orchestra.testing.readiness import identity, standing
 from tests.supervise.plans import process as described
 
@@ -17,7 +18,7 @@ _PLAIN = described("/plain", kind="node")
 _AWAITED = replace(_PLAIN, id="/awaited", ready=Ready(log="up", message=None, timeout=None))
 _LATER = replace(_PLAIN, id="/later")
 _START_LATER = Trigger(
-    TriggerEvent("run_started"), (StartAction("/later", _HERE),), 5.0, deferred=False, location=_HERE
+    "t1", TriggerEvent("run_started"), (StartAction("/later", _HERE),), 5.0, deferred=False, location=_HERE
 )
 _PLAN = Plan(
     VERSION,
@@ -27,7 +28,12 @@ _PLAN = Plan(
     components=(),
     triggers=(
         Trigger(
-            TriggerEvent("run_started"), (StartAction("/later", _HERE),), 5.0, deferred=False, location=_HERE
+            "t1",
+            TriggerEvent("run_started"),
+            (StartAction("/later", _HERE),),
+            5.0,
+            deferred=False,
+            location=_HERE,
         ),
     ),
     skipped=(),

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.plan.model import LogAction, StartAction
+from orchestra.plan.reactions import LogAction, StartAction
 
 if TYPE_CHECKING:
-    from orchestra.plan.model import Trigger, TriggeredAction, TriggerEvent
+    from orchestra.plan.reactions import Trigger, TriggeredAction, TriggerEvent
 
 
 def trigger_line(trigger: Trigger) -> str:
