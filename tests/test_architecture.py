@@ -24,6 +24,7 @@ _ROWS = (
     ("errors", "location", "events", "nearest", "values"),
     ("description",),
     ("compat",),
+    ("compat",),
     ("load",),
     ("resolve",),
     ("plan",),
@@ -37,7 +38,12 @@ _LEVELS = {room: level for level, row in enumerate(_ROWS) for room in row}
 _CLIENTS = {"cli", "tui", "testing"}  # they share a row, but know nothing of each other
 _SMALL_CORE = {
     *("orchestra.errors", "orchestra.location", "orchestra.events", "orchestra.nearest", "orchestra.values"),
-    *("orchestra.plan.model", "orchestra.plan.codec", "orchestra.plan.parameter_file"),
+    *(
+        "orchestra.plan.model",
+        "orchestra.plan.reactions",
+        "orchestra.plan.codec",
+        "orchestra.plan.parameter_file",
+    ),
 }
 _SMALL_ROOMS = {"supervise", "logs", "probes"}
 

@@ -54,11 +54,6 @@ def unescaped(text: str) -> str:
     return _ESCAPE.sub(r"\1", text)
 
 
-def escaped(text: str) -> str:
-    """Return how a text is written so that it is read back unchanged, alone or beside other text."""
-    return re.sub(r"([\\$])", r"\\\1", text)
-
-
 @dataclass(slots=True)
 class _Reader:
     """A place in the text; every method reads on from there."""

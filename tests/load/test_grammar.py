@@ -8,8 +8,9 @@ from hypothesis import strategies as st
 
 from orchestra.description.substitutions import SIGNATURES
 from orchestra.description.text import Call, Template, Words
+from orchestra.description.written import escaped
 from orchestra.errors import Code, Problems, Severity
-from orchestra.load.grammar import DEEPEST, escaped, parse_template, unescaped
+from orchestra.load.grammar import DEEPEST, parse_template, unescaped
 from orchestra.load.signatures import usage
 from orchestra.location import Span
 

@@ -10,8 +10,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from orchestra.description.substitutions import SIGNATURES
+from orchestra.description.written import escaped
 from orchestra.errors import Code
-from orchestra.load.grammar import escaped
 from orchestra.location import point
 from orchestra.resolve.context import POISON, Value
 from orchestra.resolve.evaluate import evaluate

@@ -9,8 +9,9 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
+from orchestra.description.written import escaped
 from orchestra.errors import Code, Problems
-from orchestra.load.grammar import escaped, parse_template
+from orchestra.load.grammar import parse_template
 from orchestra.location import Span
 from orchestra.resolve.context import Poison
 from orchestra.resolve.words import split

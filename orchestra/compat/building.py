@@ -1,0 +1,36 @@
+"""Models from compat objects."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.launch.action import Action, ModelledAction
+from orchestra.compat.place import Place, here
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
+    from orchestra.description.entity import Action as Model
+
+
+def model_of(entity: LaunchDescriptionEntity) -> Model:
+    """Return the model of a Python entity, its condition included; an opaque one where only its code knows more."""
+    from orchestra.description.actions.opaque import OpaqueAction  # noqa: PLC0415 - pydantic, only where files are read
+
+    if isinstance(entity, ModelledAction) and entity._is_as_described():  # noqa: SLF001 - compat's own
+        return entity._to_model(conditioned(entity))  # noqa: SLF001 - compat's own
+    place: Place = getattr(entity, "_place", None) or here()
+    return OpaqueAction.at(place.span, target=entity, origin=entity)
+
+
+def models_of(entities: Iterable[LaunchDescriptionEntity]) -> tuple[Model, ...]:
+    """Return the models of several entities."""
+    return tuple(model_of(entity) for entity in entities)
+
+
+def conditioned(action: Action) -> dict[str, Any]:
+    """Return the fields that every model of an action has."""
+    if action.condition is None:
+        return {"origin": action}
+    return {"origin": action, **action.condition._fields(action._place.span)}  # noqa: SLF001 - compat's own

@@ -1,0 +1,52 @@
+"""Substitutions that launch files in YAML and XML have too: they turn into the same calls."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.place import here
+from orchestra.compat.text import template
+from orchestra.description.text import Call, Opaque, Template
+from orchestra.description.written import called
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from orchestra.compat.launch.launch_context import LaunchContext
+    from orchestra.description.text import Part
+    from orchestra.location import Span
+
+
+class CallSubstitution(Substitution):
+    """A substitution with a name in the launch language, and arguments that are substitutions themselves.
+
+    A subclass that performs itself in another way (a user's) is `Opaque`, and what it is made of is known.
+    """
+
+    _name: str
+
+    def __init__(self) -> None:
+        self._place = here(self)
+
+    def _arguments(self) -> Sequence[Sequence[Substitution]]:
+        """Return the arguments of the call."""
+        return ()
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return what the call comes to. Raises `SubstitutionFailure`."""
+        return context._engine.evaluate(Template((self._call(),), self._raw(), self._place.span))  # noqa: SLF001 - compat's own
+
+    def _call(self) -> Call:
+        span = self._place.span
+        return Call(self._name, tuple(template(argument, span) for argument in self._arguments()), span)
+
+    def _parts(self, span: Span) -> tuple[Part, ...]:
+        call = self._call()
+        if type(self).perform is not CallSubstitution.perform:
+            return (Opaque(self, span, call.arguments),)
+        return (call,)
+
+    def _raw(self) -> str:
+        arguments = ("".join(item._raw() for item in argument) for argument in self._arguments())  # noqa: SLF001 - compat's own
+        return called(self._name, arguments)

@@ -1,0 +1,33 @@
+"""`LogInfo`: tells the user something."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.launch.action import ModelledAction
+from orchestra.compat.text import normalized, template
+from orchestra.description.actions.log import Log
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from orchestra.compat.launch.substitution import Substitution
+    from orchestra.compat.text import Sub
+    from orchestra.description.entity import Action as Model
+
+
+class LogInfo(ModelledAction):
+    """Print a message when the action is visited."""
+
+    def __init__(self, *, msg: Sub, **kwargs: Any) -> None:  # noqa: ANN401 - what every action takes
+        super().__init__(**kwargs)
+        self.__msg = normalized(msg)
+
+    @property
+    def msg(self) -> list[Substitution]:
+        """The message."""
+        return self.__msg
+
+    def _to_model(self, common: Mapping[str, Any]) -> Model:
+        span = self._place.span
+        return Log.at(span, message=template(self.msg, span), **common)

@@ -1,0 +1,36 @@
+"""`launch.LaunchDescriptionEntity`: whatever a launch description is made of."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Literal
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from orchestra.compat.launch.launch_context import LaunchContext
+
+
+class LaunchDescriptionEntity:
+    """Something that is visited. `_role` tells those apart that a search for declared arguments meets."""
+
+    _role: Literal["other", "declaration", "include", "reset"] = "other"
+
+    def describe(self) -> str:
+        """Return what the entity is, for people."""
+        return self.__repr__()
+
+    def describe_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Return the children that are known without a visit."""
+        return []
+
+    def describe_conditional_sub_entities(self) -> list[tuple[str, Iterable[LaunchDescriptionEntity]]]:
+        """Return children that only a condition brings in, with what the condition says."""
+        return []
+
+    def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:  # noqa: ARG002 - for subclasses
+        """Return what is to be visited next, in order."""
+        return None
+
+    def get_asyncio_future(self) -> Any:  # noqa: ANN401 - an asyncio future
+        """Return what the launch waits for, None here: plans wait for processes, not for futures."""
+        return None

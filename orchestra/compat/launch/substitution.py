@@ -1,0 +1,95 @@
+"""`launch.Substitution`: a text that is only known when the description is visited."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.place import here
+from orchestra.description.text import Call, Opaque, Template, Words
+from orchestra.description.written import called, escaped
+
+if TYPE_CHECKING:
+    from orchestra.compat.launch.launch_context import LaunchContext
+    from orchestra.description.text import Part
+    from orchestra.location import Span
+
+
+class Substitution:
+    """The base that users derive from: they write `perform(context)`, and `describe()` if they like.
+
+    What a subclass performs is only known to it, so it stands in templates as an `Opaque` part. A subclass of ours
+    that the launch language can say overrides `_parts` (see `orchestra.compat.calls`).
+    """
+
+    def describe(self) -> str:
+        """Return what the substitution is, for people."""
+        return self.__repr__()
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the text. Raises `NotImplementedError` in this class."""
+        raise NotImplementedError(f"{type(self).__name__} does not say how it is performed")
+
+    def _parts(self, span: Span) -> tuple[Part, ...]:
+        """Return the parts of a template; they stand at `span`."""
+        return (Opaque(self, span),)
+
+    def _raw(self) -> str:
+        """Return the substitution as it would be written in a launch file, or else its description."""
+        return str(self.describe())
+
+    def __truediv__(self, other: Any) -> Substitution:  # noqa: ANN401 - any substitutions
+        """Join two parts of a path (newer ROS releases)."""
+        return _Joined(self, other)
+
+    def __rtruediv__(self, other: Any) -> Substitution:  # noqa: ANN401 - any substitutions
+        """Join two parts of a path (newer ROS releases)."""
+        return _Joined(other, self)
+
+
+class _Joined(Substitution):
+    """Two parts of a path, joined by `/`."""
+
+    def __init__(self, left: Any, right: Any) -> None:  # noqa: ANN401 - any substitutions
+        self._both = (left, right)
+        self._place = here(self)
+
+    def describe(self) -> str:
+        """Return the parts."""
+        return "PathJoin('" + ", ".join(map(_described, self._both)) + "')"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the path."""
+        span = self._place.span
+        return context._engine.evaluate(Template(self._parts(span), self._raw(), span))  # noqa: SLF001 - compat's own
+
+    def _parts(self, span: Span) -> tuple[Part, ...]:
+        return (Call("path-join", tuple(_template(side, span) for side in self._both), span),)
+
+    def _raw(self) -> str:
+        return called("path-join", map(_written, self._both))
+
+
+def _template(side: Any, span: Span) -> Template:  # noqa: ANN401 - a text, a substitution, or several of both
+    if isinstance(side, str):
+        return Template((Words(side, span),), escaped(side), span)
+    items = [side] if isinstance(side, Substitution) else list(side)
+    parts = tuple(part for item in items for part in _parts(item, span))
+    return Template(parts, _written(side), span)
+
+
+def _parts(item: Any, span: Span) -> tuple[Part, ...]:  # noqa: ANN401 - a text or a substitution
+    if isinstance(item, Substitution):
+        return item._parts(span)  # noqa: SLF001 - this class
+    return (Words(item, span),)
+
+
+def _written(side: Any) -> str:  # noqa: ANN401 - a text, a substitution, or several of both
+    if isinstance(side, str):
+        return escaped(side)
+    if isinstance(side, Substitution):
+        return side._raw()  # noqa: SLF001 - this class
+    return "".join(map(_written, side))
+
+
+def _described(side: Any) -> str:  # noqa: ANN401 - a text, a substitution, or several of both
+    return side.describe() if isinstance(side, Substitution) else repr(side)

@@ -1,0 +1,48 @@
+"""`LaunchConfiguration`: the value of a launch argument or variable."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.calls import CallSubstitution
+from orchestra.compat.text import normalized
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from orchestra.compat.launch.substitution import Substitution
+    from orchestra.compat.text import Sub
+
+
+class LaunchConfiguration(CallSubstitution):
+    """The value, else the default: a scalar, which becomes a text, or substitutions, or several of both."""
+
+    _name = "var"
+
+    def __init__(self, variable_name: Sub, *, default: Any = None) -> None:  # noqa: ANN401 - any scalar
+        super().__init__()
+        self.__variable_name = normalized(variable_name)
+        self.__default = None if default is None else normalized(_texts(default))
+
+    @property
+    def variable_name(self) -> list[Substitution]:
+        """The name."""
+        return self.__variable_name
+
+    def describe(self) -> str:
+        """Return the name and what it is."""
+        return f"LaunchConfig({' + '.join(item.describe() for item in self.variable_name)})"
+
+    def _arguments(self) -> Sequence[Sequence[Substitution]]:
+        name = self.variable_name
+        return (name,) if self.__default is None else (name, self.__default)
+
+
+def _texts(default: Any) -> Any:  # noqa: ANN401 - any scalar
+    """Return a default with its scalars as texts."""
+    if isinstance(default, bool | int | float):
+        return str(default)
+    if isinstance(default, Iterable) and not isinstance(default, str):
+        return [str(item) if isinstance(item, bool | int | float) else item for item in default]
+    return default

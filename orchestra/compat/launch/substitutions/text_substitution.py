@@ -1,0 +1,44 @@
+"""`TextSubstitution`: plain text."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.compat.launch.substitution import Substitution
+from orchestra.description.text import Words
+from orchestra.description.written import escaped
+
+if TYPE_CHECKING:
+    from orchestra.compat.launch.launch_context import LaunchContext
+    from orchestra.description.text import Part
+    from orchestra.location import Span
+
+
+class TextSubstitution(Substitution):
+    """A text. Raises `TypeError` for anything else."""
+
+    def __init__(self, *, text: str) -> None:
+        if not isinstance(text, str):
+            raise TypeError(f"the text of a TextSubstitution is a str, not {type(text).__name__}: {text!r}")
+        self.__text = text
+
+    @property
+    def text(self) -> str:
+        """The text."""
+        return self.__text
+
+    def describe(self) -> str:
+        """Return the text in quotes."""
+        return f"'{self.text}'"
+
+    def perform(self, context: LaunchContext) -> str:  # noqa: ARG002 - there is nothing to look up
+        """Return the text."""
+        return self.text
+
+    def _parts(self, span: Span) -> tuple[Part, ...]:
+        if type(self).perform is not TextSubstitution.perform:
+            return super()._parts(span)
+        return (Words(self.text, span),) if self.text else ()
+
+    def _raw(self) -> str:
+        return escaped(self.text)

@@ -1,0 +1,28 @@
+"""Packages whose names are imported when somebody asks for them: a launch file pays for what it uses."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+
+def exported(package: str, names: Mapping[str, str]) -> Callable[[str], Any]:
+    """Return the `__getattr__` of a package.
+
+    `names` gives for each name the submodule that has it, with dots for deeper ones; an empty text where the name is
+    that of a submodule itself, and a name that begins with `orchestra.` is the module's full name.
+    """
+
+    def attribute(name: str) -> Any:  # noqa: ANN401 - whatever is exported
+        place = names.get(name)
+        if place is None:
+            raise AttributeError(f"module {package!r} has no attribute {name!r}")
+        if not place:
+            return import_module(f"{package}.{name}")
+        full = place if place.startswith("orchestra.") else f"{package}.{place}"
+        return getattr(import_module(full), name)
+
+    return attribute

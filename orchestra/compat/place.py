@@ -1,0 +1,91 @@
+"""Where in the user's files an object was made: the innermost line that is not Orchestra's own."""
+
+from __future__ import annotations
+
+import linecache
+import os
+import sys
+from functools import lru_cache
+from itertools import islice
+from typing import TYPE_CHECKING, TypeAlias
+
+from orchestra.location import Span, displayed
+
+if TYPE_CHECKING:
+    from types import CodeType, FrameType
+
+_OWN = os.path.join(os.path.dirname(os.path.dirname(__file__)), "")  # noqa: PTH118, PTH120 - compared with file names of code
+_Positions: TypeAlias = tuple[int | None, int | None, int | None, int | None]
+
+
+class Place:
+    """A point in the user's code. The span is worked out when it is asked for, which few objects are."""
+
+    __slots__ = ("_code", "_instruction", "_span")
+
+    def __init__(self, code: CodeType, instruction: int) -> None:
+        self._code = code
+        self._instruction = instruction
+        self._span: Span | None = None
+
+    @property
+    def span(self) -> Span:
+        """The range of the expression."""
+        if self._span is None:
+            self._span = span_of(self._code, self._instruction)
+        return self._span
+
+
+def here(made: object = None) -> Place:
+    """Return the place in the user's code that led to this call: where `made` was made, by whatever subclass."""
+    frame: FrameType | None = sys._getframe(1)  # noqa: SLF001 - the public inspect.currentframe is the same
+    outermost = frame
+    while frame is not None and (frame.f_code.co_filename.startswith(_OWN) or _is_constructor(frame, made)):
+        outermost, frame = frame, frame.f_back
+    found = frame or outermost
+    assert found is not None  # noqa: S101 - whoever calls has a frame
+    return Place(found.f_code, found.f_lasti)
+
+
+def _is_constructor(frame: FrameType, made: object) -> bool:
+    """Return whether a frame is a subclass's `__init__` of an object."""
+    code = frame.f_code
+    return code.co_name == "__init__" and frame.f_locals.get(code.co_varnames[0]) is made
+
+
+def is_own(file: str) -> bool:
+    """Return whether a file is part of Orchestra itself."""
+    return file.startswith(_OWN)
+
+
+def span_of(code: CodeType, instruction: int) -> Span:
+    """Return the range of source text of an instruction; columns are counted in code points."""
+    line, end_line, column, end_column = _positions(code, instruction // 2)
+    file = shown(code.co_filename)
+    line = line or code.co_firstlineno
+    if column is None or end_column is None or end_line is None:
+        return Span(file, line, 1, line, 1)
+    begin = _code_points(code.co_filename, line, column)
+    return Span(file, line, begin + 1, end_line, _code_points(code.co_filename, end_line, end_column) + 1)
+
+
+def shown(file: str) -> str:
+    """Return a source file as people see it."""
+    return _shown(file, os.getcwd())  # noqa: PTH109 - no path is wanted
+
+
+@lru_cache(maxsize=4096)
+def _shown(file: str, _working_directory: str) -> str:
+    return displayed(file)
+
+
+def _positions(code: CodeType, index: int) -> _Positions:
+    return next(islice(code.co_positions(), index, None), (None, None, None, None))
+
+
+def _code_points(file: str, line: int, offset: int) -> int:
+    """Return a column in code points for one in bytes of UTF-8, as the compiler counts."""
+    text = linecache.getline(file, line)
+    if text.isascii():
+        return offset
+    return len(text.encode()[:offset].decode(errors="replace"))

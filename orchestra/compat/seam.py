@@ -1,0 +1,112 @@
+"""What compat objects ask of the stage that resolves: it hands an `Engine` to each `LaunchContext`.
+
+Nothing here imports that stage, which stands above: it connects itself while launch files are loaded.
+"""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, MutableMapping, Sequence
+
+    from orchestra.description.entity import Action
+    from orchestra.description.text import Template
+
+
+class Engine(Protocol):
+    """The state of one resolution, as Python launch files see it."""
+
+    @property
+    def configurations(self) -> MutableMapping[str, Any]:
+        """The launch configurations of the current scope; writing sets them."""
+
+    @property
+    def environment(self) -> MutableMapping[str, str]:
+        """The environment of the current scope; writing sets it for what follows."""
+
+    @property
+    def current_file(self) -> str | None:
+        """The absolute path of the launch file that is being visited."""
+
+    def evaluate(self, template: Template) -> str:
+        """Return what a text comes to. Raises `SubstitutionFailure`."""
+
+    def carry_out(self, action: Action) -> None:
+        """Carry out an action in the current scope, at once."""
+
+    def visit(self, entities: Iterable[Any]) -> None:
+        """Visit Python entities depth-first, at once."""
+
+    def parameters(self) -> Sequence[tuple[str, Any]]:
+        """Return what set_parameter put in scope, in order."""
+
+    def load(self, path: str, language: str | None) -> Any:  # noqa: ANN401 - a LaunchDescription
+        """Return the launch description of a file; `language` is `python`, `xml`, `yaml`, or None: by its name."""
+
+    def register(self, handler: Any, *, first: bool) -> None:  # noqa: ANN401 - an event handler
+        """Let an event handler wait for its event."""
+
+    def unregister(self, handler: Any) -> None:  # noqa: ANN401 - an event handler
+        """Let it wait no more. Raises `ValueError` where it does not wait."""
+
+    def emit(self, event: Any) -> None:  # noqa: ANN401 - an event
+        """Let an event happen, after the visit that is going on."""
+
+    def would_handle(self, event: Any) -> bool:  # noqa: ANN401 - an event
+        """Return whether a handler waits for such an event."""
+
+    def push_configurations(self) -> None:
+        """Remember the configurations; the present ones stay in force."""
+
+    def pop_configurations(self) -> None:
+        """Take up the configurations that were remembered last. Raises `RuntimeError` where none are."""
+
+    def push_environment(self) -> None:
+        """Remember the environment."""
+
+    def pop_environment(self) -> None:
+        """Take up the environment that was remembered last. Raises `RuntimeError` where none is."""
+
+    def reset_environment(self) -> None:
+        """Take up the environment with which the launch began."""
+
+    def completed(self, action: Any) -> None:  # noqa: ANN401 - an action
+        """Take note that an action of Python has been executed."""
+
+
+class Connection(Protocol):
+    """The stage above, for objects that are used without a context of a resolution."""
+
+    def engine(self, argv: Sequence[str]) -> Engine:
+        """Return an engine with a state of its own."""
+
+    def package_prefixes(self) -> dict[str, str]:
+        """Return the install prefixes of all packages by name."""
+
+    def package_prefix(self, package: str) -> str | None:
+        """Return the install prefix of a package."""
+
+    def package_share(self, package: str) -> str | None:
+        """Return the share folder of a package."""
+
+
+_connections: list[Connection] = []
+
+
+@contextmanager
+def connected(connection: Connection) -> Iterator[None]:
+    """Serve compat objects with a connection for a while."""
+    _connections.append(connection)
+    try:
+        yield
+    finally:
+        _connections.remove(connection)
+
+
+def connection() -> Connection:
+    """Return the connection. Raises `RuntimeError` outside the loading of launch files."""
+    if not _connections:
+        raise RuntimeError("launch files are only understood while Orchestra loads one")
+    return _connections[-1]

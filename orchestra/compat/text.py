@@ -1,0 +1,50 @@
+"""Substitutions as Python launch files write them, and the templates they turn into.
+
+`SomeSubstitutionsType` is a text, a substitution, or an iterable of both, which are concatenated.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
+from orchestra.description.text import Template
+
+if TYPE_CHECKING:
+    from orchestra.location import Span
+
+Sub: TypeAlias = str | Substitution | Iterable[str | Substitution]
+
+
+def normalized(subs: Sub) -> list[Substitution]:
+    """Return a list of substitutions. Raises `TypeError` for anything else, as upstream."""
+    if isinstance(subs, str):
+        return [TextSubstitution(text=subs)]
+    if isinstance(subs, Substitution):
+        return [subs]
+    if not isinstance(subs, Iterable):
+        raise TypeError(_wrong(subs))
+    return [_one(item) for item in subs]
+
+
+def template(subs: Sub, span: Span, *, quoted: bool = False) -> Template:
+    """Return the template of some substitutions; those without a place of their own are at `span`."""
+    parts = tuple(part for item in normalized(subs) for part in item._parts(span))  # noqa: SLF001 - our own base class
+    raw = "".join(item._raw() for item in normalized(subs))  # noqa: SLF001 - our own base class
+    return Template(parts, raw, span, quoted=quoted)
+
+
+def _one(item: Any) -> Substitution:  # noqa: ANN401 - whatever a user put there
+    if isinstance(item, str):
+        return TextSubstitution(text=item)
+    if isinstance(item, Substitution):
+        return item
+    raise TypeError(_wrong(item))
+
+
+def _wrong(value: object) -> str:
+    return (
+        f"expected a text or a substitution (or several in a list), found {type(value).__name__}: {value!r}"
+    )
