@@ -49,10 +49,24 @@ class FaultReader(Protocol):
 class Entity(BaseModel):
     """Something a user writes: an action, or a part of one."""
 
-    model_config = ConfigDict(frozen=True, extra="forbid", arbitrary_types_allowed=True)
+    model_config = ConfigDict(
+        frozen=True, extra="forbid", arbitrary_types_allowed=True, populate_by_name=True
+    )
 
     _span: Span = PrivateAttr()
     _faulty: bool = PrivateAttr(default=False)
+    _origin: Any = PrivateAttr(default=None)
+
+    @classmethod
+    def at(cls, span: Span, *, origin: Any = None, **values: Any) -> Self:  # noqa: ANN401 - any object, any field
+        """Return the entity that Python code made at a place, from values that need no reading.
+
+        Raises `ValidationError`.
+        """
+        entity = cls(**values)
+        entity._span = span
+        entity._origin = origin
+        return entity
 
     @property
     def span(self) -> Span:
@@ -63,6 +77,11 @@ class Entity(BaseModel):
     def faulty(self) -> bool:
         """Whether a part of the entity was wrong and has been left out."""
         return self._faulty
+
+    @property
+    def origin(self) -> Any:  # noqa: ANN401 - any object
+        """The object of a Python launch file that the entity was made from."""
+        return self._origin
 
     def conflict(self) -> str | None:
         """Return why the keys that stand here cannot stand together, None where they can."""

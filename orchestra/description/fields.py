@@ -7,20 +7,23 @@ evaluating (a constant) is checked when the file is read.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Annotated, Protocol, TypeAlias
 
 from pydantic import PlainValidator, ValidationError, ValidationInfo, WithJsonSchema
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from orchestra.description.source import Written, kind_of
-from orchestra.description.text import Template, Words
+from orchestra.description.text import Constant, Template, Words
 
 TRUE_WORDS = frozenset({"true", "1", "yes", "on"})
 FALSE_WORDS = frozenset({"false", "0", "no", "off"})
 
 _SUBSTITUTION = {"type": "string", "pattern": r"\$\("}
 _TEXT = {"type": ["string", "number", "boolean"]}
+_TEXT_OR_LIST = {"anyOf": [_TEXT, {"type": "array", "items": _TEXT}]}
+
+Value: TypeAlias = Template | Constant
 
 
 class TextReader(Protocol):
@@ -99,17 +102,32 @@ def _is_integer(text: str) -> bool:
     return True
 
 
-def _any_value(value: object, info: ValidationInfo) -> Template | tuple[Template, ...]:
+def _any_value(value: object, info: ValidationInfo) -> Value | tuple[Value, ...]:
+    if isinstance(value, tuple | Constant):
+        return value
+    return _text_or_list(value, info)
+
+
+def _text_or_list(value: object, info: ValidationInfo) -> Template | tuple[Template, ...]:
     if isinstance(value, tuple):
         return value
     if isinstance(value, list):
-        return tuple(_item(index, item, info) for index, item in enumerate(value))
+        return items_of(value, _text, info)
     return _text(value, info)
 
 
-def _item(index: int, value: object, info: ValidationInfo) -> Template:
+def items_of(
+    values: Iterable[object], read: Callable[[object, ValidationInfo], Template], info: ValidationInfo
+) -> tuple[Template, ...]:
+    """Read the items of a list; a fault is one of the item, not of the list."""
+    return tuple(_item(index, item, read, info) for index, item in enumerate(values))
+
+
+def _item(
+    index: int, value: object, read: Callable[[object, ValidationInfo], Template], info: ValidationInfo
+) -> Template:
     try:
-        return _text(value, info)
+        return read(value, info)
     except PydanticCustomError as error:
         place = InitErrorDetails(type=error, loc=(index,), input=value)
         raise ValidationError.from_exception_data("list", [place]) from None
@@ -144,9 +162,11 @@ Integer: TypeAlias = Annotated[
     WithJsonSchema({"anyOf": [{"type": "integer"}, {"type": "string", "pattern": r"\$\(|^[+-]?[0-9]+$"}]}),
 ]
 AnyValue: TypeAlias = Annotated[
-    Template | tuple[Template, ...],
-    PlainValidator(_any_value),
-    WithJsonSchema({"anyOf": [_TEXT, {"type": "array", "items": _TEXT}]}),
+    Value | tuple[Value, ...], PlainValidator(_any_value), WithJsonSchema(_TEXT_OR_LIST)
+]
+# Words of a command: a text that is split as a shell would, or a list of which each item is exactly one word.
+Argv: TypeAlias = Annotated[
+    Template | tuple[Template, ...], PlainValidator(_text_or_list), WithJsonSchema(_TEXT_OR_LIST)
 ]
 
 

@@ -7,13 +7,12 @@ from typing import Annotated
 from pydantic import Field, PlainValidator, WithJsonSchema
 
 from orchestra.description.entity import Action
-from orchestra.description.fields import Flag, Integer, Seconds, Text, word
+from orchestra.description.fields import Argv, Flag, Integer, Seconds, Text, word
+from orchestra.description.outputs import Output
 from orchestra.description.parts import DependsOn, Pair, Ready, Restart, Stop
 from orchestra.description.text import Template
 
-OUTPUTS = ("screen", "log", "both", "own_log", "full")
 ON_EXIT = ("shutdown",)
-_OUTPUT = {"anyOf": [{"enum": list(OUTPUTS)}, {"type": "string", "pattern": r"\$\("}]}
 
 
 class Running(Action):
@@ -22,12 +21,15 @@ class Running(Action):
     name: Text | None = Field(default=None, description="Name of the node, or label of the process.")
     cwd: Text | None = Field(default=None, description="Working directory.")
     env: tuple[Pair, ...] = Field(default=(), description="Environment variables of this process.")
-    launch_prefix: Text | None = Field(
+    env_only: tuple[Pair, ...] | None = Field(
+        default=None, description="The whole environment of this process, beside `env`: it inherits nothing."
+    )
+    launch_prefix: Argv | None = Field(
         default=None, description="Command that the process is started with, as gdb."
     )
     shell: Flag | None = Field(default=None, description="Whether a shell reads the command.")
     emulate_tty: Flag | None = Field(default=None, description="Whether its output is a terminal.")
-    output: Annotated[Template, PlainValidator(word(*OUTPUTS)), WithJsonSchema(_OUTPUT)] | None = Field(
+    output: Output | None = Field(
         default=None, description="Where its output goes; `both` (screen and log) where absent."
     )
     on_exit: (

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from orchestra.location import Span
+from orchestra.values import ParameterValue
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,7 +26,19 @@ class Call:
     span: Span
 
 
-Part: TypeAlias = Words | Call
+@dataclass(frozen=True, slots=True, eq=False)
+class Opaque:
+    """A substitution that only its object in a Python launch file can perform.
+
+    `inside` are the texts that it is known to be made of.
+    """
+
+    target: Any
+    span: Span
+    inside: tuple[Template, ...] = ()
+
+
+Part: TypeAlias = Words | Call | Opaque
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,6 +59,28 @@ class Template:
     @property
     def constant(self) -> str | None:
         """The text where nothing needs evaluating, else None."""
-        if self.faulty or any(isinstance(part, Call) for part in self.parts):
-            return None
-        return "".join(part.text for part in self.parts if isinstance(part, Words))
+        texts = [part.text for part in self.parts if isinstance(part, Words)]
+        return None if self.faulty or len(texts) < len(self.parts) else "".join(texts)
+
+
+@dataclass(frozen=True, slots=True)
+class Constant:
+    """A value that has its type already, as Python's `1e-6`, `True` or `'text'`: it is used as it is.
+
+    A list may still be one whose items have several types.
+    """
+
+    value: ParameterValue
+    span: Span
+
+
+def span_of(value: Template | Constant | tuple[Template | Constant, ...]) -> Span | None:
+    """Return where a value begins, None for an empty list."""
+    if isinstance(value, tuple):
+        return value[0].span if value else None
+    return value.span
+
+
+def raw_of(value: Template | tuple[Template, ...]) -> str:
+    """Return a value as written, the items of a list with blanks between them."""
+    return " ".join(item.raw for item in value) if isinstance(value, tuple) else value.raw

@@ -75,7 +75,7 @@ def _process(
         shell=process.shell,
         prefix=process.prefix,
         environment=environment_of(process),
-        inherit_environment=True,
+        inherit_environment=process.inherit_environment,
         cwd=process.cwd,
         parameters=parameters.values,
         parameter_files=(),

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, TypeAlias
 from orchestra.description.actions.arg import Arg
 from orchestra.description.actions.include import Include
 from orchestra.description.entity import Entity
-from orchestra.description.text import Call, Template
+from orchestra.description.text import Call, Opaque, Template, Words
 from orchestra.errors import Problems
 from orchestra.resolve.context import CommandResult, Context, Value
 from orchestra.resolve.evaluate import evaluate
@@ -32,12 +32,12 @@ if TYPE_CHECKING:
 
 def is_fixed(template: Template) -> bool:
     """Return whether a text comes to the same whatever is set."""
-    return all(call.name in _FIXED for call in _calls(template))
+    return all(isinstance(part, Call) and part.name in _FIXED for part in _performed(template))
 
 
 def glimpse(template: Template, context: Context, variables: Mapping[str, Variable]) -> Value | None:
     """Return what a text comes to, without a word and without running anything; None where that cannot be told."""
-    if any(call.name == "command" for call in _calls(template)):
+    if any(isinstance(part, Opaque) or part.name == "command" for part in _performed(template)):
         return None
     value = evaluate(template, replace(context, problems=Problems(), variables=_Glance(variables)))
     return value if isinstance(value, Value) else None
@@ -146,16 +146,18 @@ def _templates(entity: Entity) -> Iterator[Template]:
                     yield template
 
 
-def _calls(template: Template) -> Iterator[Call]:
+def _performed(template: Template) -> Iterator[Call | Opaque]:
+    """Yield every substitution of a text, those in the arguments of others included."""
     for part in template.parts:
-        if isinstance(part, Call):
+        if not isinstance(part, Words):
             yield part
-            for argument in part.arguments:
-                yield from _calls(argument)
+            for inner in part.arguments if isinstance(part, Call) else part.inside:
+                yield from _performed(inner)
 
 
 def _variables(template: Template) -> Iterator[str]:
-    for call in _calls(template):
-        name = call.arguments[0].constant if call.name == "var" and call.arguments else None
-        if name is not None:
-            yield name
+    for part in _performed(template):
+        if isinstance(part, Call) and part.name == "var" and part.arguments:
+            name = part.arguments[0].constant
+            if name is not None:
+                yield name

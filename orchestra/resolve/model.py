@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import Literal, TypeAlias
+from dataclasses import dataclass, field
+from typing import Any, Literal, TypeAlias
 
 from orchestra.location import Location
 from orchestra.resolve.context import Value
@@ -88,7 +88,8 @@ class ResolvedProcess:
     """One process. `program` starts it; a node's arguments and ROS arguments are added by the plan.
 
     `conditional` tells that a condition, which is true, stands on it or around it. `faulty` marks a process of which
-    something has been reported: what follows from it is not reported again.
+    something has been reported: what follows from it is not reported again. Without `inherit_environment` it gets
+    nothing but `environment`. `origin` is the object of a Python launch file that made it.
     """
 
     kind: Literal["process", "node"]
@@ -106,7 +107,7 @@ class ResolvedProcess:
     environment: Mapping[str, tuple[EnvironmentChange, ...]]
     parameters: tuple[ParameterSource, ...]
     remaps: tuple[ResolvedRemap, ...]
-    output: str | None
+    output: str | dict[str, tuple[str, ...]] | None
     emulate_tty: bool | None
     restart: Restart | None
     required: bool
@@ -119,6 +120,8 @@ class ResolvedProcess:
     location: Location
     conditional: bool
     faulty: bool
+    inherit_environment: bool = True
+    origin: Any = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,20 +7,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.description.parts import VALUE_TYPES
+from orchestra.description.text import Constant, span_of
 from orchestra.errors import Code, Problems
 from orchestra.location import displayed
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.model import FileParameters, InlineParameter, ParameterSource
 from orchestra.resolve.paths import existing_file
 from orchestra.resolve.rcl.files import read_parameter_file
-from orchestra.resolve.scalars import coerced, differs, unified, upstream_value
+from orchestra.resolve.scalars import checked, coerced, differs, unified, upstream_value
 from orchestra.resolve.substituted import Back, placed_back, substituted
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from orchestra.description.fields import Value as Typed
     from orchestra.description.parts import Param
-    from orchestra.description.text import Template
     from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
     from orchestra.values import ParameterValue
@@ -39,11 +40,13 @@ def parameters(written: Sequence[Param], run: Resolution) -> tuple[tuple[Paramet
 
 
 def typed(
-    value: Template | tuple[Template, ...], type_word: str | None, run: Resolution
+    value: Typed | tuple[Typed, ...], type_word: str | None, run: Resolution
 ) -> ParameterValue | Poison:
     """Return a value with the type that upstream gives it; one that can have none is reported."""
     if isinstance(value, tuple):
         return _list(value, type_word, run)
+    if isinstance(value, Constant):
+        return _constant(value, type_word, run)
     evaluated = run.evaluate(value)
     if not isinstance(evaluated, Value):
         return POISON
@@ -104,11 +107,18 @@ def _inline(param: Param, above: str, run: Resolution) -> list[InlineParameter |
     value = POISON if isinstance(type_word, Poison) else typed(param.value, type_word, run)
     if isinstance(value, Poison):
         return [None]
-    first = param.value[0] if isinstance(param.value, tuple) else param.value
-    return [InlineParameter(above + name, value, run.at(first.span))]
+    return [InlineParameter(above + name, value, run.at(span_of(param.value) or param.span))]
 
 
-def _list(items: tuple[Template, ...], type_word: str | None, run: Resolution) -> ParameterValue | Poison:
+def _constant(value: Constant, type_word: str | None, run: Resolution) -> ParameterValue | Poison:
+    try:
+        return checked(value.value, type_word)
+    except ValueError as error:
+        run.problems.error(Code.PARAMETER_TYPE, str(error), run.at(value.span))
+        return POISON
+
+
+def _list(items: tuple[Typed, ...], type_word: str | None, run: Resolution) -> ParameterValue | Poison:
     element = type_word.removeprefix("list_of_") if type_word is not None else None
     values = [typed(item, element, run) for item in items]
     sound = [value for value in values if not isinstance(value, Poison)]

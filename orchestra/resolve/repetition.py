@@ -5,19 +5,17 @@ from __future__ import annotations
 from itertools import product
 from typing import TYPE_CHECKING
 
+from orchestra.description.text import Constant, span_of
 from orchestra.resolve.context import POISON, Evaluated, Poison, Value
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
-    from orchestra.description.text import Template
-    from orchestra.location import Span
+    from orchestra.description.fields import Value as Written
     from orchestra.resolve.resolution import Resolution
 
 
-def repeated(
-    for_each: Mapping[str, Template | tuple[Template, ...]] | None, run: Resolution
-) -> Iterator[None]:
+def repeated(for_each: Mapping[str, Written | tuple[Written, ...]] | None, run: Resolution) -> Iterator[None]:
     """Yield once per combination of values, the first variable changing slowest; once where nothing is repeated.
 
     The variables and whatever the body sets are gone after each round. A single text stands for a list with commas
@@ -27,7 +25,7 @@ def repeated(
         yield
         return
     values = [_values(written, run) for written in for_each.values()]
-    spans = [_span(written) for written in for_each.values() if written != ()]
+    spans = [span for written in for_each.values() if (span := span_of(written)) is not None]
     for combination in product(*values):
         if not run.goes_on(spans[0]):
             return
@@ -39,15 +37,17 @@ def repeated(
         run.repetitions -= 1
 
 
-def _span(written: Template | tuple[Template, ...]) -> Span:
-    return written.span if not isinstance(written, tuple) else written[0].span
-
-
-def _values(written: Template | tuple[Template, ...], run: Resolution) -> tuple[Evaluated, ...]:
+def _values(written: Written | tuple[Written, ...], run: Resolution) -> tuple[Evaluated, ...]:
     if isinstance(written, tuple):
-        return tuple(run.evaluate(item) or POISON for item in written)
-    value = run.evaluate(written)
-    if value is None or isinstance(value, Poison):
+        return tuple(_value(item, run) for item in written)
+    value = _value(written, run)
+    if isinstance(value, Poison):
         return (POISON,)
     words = (word.strip() for word in value.text.strip("[] ").split(","))
     return tuple(Value(word.strip("'\""), value.location) for word in words if word)
+
+
+def _value(written: Written, run: Resolution) -> Evaluated:
+    if isinstance(written, Constant):
+        return Value(str(written.value), run.at(written.span))
+    return run.evaluate(written) or POISON

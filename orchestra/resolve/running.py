@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeVar
 
-from orchestra.description.running import ON_EXIT, OUTPUTS
+from orchestra.description.running import ON_EXIT
 from orchestra.errors import Code
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import POISON, Poison, Value
@@ -20,6 +20,7 @@ from orchestra.resolve.model import (
     ResolvedRemap,
     ResolvedStart,
 )
+from orchestra.resolve.outputs import output
 from orchestra.resolve.policies import restart, stop
 from orchestra.resolve.words import split
 
@@ -54,6 +55,7 @@ def add_process(action: Running, program: Program, run: Resolution) -> None:
     sound = _Sound()
     location = run.at(action.span)
     on_exit = sound(run.word(action.on_exit, ON_EXIT))
+    places: str | dict[str, tuple[str, ...]] | None = sound(output(action.output, run))
     process = ResolvedProcess(
         kind=program.kind,
         package=program.package,
@@ -70,7 +72,7 @@ def add_process(action: Running, program: Program, run: Resolution) -> None:
         environment=sound(_environment(action, run)) or {},
         parameters=program.parameters,
         remaps=program.remaps,
-        output=sound(run.word(action.output, OUTPUTS)),
+        output=places,
         emulate_tty=sound(_emulate_tty(action, run)),
         restart=sound(restart(action, run)),
         required=sound(run.flag(action.required, default=on_exit is not None)) is True,
@@ -85,17 +87,19 @@ def add_process(action: Running, program: Program, run: Resolution) -> None:
         faulty=sound.faulty
         or program.faulty
         or action.faulty,  # the last one: all others have been looked at
+        inherit_environment=action.env_only is None,
+        origin=action.origin,
     )
     if run.delayed is not None:
         run.delayed.append(ResolvedStart(len(run.found.processes), location))
     run.found.processes.append(process)
 
 
-def texts(template: Template | None, run: Resolution) -> tuple[str, ...] | Poison:
-    """Split a text into words as a shell would."""
-    if template is None:
+def texts(argv: Template | tuple[Template, ...] | None, run: Resolution) -> tuple[str, ...] | Poison:
+    """Return words: a text is split as a shell would, an item of a list is one word."""
+    if argv is None:
         return ()
-    words = split(template, run.context)
+    words = split(argv, run.context)
     return POISON if isinstance(words, Poison) else tuple(word.text for word in words)
 
 
@@ -163,8 +167,8 @@ def _setting(name: str, run: Resolution) -> Value | None:
 
 def _environment(action: Running, run: Resolution) -> dict[str, tuple[EnvironmentChange, ...]] | Poison:
     """Return what the description changes in the environment."""
-    changes = dict(run.scope.changes)
-    for pair in action.env:
+    changes = dict(run.scope.changes) if action.env_only is None else {}
+    for pair in (*(action.env_only or ()), *action.env):
         name, value = run.text(pair.name), run.text(pair.value)
         if not isinstance(name, str) or not isinstance(value, str):
             return POISON

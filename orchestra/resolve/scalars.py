@@ -93,6 +93,23 @@ def unified(values: Sequence[ParameterValue]) -> ParameterValue:
     return _uniform(values)
 
 
+def checked(value: ParameterValue, type_word: str | None = None) -> ParameterValue:
+    """Return a value that has its type already as a node can have it; it must be of the type that is asked for.
+
+    A list in Python may have booleans beside integers, which to Python are integers too (launch_ros,
+    `normalize_parameters`). Raises `ValueError` with the reason.
+    """
+    if not isinstance(value, tuple | list):
+        found: ParameterValue = _sayable(value)
+    elif {type(item) for item in value} == {bool, int}:
+        found = tuple(int(item) for item in value)
+    else:
+        found = unified([_sayable(item) for item in value])
+    if type_word not in (None, "yaml") and _type_word(found) != type_word:
+        raise ValueError(f"{_described(found)} is not of the type {type_word}")
+    return found
+
+
 def _value(text: str, construct: Construct) -> ParameterValue:
     if not text.strip():
         return text
@@ -169,6 +186,10 @@ def _sayable(value: Any) -> Scalar:  # noqa: ANN401 - whatever PyYAML made
         raise ValueError("a text with NUL or a lone surrogate cannot be a parameter")
     checked: Scalar = value
     return checked
+
+
+def _type_word(value: ParameterValue) -> str:
+    return f"list_of_{type(value[0]).__name__}" if isinstance(value, tuple) else type(value).__name__
 
 
 def _same(one: ParameterValue, other: ParameterValue) -> bool:

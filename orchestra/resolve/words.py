@@ -15,7 +15,7 @@ from orchestra.description.text import Words
 from orchestra.errors import Code
 from orchestra.location import Span
 from orchestra.resolve.context import POISON, Poison, Value
-from orchestra.resolve.evaluate import perform
+from orchestra.resolve.evaluate import evaluate, perform
 
 if TYPE_CHECKING:
     from orchestra.description.text import Template
@@ -24,8 +24,19 @@ if TYPE_CHECKING:
 _BLANKS: Final = " \t\r\n"
 
 
-def split(template: Template, context: Context) -> tuple[Value, ...] | Poison:
-    """Return the words, each pointing at where it is written; quotes and backslashes act as in `shlex.split`."""
+def split(argv: Template | tuple[Template, ...], context: Context) -> tuple[Value, ...] | Poison:
+    """Return the words, each pointing at where it is written; quotes and backslashes act as in `shlex.split`.
+
+    Each item of a list is exactly one word, whatever it holds.
+    """
+    if not isinstance(argv, tuple):
+        return _split(argv, context)
+    values = [evaluate(item, context) for item in argv]
+    sound = tuple(value for value in values if isinstance(value, Value))
+    return sound if len(sound) == len(values) else POISON
+
+
+def _split(template: Template, context: Context) -> tuple[Value, ...] | Poison:
     splitter = _Splitter()
     poisoned = template.faulty
     for part in template.parts:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
-from orchestra.description.fields import Text
+from orchestra.description.fields import Argv, Text
 from orchestra.description.parts import Param, Remap
 from orchestra.description.running import Running
 
@@ -18,8 +18,8 @@ class Node(Running):
         default=None, description="Namespace; a relative one is put below the pushed one."
     )
     exec_name: Text | None = Field(default=None, description="Label of the process.")
-    args: Text | None = Field(default=None, description="Arguments of the program.")
-    ros_args: Text | None = Field(default=None, description="More arguments after --ros-args.")
+    args: Argv | None = Field(default=None, description="Arguments of the program.")
+    ros_args: Argv | None = Field(default=None, description="More arguments after --ros-args.")
     param: tuple[Param, ...] = Field(
         default=(), description="Parameters and parameter files, later ones win."
     )

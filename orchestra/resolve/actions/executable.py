@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from orchestra.description.text import raw_of, span_of
 from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.programs import program_words
@@ -23,7 +24,7 @@ def visit(action: Executable, run: Resolution) -> None:
     found: tuple[str, ...] = () if isinstance(words, Poison) else words
     program = Program(
         kind="process",
-        executable=Path(found[0]).name if found else action.cmd.raw,
+        executable=Path(found[0]).name if found else raw_of(action.cmd),
         words=found,
         namespace=namespace if isinstance(namespace, Value) else None,
         label=label if isinstance(label, str) else None,
@@ -39,7 +40,7 @@ def _words(action: Executable, run: Resolution) -> tuple[str, ...] | Poison:
         return POISON
     rest = tuple(word.text for word in words[1:])
     if not words or not words[0].text:
-        run.problems.error(Code.BAD_VALUE, "the command is empty", run.at(action.cmd.span))
+        run.problems.error(Code.BAD_VALUE, "the command is empty", run.at(span_of(action.cmd) or action.span))
         return POISON
     if run.flag(action.shell, default=False) is True:
         return (words[0].text, *rest)

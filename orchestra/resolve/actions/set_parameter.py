@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from orchestra.description.text import span_of
 from orchestra.resolve.context import Poison
 from orchestra.resolve.model import InlineParameter
 from orchestra.resolve.parameters import typed
@@ -20,6 +21,6 @@ def visit(action: SetParameter, run: Resolution) -> None:
         run.found.lost.add(name)
     if not isinstance(name, str) or isinstance(value, Poison):
         return
-    first = action.value[0] if isinstance(action.value, tuple) else action.value
-    parameter = InlineParameter(name, value, run.at(first.span), everywhere=True)
+    at = run.at(span_of(action.value) or action.span)
+    parameter = InlineParameter(name, value, at, everywhere=True)
     run.scope.set_parameter(parameter)

@@ -1,0 +1,51 @@
+"""Where the output of a process goes: a word, or places by stream where no word says the same."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, TypeAlias
+
+from orchestra.description.outputs import OUTPUTS, PLACES, STREAMS
+from orchestra.description.text import Template
+from orchestra.resolve.context import POISON, Poison
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from orchestra.resolve.resolution import Resolution
+
+    Places: TypeAlias = dict[str, tuple[str, ...]]
+
+# What each word stands for (launch, `get_output_loggers`): screen and log by stream, the files of its own apart.
+_WORDS: Final[Mapping[str, Places]] = {
+    "screen": {"both": ("screen",)},
+    "log": {"stdout": ("log",), "stderr": ("screen", "log")},
+    "both": {"both": ("screen", "log")},
+    "own_log": {"stdout": ("own_log",), "stderr": ("own_log",), "both": ("own_log",)},
+    "full": {"stdout": ("own_log",), "stderr": ("own_log",), "both": ("screen", "log", "own_log")},
+}
+
+
+def output(
+    written: Template | Mapping[str, tuple[Template, ...]] | None, run: Resolution
+) -> str | Places | Poison | None:
+    """Return where the output goes, None where nothing is said."""
+    if written is None or isinstance(written, Template):
+        return run.word(written, OUTPUTS)
+    places: Places = {}
+    for stream in STREAMS:
+        words = [run.word(item, PLACES) for item in written.get(stream, ())]
+        if any(isinstance(word, Poison) for word in words):
+            return POISON
+        if words:
+            places[stream] = tuple(place for place in PLACES if place in words)
+    return next((word for word, meaning in _WORDS.items() if _routes(meaning) == _routes(places)), places)
+
+
+def _routes(places: Places) -> set[tuple[str, str]]:
+    """Return what goes where: `both` is another word for two streams, but for the file that holds both."""
+    routes = set()
+    for stream, targets in places.items():
+        for place in targets:
+            apart = place == "own_log" or stream != "both"
+            routes |= {(stream, place)} if apart else {("stdout", place), ("stderr", place)}
+    return routes
