@@ -55,7 +55,7 @@ def add_process(action: Running, program: Program, run: Resolution) -> None:
     sound = _Sound()
     location = run.at(action.span)
     on_exit = sound(run.word(action.on_exit, ON_EXIT))
-    places: str | dict[str, tuple[str, ...]] | None = sound(output(action.output, run))
+    places = output(action.output, run)
     process = ResolvedProcess(
         kind=program.kind,
         package=program.package,
@@ -72,7 +72,7 @@ def add_process(action: Running, program: Program, run: Resolution) -> None:
         environment=sound(_environment(action, run)) or {},
         parameters=program.parameters,
         remaps=program.remaps,
-        output=places,
+        output=sound(places) if isinstance(places, Poison) else places,
         emulate_tty=sound(_emulate_tty(action, run)),
         restart=sound(restart(action, run)),
         required=sound(run.flag(action.required, default=on_exit is not None)) is True,

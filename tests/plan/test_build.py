@@ -345,6 +345,7 @@ def test_every_field_of_the_specification_is_in_the_json(tmp_path: Path) -> None
             "shell",
             "prefix",
             "environment",
+            "inherit_environment",
         ),
         *(
             "cwd",
