@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 from pydantic import ValidationError
 
-from orchestra.description.actions import ACTIONS, model_of
+from orchestra.description.actions import model_of
 from orchestra.description.launch import Description, Launch
 from orchestra.description.source import Keyed, Listed, Written, kind_of, texts_in
 from orchestra.errors import Code
-from orchestra.load.keys import meant, spelled
+from orchestra.load.elements import emptied
+from orchestra.load.keys import action_meant, spelled
 from orchestra.load.reader import Reader
-from orchestra.load.words import ELSEWHERE, UNSUPPORTED
+from orchestra.load.words import UNSUPPORTED
 
 if TYPE_CHECKING:
     from orchestra.description.entity import Action, Entity
@@ -134,7 +135,7 @@ class _Builder:
         if spelled(name) in UNSUPPORTED:
             self.reader.error(Code.UNKNOWN_ACTION, f"the action '{name}' is not supported yet", at)
             return None, False
-        near, slip = meant(name, ACTIONS, ELSEWHERE)
+        near, slip = action_meant(name)
         self.reader.error(Code.UNKNOWN_ACTION, f"unknown action '{name}'", at, suggestion=near)
         return (model_of(near) if near is not None and slip else None), False
 
@@ -144,7 +145,7 @@ class _Builder:
 
 def _with_children(content: Keyed, children: tuple[Action, ...]) -> Keyed:
     """Return the mapping with its actions built; the tree stays as it is, for it may be searched for what was lost."""
-    built = Keyed(content.span, content.head)
+    built = emptied(content)
     built.update(content)
     built.keys_at, built.lossy, built.meant = content.keys_at, content.lossy, content.meant
     built["children"] = children

@@ -14,7 +14,12 @@ from orchestra.location import Location, Span, displayed, point
 if TYPE_CHECKING:
     from orchestra.description.launch import Description
 
-FORMATS: dict[str, str] = {".yaml": "yaml_file", ".yml": "yaml_file"}
+FORMATS: dict[str, str] = {
+    ".launch": "launch_file",
+    ".xml": "xml_file",
+    ".yaml": "yaml_file",
+    ".yml": "yaml_file",
+}
 
 _LARGEST = 64 * 1024 * 1024
 
@@ -57,7 +62,6 @@ def _text(path: str, file: str, problems: Problems, location: Location) -> str |
 
 
 def _unknown_format(file: str) -> str:
-    for ending, language in (((".xml", ".launch"), "XML"), ((".py",), "Python")):
-        if file.endswith(ending):
-            return f"{file} is a launch file in {language}, which cannot be read yet: only YAML can"
+    if file.endswith(".py"):
+        return f"{file} is a launch file in Python, which cannot be read yet"
     return f"cannot tell the format of {file}: launch files end in " + ", ".join(sorted(FORMATS))

@@ -8,13 +8,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Protocol
 
-from orchestra.description.source import Keyed
+from orchestra.description.actions import ACTIONS
 from orchestra.errors import Code
+from orchestra.load.elements import emptied, noun
+from orchestra.load.words import ELSEWHERE
 from orchestra.nearest import is_slip, nearest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from orchestra.description.source import Keyed
     from orchestra.location import Span
 
 # Words of the Python launch files and of ROS 1, and how they are spelled here.
@@ -67,18 +70,28 @@ def meant(word: str, known: Iterable[str], elsewhere: Mapping[str, str]) -> tupl
     return near, near is not None and is_slip(word, near)
 
 
+def key_meant(word: str, known: Iterable[str]) -> tuple[str | None, bool]:
+    """Return the known key that another word probably means, and whether it is only a slip."""
+    return meant(word, known, _ELSEWHERE)
+
+
+def action_meant(word: str) -> tuple[str | None, bool]:
+    """Return the action that an unknown one probably means, and whether it is only a slip."""
+    return meant(word, ACTIONS, ELSEWHERE)
+
+
 def known_keys(known: frozenset[str], mapping: Keyed, report: Report) -> Keyed:
     """Return the mapping with no keys but known ones; every other key is reported, and so is one that stands twice."""
     if mapping.keys() <= known:
         return mapping
-    read = Keyed(mapping.span, mapping.head)
+    read = emptied(mapping)
     read.lossy, read.meant = mapping.lossy, set(mapping.meant)
     free = known - {spelled(key) for key in mapping}
     for key, value in mapping.items():
         at, name = mapping.keys_at[key], spelled(key)
         if name not in known:
-            near, slip = meant(key, free, _ELSEWHERE)
-            report(Code.UNKNOWN_KEY, f"unknown key '{key}'", at, suggestion=near)
+            near, slip = key_meant(key, free)
+            report(Code.UNKNOWN_KEY, f"unknown {noun(mapping, key)}", at, suggestion=near)
             if near is None or not slip:
                 read.lossy = True
                 read.meant |= {near} if near is not None else set()
@@ -86,7 +99,7 @@ def known_keys(known: frozenset[str], mapping: Keyed, report: Report) -> Keyed:
             name, free = near, free - {near}
         if name in read:
             first = f"first at {read.keys_at[name]}"
-            report(Code.DUPLICATE_KEY, f"the key '{key}' stands twice in one mapping", at, notes=(first,))
+            report(Code.DUPLICATE_KEY, f"the {noun(mapping, key)} stands twice", at, notes=(first,))
         else:
             read.put(name, value, at)
     return read

@@ -9,6 +9,7 @@ from orchestra.description.entity import REPORTED
 from orchestra.description.source import Keyed, Listed, Written, kind_of
 from orchestra.description.text import Template, Words
 from orchestra.errors import Code, Problems
+from orchestra.load.elements import noun
 from orchestra.load.grammar import parse_template, unescaped
 from orchestra.load.keys import known_keys
 from orchestra.location import Location, Span
@@ -86,7 +87,8 @@ class Reader:
         kind = error["type"]
         place = error["loc"]
         if kind == "missing":
-            self.error(Code.MISSING_KEY, f"the key '{place[-1]}' is missing", _at(mapping, place[:-1]))
+            missing = noun(mapping, str(place[-1]))
+            self.error(Code.MISSING_KEY, f"the {missing} is missing", _at(mapping, place[:-1]))
             return
         if kind in _WANTED:
             message = f"expected {_WANTED[kind]}, found {kind_of(error['input'])}"

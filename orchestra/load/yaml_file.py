@@ -140,7 +140,7 @@ class _Tree:
                 first = mapping.keys_at[key.value]
                 self.reader.error(
                     Code.DUPLICATE_KEY,
-                    f"the key '{key.value}' stands twice in one mapping",
+                    f"the key '{key.value}' stands twice",
                     at,
                     notes=(f"first at {first}",),
                 )

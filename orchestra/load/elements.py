@@ -1,0 +1,96 @@
+"""Elements of an XML file with the place of every name and value, before it is known what they mean."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from orchestra.description.source import Keyed, Written
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from orchestra.load.offsets import Source
+    from orchestra.location import Span
+
+# Each piece of an attribute's source stands for one character of its value.
+_PIECE = re.compile(r"&[^;]*;|\r\n|.", re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class Attribute:
+    """An attribute: offsets of its name, and of the source of its value inside the quotes."""
+
+    name: str
+    value: str
+    at: int
+    begin: int
+    end: int
+
+    def span(self, whole: Source) -> Span:
+        """Return the place of the name."""
+        return whole.span(self.at, self.at + len(self.name))
+
+    def written(self, whole: Source) -> Written:
+        """Return the value with its place in the file."""
+        return Written(self.value, whole.span(self.begin, self.end), self._spans(whole))
+
+    def _spans(self, whole: Source) -> Callable[[int, int], Span]:
+        begin, end = self.begin, self.end
+        source = whole.text[begin:end]
+        if source == self.value:
+            return lambda first, last: whole.span(begin + first, begin + last)
+        offsets: list[int] = []
+
+        def spans(first: int, last: int) -> Span:
+            if not offsets:
+                offsets.extend(begin + found.start() for found in _PIECE.finditer(source))
+                offsets.append(end)
+            return whole.span(offsets[first], offsets[last])
+
+        return spans
+
+
+@dataclass(slots=True)
+class Element:
+    """An element: `at` is the offset of its name, `end` that behind its start tag.
+
+    `text` is the place of the first text in it that is not blank.
+    """
+
+    name: str
+    at: int
+    end: int
+    attributes: tuple[Attribute, ...]
+    children: list[Element] = field(default_factory=list)
+    text: tuple[int, int] | None = None
+
+    def span(self, whole: Source) -> Span:
+        """Return the place of the name."""
+        return whole.span(self.at, self.at + len(self.name))
+
+
+class Tagged(Keyed):
+    """An element as a mapping; `elements` are the keys that are written as elements, all others are attributes."""
+
+    __slots__ = ("element", "elements")
+
+    def __init__(self, span: Span, head: Span, element: Element, elements: frozenset[str]) -> None:
+        super().__init__(span, head)
+        self.element = element
+        self.elements = elements
+
+
+def emptied(mapping: Keyed) -> Keyed:
+    """Return a mapping of the same kind and place without keys."""
+    if isinstance(mapping, Tagged):
+        return Tagged(mapping.span, mapping.head, mapping.element, mapping.elements)
+    return Keyed(mapping.span, mapping.head)
+
+
+def noun(mapping: Keyed, key: str) -> str:
+    """Return how a key is called in the user's format."""
+    if not isinstance(mapping, Tagged):
+        return f"key '{key}'"
+    return f"element <{key}>" if key in mapping.elements else f"attribute '{key}'"

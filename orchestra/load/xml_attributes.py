@@ -1,0 +1,72 @@
+"""Attributes that hold lists: with a separator in an attribute beside them, or as `[a, b]`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import yaml
+
+from orchestra.description.source import Listed, Written
+from orchestra.errors import Code
+
+if TYPE_CHECKING:
+    from orchestra.load.elements import Attribute
+    from orchestra.load.offsets import Source
+    from orchestra.load.reader import Reader
+
+_PARSER: type[Any] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
+
+
+def separated(attribute: Attribute, separator: Attribute, whole: Source, reader: Reader) -> Listed:
+    """Return the pieces of a value between separators, blanks and all, as upstream."""
+    items = Listed(whole.span(attribute.begin, attribute.end))
+    written = attribute.written(whole)
+    if not separator.value:
+        message = f"the separator of '{attribute.name}' is empty"
+        reader.error(Code.BAD_VALUE, message, separator.span(whole))
+        items.append(written)
+        return items
+    at = 0
+    for piece in written.text.split(separator.value):
+        items.append(_part(written, at, at + len(piece), piece))
+        at += len(piece) + len(separator.value)
+    return items
+
+
+def listed(attribute: Attribute, whole: Source) -> Listed:
+    """Return the items of a value as `[a, b]`, by YAML's rules; any other value is a list of one."""
+    written = attribute.written(whole)
+    items = Listed(written.span)
+    node = _composed(written.text)
+    if isinstance(node, yaml.SequenceNode) and all(isinstance(item, yaml.ScalarNode) for item in node.value):
+        for item in node.value:
+            items.append(_item(written, item))
+    else:
+        items.append(written)
+    return items
+
+
+def _composed(text: str) -> yaml.Node | None:
+    try:
+        return yaml.compose(text, Loader=_PARSER) if text.lstrip().startswith("[") else None
+    except yaml.YAMLError:
+        return None
+
+
+def _item(written: Written, node: yaml.ScalarNode) -> Written:
+    begin, end = node.start_mark.index, node.end_mark.index
+    inset = 1 if node.style else 0
+    if written.text[begin + inset : end - inset] == node.value:
+        return _part(written, begin + inset, end - inset, node.value, quoted=bool(node.style))
+    span = written.spans(begin, end)
+    return Written(node.value, span, lambda _first, _last: span, quoted=bool(node.style))
+
+
+def _part(written: Written, begin: int, end: int, text: str, *, quoted: bool = False) -> Written:
+    """Return a stretch of a value as a value of its own."""
+    return Written(
+        text,
+        written.spans(begin, end),
+        lambda first, last: written.spans(begin + first, begin + last),
+        quoted=quoted,
+    )

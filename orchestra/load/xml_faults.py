@@ -1,0 +1,199 @@
+"""Why a text is no XML, in the words of who wrote it: the parser's own are few and point behind the cause."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+from xml.parsers.expat import ErrorString, errors
+
+from orchestra.description.source import shortened
+from orchestra.errors import Code
+from orchestra.nearest import is_slip
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from orchestra.load.offsets import Source
+    from orchestra.location import Span
+
+_NAME = r"[^\s=<>/\"'&]+"
+_WORD = re.compile(_NAME)
+_ENTITY = re.compile(r"&(?!(?:amp|lt|gt|quot|apos);|#)([^;\s&<]*;?)")
+_CHARACTER = re.compile(r"&#[^;\s&<]*;?")
+_ATTRIBUTE = re.compile(rf"""(\s*)({_NAME})(?:\s*=\s*(?:("[^"<]*"?|'[^'<]*'?)|({_NAME}))?)?""")
+_KNOWN_ENTITIES = "XML knows &amp; &lt; &gt; &quot; &apos; and numbers such as &#10;"
+
+
+@dataclass(frozen=True, slots=True)
+class Fault:
+    """What is wrong and where."""
+
+    message: str
+    span: Span
+    code: Code = Code.SYNTAX
+    suggestion: str | None = None
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class Opened:
+    """The innermost element that is open where a fault is found."""
+
+    name: str
+    span: Span
+
+
+def explained(code: int, at: int, whole: Source, opened: Opened | None) -> Fault:
+    """Return the fault behind an error code of expat at an offset."""
+    reason = ErrorString(code)
+    if reason in _EXPLANATIONS:
+        return _EXPLANATIONS[reason](at, whole, opened)
+    return _fault(f"this is not XML: {reason}", whole, at, at)
+
+
+def _fault(message: str, whole: Source, begin: int, end: int, suggestion: str | None = None) -> Fault:
+    return Fault(message, whole.span(begin, end), suggestion=suggestion)
+
+
+def _mismatch(at: int, whole: Source, opened: Opened | None) -> Fault:
+    name = _word(whole.text, at)
+    assert opened is not None  # noqa: S101 - a tag is closed that does not match one
+    return Fault(
+        f"</{name}> stands where </{opened.name}> is expected",
+        whole.span(at, at + len(name)),
+        suggestion=opened.name if is_slip(name, opened.name) else None,
+        notes=(f"<{opened.name}> is opened at {opened.span}",),
+    )
+
+
+def _ended(at: int, whole: Source, opened: Opened | None) -> Fault:
+    if opened is not None:
+        return Fault(f"<{opened.name}> is not closed: </{opened.name}> is missing", opened.span)
+    del at
+    return _fault("the file is empty: a launch file has a <launch> element", whole, 0, 0)
+
+
+def _unclosed(at: int, whole: Source, opened: Opened | None) -> Fault:
+    del opened
+    for begin, what, end in (("<!--", "comment", "-->"), ("<?", "processing instruction", "?>")):
+        if whole.text.startswith(begin, at):
+            return _fault(f"this {what} is not closed: '{end}' is missing", whole, at, at + len(begin))
+    return _in_tag(at, len(whole.text), whole) or _fault(
+        "this tag is not closed: '>' is missing", whole, at, at + 1
+    )
+
+
+def _unclosed_cdata(at: int, whole: Source, opened: Opened | None) -> Fault:
+    del opened
+    begin = whole.text.rfind("<![CDATA[", 0, at)
+    return _fault("this CDATA section is not closed: ']]>' is missing", whole, begin, begin + 9)
+
+
+def _second_root(at: int, whole: Source, opened: Opened | None) -> Fault:
+    del opened
+    if whole.text.startswith("<", at) and (name := _word(whole.text, at + 1)):
+        message = f"a launch file has one root element: <{name}> stands behind it"
+        return _fault(message, whole, at + 1, at + 1 + len(name))
+    line = whole.text[at:].partition("\n")[0].rstrip()
+    return _fault(f"'{shortened(line)}' stands behind the root element", whole, at, at + len(line))
+
+
+def _unknown_entity(at: int, whole: Source, opened: Opened | None) -> Fault:
+    del opened
+    found = _ENTITY.search(whole.text, at)
+    begin, end = found.span() if found else (at, at)
+    name = whole.text[begin:end]
+    span = whole.span(begin, end)
+    return Fault(f"there is no entity {name}", span, suggestion=f"&amp;{name[1:]}", notes=(_KNOWN_ENTITIES,))
+
+
+def _no_character(at: int, whole: Source, opened: Opened | None) -> Fault:
+    del opened
+    found = _CHARACTER.match(whole.text, at)
+    end = found.end() if found else at
+    return _fault(f"{whole.text[at:end]} is no character that XML can hold", whole, at, end)
+
+
+def _twice(at: int, whole: Source, opened: Opened | None) -> Fault:
+    del opened
+    name = _word(whole.text, at)
+    tag = whole.text.rfind("<", 0, at)
+    first = re.compile(rf"\s({re.escape(name)})\s*=").search(whole.text, tag)
+    notes = (f"first at {whole.span(first.start(1), first.end(1))}",) if first else ()
+    message = f"the attribute '{name}' stands twice in one element"
+    return Fault(message, whole.span(at, at + len(name)), Code.DUPLICATE_KEY, notes=notes)
+
+
+def _late_declaration(at: int, whole: Source, opened: Opened | None) -> Fault:
+    del opened
+    return _fault("the XML declaration must be the very first in the file", whole, at, at + 5)
+
+
+def _invalid(at: int, whole: Source, opened: Opened | None) -> Fault:
+    """Return the cause of what the parser calls an invalid token, or a syntax error outside the root."""
+    text = whole.text
+    begin = text.rfind("<", 0, at)
+    if text.startswith("<!--", begin) and text.find("-->", begin, at) < 0:
+        return _fault("'--' cannot stand inside a comment", whole, at - 2, at)
+    ampersand = text.rfind("&", 0, at)
+    if ampersand >= 0 and re.fullmatch(r"&[\w.#-]*", text[ampersand:at]):
+        return _fault("'&' begins an entity: write &amp;", whole, ampersand, ampersand + 1, "&amp;")
+    here = text[at : at + 1]
+    if here and (here < " " or here in "\ufffe\uffff"):
+        return _fault(f"the character U+{ord(here):04X} cannot stand in XML", whole, at, at + 1)
+    if begin >= 0 and text.find(">", begin, at) < 0 and (fault := _in_tag(begin, at, whole)):
+        return fault
+    if opened is None and begin < 0:
+        line = text[at:].partition("\n")[0].rstrip()
+        return _fault(f"this is not XML: it begins with '{shortened(line)}'", whole, at, at + len(line))
+    return _fault("this is not XML", whole, at, at + len(here))
+
+
+def _in_tag(begin: int, at: int, whole: Source) -> Fault | None:
+    """Return what is wrong with the attributes of a tag that begins at one offset and fails at another."""
+    text = whole.text
+    place = begin + 1 + len(_word(text, begin + 1))
+    if place == begin + 1:
+        return _fault("'<' begins a tag: write &lt;", whole, begin, begin + 1, "&lt;")
+    while (found := _ATTRIBUTE.match(text, place)) and found.start() <= at:
+        blank, name, quoted, bare = found.groups()
+        if not blank:
+            return _fault(f"a space is missing before '{name}'", whole, found.start(2), found.end(2))
+        if bare:
+            return _fault(f"the value of '{name}' needs quotes", whole, *found.span(4), f'"{bare}"')
+        if not quoted:
+            message = f"the attribute '{name}' has no value: write {name}=\"...\""
+            return _fault(message, whole, *found.span(2))
+        if len(quoted) == 1 or quoted[-1] != quoted[0]:
+            return _in_value(name, found.start(3), found.end(3), whole)
+        place = found.end()
+    return None
+
+
+def _in_value(name: str, begin: int, end: int, whole: Source) -> Fault:
+    """Return why a value is not closed: over more than a line probably for want of a quote."""
+    if "\n" not in whole.text[begin:end] and whole.text.startswith("<", end):
+        message = f"the value of '{name}' cannot hold '<': write &lt;"
+        return _fault(message, whole, end, end + 1, "&lt;")
+    return _fault(f"the value of '{name}' is not closed: a quote is missing", whole, begin, begin + 1)
+
+
+def _word(text: str, at: int) -> str:
+    found = _WORD.match(text, at)
+    return found[0] if found else ""
+
+
+_EXPLANATIONS: Final[Mapping[str, Callable[[int, Source, Opened | None], Fault]]] = {
+    errors.XML_ERROR_SYNTAX: _invalid,
+    errors.XML_ERROR_INVALID_TOKEN: _invalid,
+    errors.XML_ERROR_NO_ELEMENTS: _ended,
+    errors.XML_ERROR_UNCLOSED_TOKEN: _unclosed,
+    errors.XML_ERROR_UNCLOSED_CDATA_SECTION: _unclosed_cdata,
+    errors.XML_ERROR_TAG_MISMATCH: _mismatch,
+    errors.XML_ERROR_DUPLICATE_ATTRIBUTE: _twice,
+    errors.XML_ERROR_JUNK_AFTER_DOC_ELEMENT: _second_root,
+    errors.XML_ERROR_UNDEFINED_ENTITY: _unknown_entity,
+    errors.XML_ERROR_BAD_CHAR_REF: _no_character,
+    errors.XML_ERROR_MISPLACED_XML_PI: _late_declaration,
+}

@@ -1,0 +1,223 @@
+"""XML launch files as trees of scalars, mappings and lists that know their place: the same trees as YAML gives.
+
+What an element means is told by the model that it belongs to (`forms`): scalars are attributes, parts are elements, and
+what is no key of a group is one of its actions. So every key that a model has can be written in XML.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from orchestra.description.actions import ACTIONS, model_of
+from orchestra.description.launch import Launch
+from orchestra.description.source import Keyed, Listed
+from orchestra.errors import Code
+from orchestra.load.elements import Element, Tagged
+from orchestra.load.forms import Form, Kind, forms_of
+from orchestra.load.keys import action_meant, key_meant, spelled
+from orchestra.load.offsets import source
+from orchestra.load.xml_attributes import listed, separated
+from orchestra.load.xml_parser import NotXmlError, parse
+from orchestra.nearest import is_slip, nearest
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from orchestra.description.entity import Entity
+    from orchestra.load.offsets import Source
+    from orchestra.load.reader import Reader
+    from orchestra.location import Span
+
+_ROOT = "launch"
+_NO_FORMS: Mapping[str, Form] = {}
+# Attributes of a root that say nothing to us: files of ROS 1 carry a version.
+_IGNORED = frozenset({"version"})
+# Keys of which a text between tags is probably meant to be the value.
+_VALUES = ("value",)
+
+
+def read(text: str, file: str, reader: Reader) -> Keyed | None:
+    """Return the tree of an XML text, None where it is no XML or no launch file (which has been reported)."""
+    whole = source(file, text)
+    try:
+        root = parse(whole)
+    except NotXmlError as error:
+        fault = error.fault
+        reader.error(fault.code, fault.message, fault.span, suggestion=fault.suggestion, notes=fault.notes)
+        return None
+    at = root.span(whole)
+    if root.name != _ROOT:
+        near = _ROOT if is_slip(root.name, _ROOT) else None
+        message = f"the root element of a launch file is <{_ROOT}>, not <{root.name}>"
+        reader.error(Code.UNKNOWN_KEY, message, at, suggestion=near)
+        if near is None:
+            return None
+    tree = Keyed(at, at)
+    tree.put(_ROOT, _Shaper(whole, reader).launch(root), at)
+    return tree
+
+
+@dataclass(slots=True)
+class _Shaper:
+    """Makes trees of elements."""
+
+    whole: Source
+    reader: Reader
+
+    def launch(self, root: Element) -> Tagged:
+        """Return the content of the root; unlike any other element it may have attributes that mean nothing."""
+        known = forms_of(Launch)
+        for attribute in root.attributes:
+            name = attribute.name
+            if spelled(name) not in known and name not in _IGNORED and ":" not in name:
+                near = nearest(name, {key for key, form in known.items() if form.kind is Kind.TEXT})
+                self.reader.warning(
+                    Code.UNKNOWN_KEY,
+                    f"the attribute '{name}' of <{root.name}> is ignored",
+                    attribute.span(self.whole),
+                    suggestion=near,
+                )
+        root.attributes = tuple(item for item in root.attributes if spelled(item.name) in known)
+        return self.content(root, Launch)
+
+    def action(self, element: Element) -> Keyed:
+        """Return an action: a mapping with its name as the only key."""
+        at = element.span(self.whole)
+        action = Keyed(at, at)
+        model = model_of(spelled(element.name))
+        if model is None:
+            near, slip = action_meant(element.name)
+            model = model_of(near) if near is not None and slip else None
+        action.put(element.name, self.content(element, model), at)
+        return action
+
+    def content(self, element: Element, model: type[Entity] | None) -> Tagged:
+        """Return what an element says; without a model scalars are taken for texts, elements for lists."""
+        forms = forms_of(model) if model is not None else _NO_FORMS
+        at = element.span(self.whole)
+        names = frozenset(key for key, form in forms.items() if form.is_element)
+        tagged = Tagged(at, at, element, names)
+        self._attributes(element, forms, tagged)
+        nested = any(form.kind is Kind.ACTIONS for form in forms.values())
+        actions = Listed(at)
+        for child in element.children:
+            form = self._form(child.name, forms, actions=nested)
+            if form is not None:
+                self._child(child, form, tagged)
+            elif nested:
+                actions.append(self.action(child))
+            else:
+                self._part(child, None, tagged)
+        if nested:
+            tagged.put("children", actions, at)
+        if element.text is not None:
+            self._text(element, model, tagged)
+        return tagged
+
+    def _attributes(self, element: Element, forms: Mapping[str, Form], tagged: Tagged) -> None:
+        separators = {
+            spelled(item.name).removesuffix("_sep"): item
+            for item in element.attributes
+            if spelled(item.name).endswith("_sep")
+        }
+        names = {spelled(item.name) for item in element.attributes}
+        for attribute in element.attributes:
+            name = spelled(attribute.name)
+            if attribute.name.split(":")[0] == "xmlns" or (
+                name.endswith("_sep") and name.removesuffix("_sep") in names
+            ):
+                continue
+            form = self._form(attribute.name, forms) or Form(Kind.TEXT)
+            at = attribute.span(self.whole)
+            if form.kind not in {Kind.TEXT, Kind.LIST}:
+                self._not_an_attribute(attribute.name, form, at, tagged)
+            elif name in separators:
+                separator = separators[name]
+                tagged.put(attribute.name, separated(attribute, separator, self.whole, self.reader), at)
+            elif form.kind is Kind.LIST:
+                tagged.put(attribute.name, listed(attribute, self.whole), at)
+            else:
+                tagged.put(attribute.name, attribute.written(self.whole), at)
+
+    def _form(self, name: str, forms: Mapping[str, Form], *, actions: bool = False) -> Form | None:
+        """Return the form of a key, or of the one that it is a slip of unless it may as well be an action."""
+        form = forms.get(spelled(name))
+        if form is not None or not forms or (actions and spelled(name) in ACTIONS):
+            return form
+        near, slip = key_meant(name, {*forms, *(ACTIONS if actions else ())})
+        return forms.get(near) if near is not None and slip else None
+
+    def _child(self, child: Element, form: Form, tagged: Tagged) -> None:
+        at = child.span(self.whole)
+        match form.kind:
+            case Kind.PART:
+                self._once(child, self.content(child, form.model), tagged)
+            case Kind.PARTS:
+                self._part(child, form.model, tagged)
+            case Kind.VARIABLES:
+                self._once(child, self._variables(child), tagged)
+            case _:
+                message = f"'{child.name}' is written as an attribute: {child.name}=\"...\""
+                self.reader.error(Code.WRONG_TYPE, message, at)
+                _lose(tagged, child.name)
+
+    def _once(self, child: Element, content: Keyed, tagged: Tagged) -> None:
+        if child.name not in tagged:
+            tagged.put(child.name, content, content.head)
+            return
+        message = f"<{child.name}> stands twice in <{tagged.element.name}>"
+        first = f"first at {tagged.keys_at[child.name]}"
+        self.reader.error(Code.DUPLICATE_KEY, message, content.head, notes=(first,))
+
+    def _part(self, child: Element, model: type[Entity] | None, tagged: Tagged) -> None:
+        """Add an element to the list of those with its name."""
+        name = spelled(child.name) if spelled(child.name) in tagged.elements else child.name
+        content = self.content(child, model)
+        if name not in tagged:
+            tagged.elements |= {name}
+            tagged.put(name, Listed(content.head), content.head)
+        if isinstance(tagged[name], Listed):
+            tagged[name].append(content)
+
+    def _variables(self, element: Element) -> Tagged:
+        """Return an element whose attributes are names of the user's choice."""
+        return self.content(element, None)
+
+    def _text(self, element: Element, model: type[Entity] | None, tagged: Tagged) -> None:
+        """Tell that text between tags says nothing; an error where something is missing that it probably is."""
+        assert element.text is not None  # noqa: S101 - asked by the caller
+        span = self.whole.span(*element.text)
+        message = "text between tags is ignored"
+        lacking = _lacking(model, tagged)
+        if lacking:
+            key = next(iter(sorted(lacking)))
+            self.reader.error(Code.WRONG_TYPE, f'{message}: write it as {key}="..."', span)
+            for name in lacking:
+                _lose(tagged, name)
+        else:
+            self.reader.warning(Code.WRONG_TYPE, message, span)
+
+    def _not_an_attribute(self, name: str, form: Form, at: Span, tagged: Tagged) -> None:
+        key = spelled(name)
+        if form.kind is Kind.ACTIONS:
+            message = f"'{name}' is no attribute: actions stand inside <{tagged.element.name}>"
+        else:
+            message = f"'{name}' is written as an element: <{key} .../>"
+        self.reader.error(Code.WRONG_TYPE, message, at)
+        _lose(tagged, key)
+
+
+def _lacking(model: type[Entity] | None, tagged: Tagged) -> frozenset[str]:
+    """Return the keys that an element lacks and that a text in it may stand for."""
+    if model is None or tagged.element.children:
+        return frozenset()
+    present = {spelled(key) for key in tagged}
+    required = model.required_keys() - present
+    return required or (frozenset(_VALUES) & model.known_keys() if present <= {"name"} else frozenset())
+
+
+def _lose(tagged: Tagged, key: str) -> None:
+    """Mark a key as reported and left out."""
+    tagged.lossy = True
+    tagged.meant |= {spelled(key)}
