@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code, Problems
+from orchestra.load.encodings import UndecodableError, decoded
 from orchestra.load.entities import describe
 from orchestra.load.reader import Reader
 from orchestra.location import Location, Span, displayed, point
@@ -52,12 +53,10 @@ def _text(path: str, file: str, problems: Problems, location: Location) -> str |
         problems.error(Code.UNREADABLE_FILE, f"{file} is larger than 64 MiB", location)
         return None
     try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        before = content[: error.start].decode("utf-8-sig", errors="replace")
-        line, column = before.count("\n") + 1, len(before) - before.rfind("\n")
-        at = Location(point(file, line, column), location.included_from)
-        problems.error(Code.SYNTAX, f"this is not UTF-8: byte 0x{content[error.start]:02x}", at)
+        return decoded(content)
+    except UndecodableError as error:
+        at = Location(point(file, error.line, error.column), location.included_from)
+        problems.error(Code.SYNTAX, str(error), at)
         return None
 
 

@@ -38,6 +38,7 @@ _ELSEWHERE = {
     "prefix": "launch_prefix",
     "remappings": "remap",
     "ros_arguments": "ros_args",
+    "type": "exec",
 }
 
 

@@ -49,6 +49,10 @@ class Reader:
             code, message, Location(span, self.included_from), suggestion=suggestion, notes=notes
         )
 
+    def warning(self, code: Code, message: str, span: Span, *, suggestion: str | None = None) -> None:
+        """Report a warning in this file."""
+        self.problems.warning(code, message, Location(span, self.included_from), suggestion=suggestion)
+
     def template(self, written: Written) -> Template:
         """Read a text with substitutions."""
         if written.text and "$(" not in written.text and "\\" not in written.text:
@@ -93,7 +97,7 @@ class Reader:
         if kind in _WANTED:
             message = f"expected {_WANTED[kind]}, found {kind_of(error['input'])}"
         elif kind == "too_short":
-            message = f"expected at least one item, found {kind_of(error['input'])} without any"
+            message = "expected at least one item, found none"
         else:
             message = error["msg"]
         self.error(Code.WRONG_TYPE, message, _at(mapping, place))

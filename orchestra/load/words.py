@@ -6,12 +6,15 @@ from typing import Final
 
 # Words of the Python launch files and of ROS 1, and how they are spelled here.
 ELSEWHERE: Final = {
+    "composable_node_container": "node_container",
     "declare_argument": "arg",
     "declare_launch_argument": "arg",
+    "env": "set_env",
     "execute_process": "executable",
     "group_action": "group",
     "include_launch_description": "include",
     "log_info": "log",
+    "param": "set_parameter",
     "push_namespace": "push_ros_namespace",
     "remap": "set_remap",
     "rosparam": "set_parameter",

@@ -9,19 +9,20 @@ from xml.parsers.expat import ErrorString, errors
 
 from orchestra.description.source import shortened
 from orchestra.errors import Code
+from orchestra.location import Span
 from orchestra.nearest import is_slip
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from orchestra.load.offsets import Source
-    from orchestra.location import Span
 
 _NAME = r"[^\s=<>/\"'&]+"
 _WORD = re.compile(_NAME)
 _ENTITY = re.compile(r"&(?!(?:amp|lt|gt|quot|apos);|#)([^;\s&<]*;?)")
 _CHARACTER = re.compile(r"&#[^;\s&<]*;?")
 _ATTRIBUTE = re.compile(rf"""(\s*)({_NAME})(?:\s*=\s*(?:("[^"<]*"?|'[^'<]*'?)|({_NAME}))?)?""")
+_CURLY = "\u201c\u201d\u201e\u2018\u2019"
 _KNOWN_ENTITIES = "XML knows &amp; &lt; &gt; &quot; &apos; and numbers such as &#10;"
 
 
@@ -142,8 +143,10 @@ def _invalid(at: int, whole: Source, opened: Opened | None) -> Fault:
     here = text[at : at + 1]
     if here and (here < " " or here in "\ufffe\uffff"):
         return _fault(f"the character U+{ord(here):04X} cannot stand in XML", whole, at, at + 1)
-    if begin >= 0 and text.find(">", begin, at) < 0 and (fault := _in_tag(begin, at, whole)):
+    if begin >= 0 and (fault := _in_tag(begin, at, whole)):
         return fault
+    if text.endswith("]]", 0, at) and here == ">":
+        return _fault("']]>' cannot stand in a text", whole, at - 2, at + 1)
     if opened is None and begin < 0:
         line = text[at:].partition("\n")[0].rstrip()
         return _fault(f"this is not XML: it begins with '{shortened(line)}'", whole, at, at + len(line))
@@ -154,14 +157,20 @@ def _in_tag(begin: int, at: int, whole: Source) -> Fault | None:
     """Return what is wrong with the attributes of a tag that begins at one offset and fails at another."""
     text = whole.text
     place = begin + 1 + len(_word(text, begin + 1))
-    if place == begin + 1:
-        return _fault("'<' begins a tag: write &lt;", whole, begin, begin + 1, "&lt;")
+    if text.startswith("/", begin + 1):
+        place = begin + 2 + len(_word(text, begin + 2))
+        return None if at > place else _fault(f"'{text[begin:place]}>' closes nothing", whole, begin, place)
+    if place == begin + 1 or begin < at < place:
+        message = "'<' begins a tag, and a name follows at once: a '<' of a text is written &lt;"
+        return _fault(message, whole, begin, begin + 1, "&lt;")
     while (found := _ATTRIBUTE.match(text, place)) and found.start() <= at:
         blank, name, quoted, bare = found.groups()
         if not blank:
             return _fault(f"a space is missing before '{name}'", whole, found.start(2), found.end(2))
         if bare:
-            return _fault(f"the value of '{name}' needs quotes", whole, *found.span(4), f'"{bare}"')
+            return _fault(
+                f"the value of '{name}' needs quotes", whole, *found.span(4), f'"{bare.strip(_CURLY)}"'
+            )
         if not quoted:
             message = f"the attribute '{name}' has no value: write {name}=\"...\""
             return _fault(message, whole, *found.span(2))
@@ -172,8 +181,10 @@ def _in_tag(begin: int, at: int, whole: Source) -> Fault | None:
 
 
 def _in_value(name: str, begin: int, end: int, whole: Source) -> Fault:
-    """Return why a value is not closed: over more than a line probably for want of a quote."""
-    if "\n" not in whole.text[begin:end] and whole.text.startswith("<", end):
+    """Return why a value is not closed: a '<' in it, or a quote that is missing before that."""
+    text = whole.text
+    rest_of_line = text[end:].partition("\n")[0]
+    if not re.search("[\n>]", text[begin:end]) and text[begin] in rest_of_line:
         message = f"the value of '{name}' cannot hold '<': write &lt;"
         return _fault(message, whole, end, end + 1, "&lt;")
     return _fault(f"the value of '{name}' is not closed: a quote is missing", whole, begin, begin + 1)

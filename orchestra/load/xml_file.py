@@ -16,7 +16,8 @@ from orchestra.errors import Code
 from orchestra.load.elements import Element, Tagged
 from orchestra.load.forms import Form, Kind, forms_of
 from orchestra.load.keys import action_meant, key_meant, spelled
-from orchestra.load.offsets import source
+from orchestra.load.offsets import Source, source
+from orchestra.load.reader import Reader
 from orchestra.load.xml_attributes import listed, separated
 from orchestra.load.xml_parser import NotXmlError, parse
 from orchestra.nearest import is_slip, nearest
@@ -25,8 +26,6 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from orchestra.description.entity import Entity
-    from orchestra.load.offsets import Source
-    from orchestra.load.reader import Reader
     from orchestra.location import Span
 
 _ROOT = "launch"

@@ -45,7 +45,7 @@ def parse(whole: Source) -> Element:
     parser.CharacterDataHandler = elements.text
     parser.StartDoctypeDeclHandler = elements.doctype
     try:
-        parser.Parse(content, True)  # noqa: FBT003 - its only way to say that nothing follows
+        parser.Parse(content, True)
     except expat.ExpatError as error:
         at = elements.offset(max(parser.ErrorByteIndex, 0))
         raise NotXmlError(explained(error.code, at, whole, elements.opened())) from None

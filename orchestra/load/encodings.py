@@ -1,0 +1,49 @@
+"""From the bytes of a file to its text: UTF-8, UTF-16 with a mark, or what an XML declaration says.
+
+UTF-8 comes first whatever is declared, as upstream: editors save UTF-8 and leave old declarations as they are.
+"""
+
+from __future__ import annotations
+
+import codecs
+import re
+from typing import Final
+
+_DECLARED = re.compile(rb"""\s*<\?xml\s[^>]*?\bencoding\s*=\s*["']([^"']*)["']""")
+_WIDE: Final = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+
+
+class UndecodableError(Exception):
+    """The bytes are no text; `line` and `column` are those of the first that is none."""
+
+    def __init__(self, reason: str, before: str) -> None:
+        super().__init__(reason)
+        self.line = before.count("\n") + 1
+        self.column = len(before) - before.rfind("\n")
+
+
+def decoded(content: bytes) -> str:
+    """Return the text of a file without its byte order mark. Raises `UndecodableError`."""
+    if content.startswith(_WIDE):
+        return _text(content, "utf-16")
+    declared = _DECLARED.match(content)
+    try:
+        return _text(content, "utf-8-sig")
+    except UndecodableError:
+        if declared is None:
+            raise
+    name = declared[1].decode("ascii", "replace")
+    try:
+        return _text(content, name)
+    except LookupError:
+        before = content[: declared.start(1)].decode("ascii", "replace")
+        raise UndecodableError(f"there is no encoding '{name}'", before) from None
+
+
+def _text(content: bytes, encoding: str) -> str:
+    try:
+        return content.decode(encoding)
+    except UnicodeDecodeError as error:
+        before = content[: error.start].decode(encoding, "replace")
+        name = encoding.removesuffix("-sig").upper()
+        raise UndecodableError(f"this is not {name}: byte 0x{content[error.start]:02x}", before) from None
