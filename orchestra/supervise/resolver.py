@@ -1,7 +1,12 @@
-"""The resolver process: `prepare` with everything heavy and all user code lives and dies there."""
+"""The resolver process: `prepare` with everything heavy and all user code lives and dies there.
+
+It hands over one document, behind a line of JSON `{"size": BYTES, "stays": BOOL}`, and ends; where it stays it answers
+what it is asked (`serving`) until the supervisor closes the connection.
+"""
 
 from __future__ import annotations
 
+import io
 import os
 import signal
 import sys
@@ -10,16 +15,20 @@ from orchestra.supervise import kernel
 from orchestra.supervise.keeper import flush
 from orchestra.supervise.signals import reset_signals
 
-TYPE_CHECKING = False
+TYPE_CHECKING = False  # `typing` costs more than this module, which the keeper carries
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from typing import BinaryIO
+    from typing import Any, BinaryIO, TypeAlias
+
+    # From one question to its answer, both JSON data; `orchestra.supervise.run.run` says which.
+    Answer: TypeAlias = Callable[[dict[str, Any]], dict[str, Any]]
+    Prepare: TypeAlias = Callable[[BinaryIO], int | Answer]
 
 BUG = 3
 
 
 class Resolver:
-    """A running resolver: its pid and the descriptor from which its document is read."""
+    """A running resolver: its pid and the descriptor, of a socket, to talk with it."""
 
     __slots__ = ("descriptor", "pid")
 
@@ -28,9 +37,9 @@ class Resolver:
         self.descriptor = descriptor
 
 
-def fork_resolver(prepare: Callable[[BinaryIO], int]) -> Resolver:
+def fork_resolver(prepare: Prepare) -> Resolver:
     """Run `prepare` in a child with default signals and a session of its own; it dies with its parent."""
-    ours, theirs = os.pipe()
+    ours, theirs = _connection()
     parent = os.getpid()
     pid = os.fork()
     if pid:
@@ -49,10 +58,26 @@ def fork_resolver(prepare: Callable[[BinaryIO], int]) -> Resolver:
         os._exit(status)
 
 
-def _prepare(prepare: Callable[[BinaryIO], int], descriptor: int) -> int:
+def _connection() -> tuple[int, int]:
+    import _socket  # noqa: PLC0415 - `socket` itself costs more than this module, and two descriptors are all we want
+
+    ours, theirs = _socket.socketpair(_socket.AF_UNIX, _socket.SOCK_STREAM)
+    return ours.detach(), theirs.detach()
+
+
+def _prepare(prepare: Prepare, descriptor: int) -> int:
     try:
-        with os.fdopen(descriptor, "wb") as stream:
-            status = prepare(stream)
+        # Held back until it is complete: a resolver that fails half-way has handed over nothing.
+        document = io.BytesIO()
+        result = prepare(document)
+        if result == 0 or not isinstance(result, int):
+            # Only now, and only here: neither keeper nor supervisor needs it.
+            from orchestra.supervise.serving import hand_over, serve  # noqa: PLC0415
+
+            stays = not isinstance(result, int)
+            hand_over(document.getbuffer(), descriptor, stays=stays)
+            result = serve(result, descriptor) if not isinstance(result, int) else result
+        status = result
     except SystemExit as error:
         status = _status(error)
     except BaseException:  # noqa: BLE001 - the boundary of this process: nothing may run on into the supervisor's code

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import json
 import os
 import signal
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from orchestra.supervise import document
 from orchestra.supervise.ending import Ending, signal_name
@@ -29,11 +30,15 @@ class Refused(Exception):  # noqa: N818 - nothing is wrong with the run: there i
 
 
 class Collection:
-    """Reads what the resolver writes until it has ended, or somebody wants no run any more."""
+    """Reads what the resolver writes until its document is complete, or somebody wants no run any more.
+
+    A resolver that does not stay has to end, so that its status counts.
+    """
 
     def __init__(self, resolver: Resolver, loop: Loop) -> None:
         self._resolver = resolver
         self._loop = loop
+        self._header: dict[str, Any] | None = None
         self._content = bytearray()
         self._open = True
         self._ending: Ending | None = None
@@ -50,10 +55,31 @@ class Collection:
     @property
     def done(self) -> bool:
         """Whether there is an answer."""
-        return self._ending is not None
+        return self._ending is not None or (self.stays and self._signal is None)
+
+    @property
+    def stays(self) -> bool:
+        """Whether the document is complete and the resolver waits for questions."""
+        header = self._header
+        return self._open and header is not None and header["stays"] and len(self._content) == header["size"]
 
     def result(self) -> Document:
         """Return the document. Raises `Refused` where there is none."""
+        if not self.stays:
+            self.check_ending()
+        try:
+            return document.loads(bytes(self._content))
+        except ValueError as error:
+            raise Refused(
+                3, f"this is a bug in Orchestra: the resolver handed over no plan: {error}"
+            ) from error
+
+    def dismiss(self) -> None:
+        """Let a resolver go that would stay: it ends with the connection."""
+        self._close()
+
+    def check_ending(self) -> None:
+        """Raise `Refused` where the resolver that has ended, or somebody else, wants no run."""
         ending = self._ending
         if self._signal is not None:
             raise Refused(
@@ -66,19 +92,25 @@ class Collection:
             )
         if ending.code:
             raise Refused(ending.code)
-        try:
-            return document.loads(bytes(self._content))
-        except ValueError as error:
-            raise Refused(
-                3, f"this is a bug in Orchestra: the resolver handed over no plan: {error}"
-            ) from error
+
+    def hand_on(self) -> None:
+        """Stop listening: the connection and the process are somebody else's now."""
+        self._open = False
+        self._loop.forget(self._resolver.descriptor)
+        self._loop.forget(self._pidfd)
+        os.close(self._pidfd)
 
     def _read(self) -> bool:
         try:
             data = os.read(self._resolver.descriptor, _READ_SIZE)
         except BlockingIOError:
             return False
+        except ConnectionResetError:
+            data = b""
         self._content += data
+        if self._header is None and b"\n" in self._content:
+            line, _, rest = bytes(self._content).partition(b"\n")
+            self._header, self._content = json.loads(line), bytearray(rest)
         if not data:
             self._close()
         return bool(data)

@@ -22,21 +22,36 @@ from orchestra.supervise.signals import disregard_hang_up, receive_signals, rese
 
 TYPE_CHECKING = False  # `typing` itself costs more than the rest of this module
 if TYPE_CHECKING:
-    from collections.abc import Callable
-    from typing import BinaryIO
+    from orchestra.supervise.resolver import Prepare
 
 
-def run(prepare: Callable[[BinaryIO], int]) -> int:
+def run(prepare: Prepare) -> int:
     """Run what `prepare` describes and return the exit status of the design's table.
 
     `prepare` runs in the resolver process. It writes one JSON document `{"plan": ..., "options": ...}` to the stream
-    and returns 0, or tells the user what is wrong and returns another status, which becomes the result.
+    (`orchestra.supervise.document.dumps`) and returns 0, or tells the user what is wrong and returns another status,
+    which becomes the result.
+
+    A plan with deferred triggers needs code of the description at run time. `prepare` then returns, instead of 0, a
+    function that answers questions: it is called in the resolver process, one question at a time, until the run is
+    over. Question and answer are JSON data:
+
+        {"ref": N, "event": {"event": NAME, ...}}
+            `ref` of the `DeferredAction`; NAME as in `TriggerEvent`. Of a process: `process` (id), `pid`; of its end
+            `returncode` (negative for a signal) and `reason` (why it never ran, or null); of its output `stream` and
+            `text` (base64); of a state change `transition`, `start_state`, `goal_state`; of the shutdown `reason`,
+            `due_to_sigint`.
+        {"processes": [...], "components": [...], "triggers": [...], "do": [...], "problems": [...]}
+            a fragment of a plan: records as `orchestra.plan.codec.encode` makes them, each list may be left out. Ids are
+            new, `do` is carried out in place of the deferred action.
+        {"failure": TEXT, "location": LOCATION or null}
+            the trigger fails. So it does where the function raises.
     """
     keeper = os.getpid()
     return keep(lambda: _supervise(prepare, keeper))
 
 
-def _supervise(prepare: Callable[[BinaryIO], int], keeper: int) -> int:
+def _supervise(prepare: Prepare, keeper: int) -> int:
     run_id = f"{time.time_ns():x}-{keeper}"
     os.environ[RUN] = run_id
     # The keeper's mask is still in force: no signal can reach the resolver with our handlers, nor us without them.
