@@ -5,8 +5,10 @@ from __future__ import annotations
 import gc
 import os
 from contextlib import contextmanager
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from orchestra.compat.seam import connected
 from orchestra.errors import DescriptionError, Problem, Problems
 from orchestra.load.files import load
 from orchestra.plan.build import build
@@ -14,7 +16,9 @@ from orchestra.resolve import launch_files
 from orchestra.resolve.command_line import inputs_from
 from orchestra.resolve.commands import run_command
 from orchestra.resolve.packages import InstalledPackages
-from orchestra.resolve.resolve import resolve
+from orchestra.resolve.python.connection import LoadingConnection
+from orchestra.resolve.python.isolation import isolated
+from orchestra.resolve.resolve import begin, resolve
 from orchestra.resolve.single import single_node
 
 if TYPE_CHECKING:
@@ -22,7 +26,7 @@ if TYPE_CHECKING:
 
     from orchestra.plan.model import Plan
     from orchestra.resolve.inputs import Inputs
-    from orchestra.resolve.resolution import LoadFile
+    from orchestra.resolve.resolution import LoadFile, Resolution
 
 
 __all__ = ["check", "collect", "find_launch_file", "inputs_from", "make_plan", "plan_of_node"]
@@ -66,11 +70,11 @@ def collect(path: str, inputs: Inputs, problems: Problems, *, load: LoadFile = l
 
     `load` reads the files. None where the file itself cannot be read as a launch file.
     """
-    with _collector_paused():
+    packages = InstalledPackages(inputs.environment)
+    with _collector_paused(), _loading(path, inputs, load, packages):
         description = load(path, problems, ())
         if description is None:
             return None
-        packages = InstalledPackages(inputs.environment)
         resolved = resolve(
             description, inputs, problems, load=load, packages=packages, run_command=run_command
         )
@@ -87,3 +91,18 @@ def _collector_paused() -> Iterator[None]:
     finally:
         if enabled:
             gc.enable()
+
+
+@contextmanager
+def _loading(path: str, inputs: Inputs, load: LoadFile, packages: InstalledPackages) -> Iterator[None]:
+    """Let launch files in Python be loaded, and leave this process as it was."""
+
+    def begin_alone(problems: Problems) -> Resolution:
+        """Begin a resolution for a context that user code builds for itself."""
+        own = replace(inputs, environment=dict(os.environ), arguments=())
+        return begin(own, problems, load=load, packages=packages, run_command=run_command)
+
+    words = (f"{item.name}:={item.value}" for item in inputs.arguments)
+    connection = LoadingConnection(packages, begin_alone)
+    with isolated(inputs.environment, ("ros2", "launch", path, *words)), connected(connection):
+        yield

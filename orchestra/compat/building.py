@@ -8,7 +8,7 @@ from orchestra.compat.launch.action import Action, ModelledAction
 from orchestra.compat.place import Place, here
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
     from orchestra.description.entity import Action as Model
@@ -18,10 +18,23 @@ def model_of(entity: LaunchDescriptionEntity) -> Model:
     """Return the model of a Python entity, its condition included; an opaque one where only its code knows more."""
     from orchestra.description.actions.opaque import OpaqueAction  # noqa: PLC0415 - pydantic, only where files are read
 
-    if isinstance(entity, ModelledAction) and entity._is_as_described():  # noqa: SLF001 - compat's own
-        return entity._to_model(conditioned(entity))  # noqa: SLF001 - compat's own
+    if isinstance(entity, ModelledAction) and entity._is_as_described():
+        return entity._to_model(conditioned(entity))
     place: Place = getattr(entity, "_place", None) or here()
+    if isinstance(entity, Action) and type(entity).visit is Action.visit:
+        return OpaqueAction.at(place.span, target=entity, **conditioned(entity))
     return OpaqueAction.at(place.span, target=entity, origin=entity)
+
+
+class Described(ModelledAction):
+    """An action of a launch file in YAML or XML, as an entity of Python."""
+
+    def __init__(self, model: Model) -> None:
+        super().__init__()
+        self._model = model
+
+    def _to_model(self, common: Mapping[str, Any]) -> Model:  # noqa: ARG002 - the model says it all
+        return self._model
 
 
 def models_of(entities: Iterable[LaunchDescriptionEntity]) -> tuple[Model, ...]:
@@ -33,4 +46,4 @@ def conditioned(action: Action) -> dict[str, Any]:
     """Return the fields that every model of an action has."""
     if action.condition is None:
         return {"origin": action}
-    return {"origin": action, **action.condition._fields(action._place.span)}  # noqa: SLF001 - compat's own
+    return {"origin": action, **action.condition._fields(action._place.span)}

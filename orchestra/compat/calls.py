@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.place import here
@@ -35,7 +35,7 @@ class CallSubstitution(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """Return what the call comes to. Raises `SubstitutionFailure`."""
-        return context._engine.evaluate(Template((self._call(),), self._raw(), self._place.span))  # noqa: SLF001 - compat's own
+        return context._engine.evaluate(Template((self._call(),), self._raw(), self._place.span))
 
     def _call(self) -> Call:
         span = self._place.span
@@ -43,10 +43,11 @@ class CallSubstitution(Substitution):
 
     def _parts(self, span: Span) -> tuple[Part, ...]:
         call = self._call()
-        if type(self).perform is not CallSubstitution.perform:
+        perform: Any = type(self).perform
+        if not perform.__module__.startswith("orchestra.compat."):
             return (Opaque(self, span, call.arguments),)
         return (call,)
 
     def _raw(self) -> str:
-        arguments = ("".join(item._raw() for item in argument) for argument in self._arguments())  # noqa: SLF001 - compat's own
+        arguments = ("".join(item._raw() for item in argument) for argument in self._arguments())
         return called(self._name, arguments)

@@ -16,7 +16,7 @@ def exported(package: str, names: Mapping[str, str]) -> Callable[[str], Any]:
     that of a submodule itself, and a name that begins with `orchestra.` is the module's full name.
     """
 
-    def attribute(name: str) -> Any:  # noqa: ANN401 - whatever is exported
+    def attribute(name: str) -> Any:
         place = names.get(name)
         if place is None:
             raise AttributeError(f"module {package!r} has no attribute {name!r}")

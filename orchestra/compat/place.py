@@ -38,7 +38,7 @@ class Place:
 
 def here(made: object = None) -> Place:
     """Return the place in the user's code that led to this call: where `made` was made, by whatever subclass."""
-    frame: FrameType | None = sys._getframe(1)  # noqa: SLF001 - the public inspect.currentframe is the same
+    frame: FrameType | None = sys._getframe(1)
     outermost = frame
     while frame is not None and (frame.f_code.co_filename.startswith(_OWN) or _is_constructor(frame, made)):
         outermost, frame = frame, frame.f_back

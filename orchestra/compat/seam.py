@@ -42,19 +42,19 @@ class Engine(Protocol):
     def parameters(self) -> Sequence[tuple[str, Any]]:
         """Return what set_parameter put in scope, in order."""
 
-    def load(self, path: str, language: str | None) -> Any:  # noqa: ANN401 - a LaunchDescription
+    def load(self, path: str, language: str | None) -> Any:
         """Return the launch description of a file; `language` is `python`, `xml`, `yaml`, or None: by its name."""
 
-    def register(self, handler: Any, *, first: bool) -> None:  # noqa: ANN401 - an event handler
+    def register(self, handler: Any, *, first: bool) -> None:
         """Let an event handler wait for its event."""
 
-    def unregister(self, handler: Any) -> None:  # noqa: ANN401 - an event handler
+    def unregister(self, handler: Any) -> None:
         """Let it wait no more. Raises `ValueError` where it does not wait."""
 
-    def emit(self, event: Any) -> None:  # noqa: ANN401 - an event
+    def emit(self, event: Any) -> None:
         """Let an event happen, after the visit that is going on."""
 
-    def would_handle(self, event: Any) -> bool:  # noqa: ANN401 - an event
+    def would_handle(self, event: Any) -> bool:
         """Return whether a handler waits for such an event."""
 
     def push_configurations(self) -> None:
@@ -72,7 +72,7 @@ class Engine(Protocol):
     def reset_environment(self) -> None:
         """Take up the environment with which the launch began."""
 
-    def completed(self, action: Any) -> None:  # noqa: ANN401 - an action
+    def completed(self, action: Any) -> None:
         """Take note that an action of Python has been executed."""
 
 

@@ -31,12 +31,12 @@ def normalized(subs: Sub) -> list[Substitution]:
 
 def template(subs: Sub, span: Span, *, quoted: bool = False) -> Template:
     """Return the template of some substitutions; those without a place of their own are at `span`."""
-    parts = tuple(part for item in normalized(subs) for part in item._parts(span))  # noqa: SLF001 - our own base class
-    raw = "".join(item._raw() for item in normalized(subs))  # noqa: SLF001 - our own base class
+    parts = tuple(part for item in normalized(subs) for part in item._parts(span))
+    raw = "".join(item._raw() for item in normalized(subs))
     return Template(parts, raw, span, quoted=quoted)
 
 
-def _one(item: Any) -> Substitution:  # noqa: ANN401 - whatever a user put there
+def _one(item: Any) -> Substitution:
     if isinstance(item, str):
         return TextSubstitution(text=item)
     if isinstance(item, Substitution):

@@ -15,6 +15,7 @@ from orchestra.location import Location, Span, displayed, point
 if TYPE_CHECKING:
     from orchestra.description.launch import Description
 
+PYTHON = ".py"
 FORMATS: dict[str, str] = {
     ".launch": "launch_file",
     ".xml": "xml_file",
@@ -25,13 +26,24 @@ FORMATS: dict[str, str] = {
 _LARGEST = 64 * 1024 * 1024
 
 
-def load(path: str, problems: Problems, included_from: tuple[Span, ...] = ()) -> Description | None:
-    """Read a launch file. What is wrong in it is reported; None where there is nothing to go on with."""
+def load(
+    path: str, problems: Problems, included_from: tuple[Span, ...] = (), ending: str | None = None
+) -> Description | None:
+    """Read a launch file. What is wrong in it is reported; None where there is nothing to go on with.
+
+    `ending` tells the format where it is not that of the path.
+    """
+    ending = ending or Path(path).suffix.lower()
+    if ending == PYTHON:
+        # Here, because it brings in what Python launch files import.
+        from orchestra.load import python_file  # noqa: PLC0415
+
+        return python_file.read(path, problems, included_from)
     file = displayed(path)
     reader = Reader(problems, included_from)
     at = included_from[0] if included_from else point(file)
     location = Location(at, included_from[1:])
-    module = FORMATS.get(Path(path).suffix.lower())
+    module = FORMATS.get(ending)
     if module is None:
         problems.error(Code.UNKNOWN_FORMAT, _unknown_format(file), location)
         return None

@@ -71,8 +71,12 @@ def _unknown(
 
 
 def _glance(path: str, run: Resolution) -> Description | None:
-    """Return a description that is not part of this launch, without a word about its faults."""
-    return run.descriptions.get(path) or run.load(path, Problems(), ())
+    """Return a description that is not part of this launch, without a word about its faults.
+
+    None for one in Python: to know it, it would have to be run.
+    """
+    known = run.descriptions.get(path)
+    return known if known is not None or path.endswith(".py") else run.load(path, Problems(), ())
 
 
 def _refuse(

@@ -7,6 +7,7 @@ from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
 from typing import Final, Protocol, TypeAlias
 
+from orchestra.description.text import Opaque
 from orchestra.errors import Problems
 from orchestra.location import Location, Span
 
@@ -75,6 +76,10 @@ class CommandResult:
 CommandRunner: TypeAlias = Callable[[tuple[str, ...], Mapping[str, str]], CommandResult]
 
 
+def _only_python(part: Opaque) -> Evaluated:
+    raise TypeError(f"nobody here can perform {part.target!r}")
+
+
 @dataclass(slots=True)
 class Context:
     """The state in which a text is evaluated.
@@ -83,7 +88,7 @@ class Context:
     innermost first. `anonymous` remembers the names that `$(anon)` made. `parameters` are the values that
     `set_parameter` put in scope, for `$(param)`. `launching` is false where nothing will be started here: then a
     missing package is a warning about this host. `elsewhere` are the packages for which there has
-    been one. `lost` has the names that something faulty would have set.
+    been one. `lost` has the names that something faulty would have set. `perform_opaque` performs what only Python can.
     """
 
     problems: Problems
@@ -99,6 +104,7 @@ class Context:
     elsewhere: set[str] = field(default_factory=set)
     parameters: Mapping[str, str] = field(default_factory=dict)
     lost: AbstractSet[str] = frozenset()
+    perform_opaque: Callable[[Opaque], Evaluated] = _only_python
 
     def at(self, span: Span) -> Location:
         """Return the location of a span of the current file."""

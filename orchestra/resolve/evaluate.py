@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.description.text import Words
+from orchestra.description.text import Opaque, Words
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.substitutions.table import SUBSTITUTIONS
 
@@ -32,6 +32,8 @@ def evaluate(template: Template, context: Context) -> Evaluated:
     return POISON if poisoned else Value("".join(texts), context.at(template.span))
 
 
-def perform(call: Call, context: Context) -> Evaluated:
+def perform(part: Call | Opaque, context: Context) -> Evaluated:
     """Return the value of one substitution, which points at where the substitution is written."""
-    return SUBSTITUTIONS[call.name](call, context, evaluate)
+    if isinstance(part, Opaque):
+        return context.perform_opaque(part)
+    return SUBSTITUTIONS[part.name](part, context, evaluate)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from orchestra.description.entity import Action
 from orchestra.description.launch import Description
@@ -19,6 +19,7 @@ from orchestra.resolve.inputs import Inputs
 from orchestra.resolve.model import (
     FileParameters,
     ResolvedArgument,
+    ResolvedComponent,
     ResolvedDependency,
     ResolvedProcess,
     ResolvedSkip,
@@ -30,7 +31,7 @@ from orchestra.resolve.scope import Ledger, Scope
 if TYPE_CHECKING:
     from orchestra.description.text import Template
 
-LoadFile: TypeAlias = Callable[[str, Problems, tuple[Span, ...]], Description | None]
+LoadFile: TypeAlias = Callable[..., Description | None]
 Visit: TypeAlias = Callable[[Sequence[Action], "Resolution"], None]
 
 _MOST_STEPS = 200_000
@@ -45,6 +46,7 @@ class Found:
     """
 
     processes: list[ResolvedProcess] = field(default_factory=list)
+    components: list[ResolvedComponent] = field(default_factory=list)
     arguments: dict[str, ResolvedArgument] = field(default_factory=dict)
     triggers: list[ResolvedTrigger] = field(default_factory=list)
     skipped: list[ResolvedSkip] = field(default_factory=list)
@@ -92,6 +94,15 @@ class Resolution:
     repetitions: int = 0
     descriptions: dict[str, Description | None] = field(default_factory=dict)
     parameter_files: dict[str, FileParameters | None] = field(default_factory=dict)
+    make_engine: Callable[[Resolution], Any] | None = None
+    _engine: Any = None
+
+    @property
+    def engine(self) -> Any:  # noqa: ANN401 - a ResolvingEngine, whose module needs this one
+        """What Python launch files see of the resolution, made when the first of them needs it."""
+        if self._engine is None and self.make_engine is not None:
+            self._engine = self.make_engine(self)
+        return self._engine
 
     @property
     def frame(self) -> Frame:

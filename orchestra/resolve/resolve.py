@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from orchestra.location import Location
 from orchestra.resolve.arguments import Given, settle
@@ -10,6 +10,7 @@ from orchestra.resolve.context import CommandRunner, Context, Packages, Value
 from orchestra.resolve.given import given_sections
 from orchestra.resolve.interpret import visit, visit_file
 from orchestra.resolve.model import Resolved
+from orchestra.resolve.python.performing import perform_opaque
 from orchestra.resolve.resolution import Found, Frame, LoadFile, Resolution
 from orchestra.resolve.scope import Ledger, Scope
 
@@ -29,12 +30,12 @@ def resolve(
     run_command: CommandRunner,
 ) -> Resolved:
     """Visit a description depth-first. What is wrong is reported; what is faulty is left out or marked."""
-    scope = Scope(problems, Ledger(), dict(inputs.environment))
+    run = begin(inputs, problems, load=load, packages=packages, run_command=run_command)
+    run.descriptions[description.path] = description
     for given in inputs.arguments:
         location = Location(given.span)
-        scope.set(given.name, Value(given.value, location), location)
-    run = _begin(description, inputs, problems, scope, load, packages, run_command)
-    with run.inside(Frame(description.path, scope)) as ledger:
+        run.scope.set(given.name, Value(given.value, location), location)
+    with run.inside(Frame(description.path, run.scope)) as ledger:
         visit_file(description, run)
         names = [Given(item.name, Location(item.span)) for item in inputs.arguments]
         settle(names, description, ledger, run)
@@ -46,19 +47,21 @@ def resolve(
         tuple(run.found.skipped),
         given_sections(run),
         frozenset(run.found.lost),
-        scope.ledger.incomplete,
+        run.scope.ledger.incomplete,
+        tuple(run.found.components),
     )
 
 
-def _begin(
-    description: Description,
+def begin(
     inputs: Inputs,
     problems: Problems,
-    scope: Scope,
+    *,
     load: LoadFile,
     packages: Packages,
     run_command: CommandRunner,
 ) -> Resolution:
+    """Return the state with which a resolution begins: nothing set, nothing found, in no file."""
+    scope = Scope(problems, Ledger(), dict(inputs.environment))
     found = Found()
     context = Context(
         problems,
@@ -70,6 +73,13 @@ def _begin(
         parameters=scope.parameter_texts,
         lost=found.lost,
     )
-    run = Resolution(inputs, problems, load, visit, context, scope, found)
-    run.descriptions[description.path] = description
+    run = Resolution(inputs, problems, load, visit, context, scope, found, make_engine=_engine)
+    context.perform_opaque = lambda part: perform_opaque(part, run)
     return run
+
+
+def _engine(run: Resolution) -> Any:  # noqa: ANN401 - a ResolvingEngine
+    # Here, because only Python launch files need it and what it imports.
+    from orchestra.resolve.python.engine import ResolvingEngine  # noqa: PLC0415
+
+    return ResolvingEngine(run, [f"{item.name}:={item.value}" for item in run.inputs.arguments])

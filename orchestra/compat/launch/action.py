@@ -55,7 +55,7 @@ class Action(LaunchDescriptionEntity):
         try:
             return self.execute(context)
         finally:
-            context._engine.completed(self)  # noqa: SLF001 - compat's own
+            context._engine.completed(self)
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:  # noqa: ARG002 - for subclasses
         """Do what the action does; return what is to be visited next. Here: nothing."""
@@ -70,7 +70,7 @@ class ModelledAction(Action):
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Carry the model out."""
-        context._engine.carry_out(self._to_model({"origin": self}))  # noqa: SLF001 - compat's own
+        context._engine.carry_out(self._to_model({"origin": self}))
         return None
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:

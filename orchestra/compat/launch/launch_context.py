@@ -9,7 +9,6 @@ from orchestra.compat.seam import connection
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, MutableMapping
 
-    from orchestra.compat.launch.substitution import Substitution
     from orchestra.compat.seam import Engine
 
 
@@ -49,7 +48,7 @@ class LaunchContext:
         return self._is_shutdown
 
     @property
-    def asyncio_loop(self) -> Any:  # noqa: ANN401 - an event loop
+    def asyncio_loop(self) -> Any:
         """None: nothing runs while launch files are resolved."""
         return None
 
@@ -110,31 +109,32 @@ class LaunchContext:
     def _reset_environment(self) -> None:
         self._engine.reset_environment()
 
-    def perform_substitution(self, sub: Substitution) -> str:
+    def perform_substitution(self, sub: Any) -> str:
         """Return what a substitution comes to."""
-        return sub.perform(self)
+        text: str = sub.perform(self)
+        return text
 
-    def register_event_handler(self, event_handler: Any, append: bool = False) -> None:  # noqa: ANN401 - upstream's signature
+    def register_event_handler(self, event_handler: Any, append: bool = False) -> None:
         """Let a handler wait for its event, before those that do already unless it is to be appended."""
         self._engine.register(event_handler, first=not append)
 
-    def unregister_event_handler(self, event_handler: Any) -> None:  # noqa: ANN401 - an event handler
+    def unregister_event_handler(self, event_handler: Any) -> None:
         """Let a handler wait no more. Raises `ValueError` where it does not."""
         self._engine.unregister(event_handler)
 
-    def emit_event_sync(self, event: Any) -> None:  # noqa: ANN401 - an event
+    def emit_event_sync(self, event: Any) -> None:
         """Let an event happen after the present visit."""
         self._engine.emit(event)
 
-    async def emit_event(self, event: Any) -> None:  # noqa: ANN401 - an event
+    async def emit_event(self, event: Any) -> None:
         """Let an event happen after the present visit."""
         self._engine.emit(event)
 
-    def would_handle_event(self, event: Any) -> bool:  # noqa: ANN401 - an event
+    def would_handle_event(self, event: Any) -> bool:
         """Return whether a handler waits for such an event."""
         return self._engine.would_handle(event)
 
-    def add_completion_future(self, future: Any) -> None:  # noqa: ANN401 - an asyncio future
+    def add_completion_future(self, future: Any) -> None:
         """Take a future that nothing waits for: a run ends when its processes have."""
 
 
@@ -144,7 +144,7 @@ class Locals:
     def __init__(self, known: Mapping[str, Any]) -> None:
         object.__setattr__(self, "_known", known)
 
-    def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - whatever is known
+    def __getattr__(self, name: str) -> Any:
         known: Mapping[str, Any] = object.__getattribute__(self, "_known")
         if name in known:
             return known[name]

@@ -80,12 +80,12 @@ def _collect(
 ) -> None:
     """Find declarations depth-first, the first of each name, up to where all configurations are reset."""
     for entity in entities:
-        role = entity._role  # noqa: SLF001 - compat's own
+        role = entity._role
         if role == "reset":
             return
         if role == "declaration":
             argument: Any = entity
-            argument._conditionally_included = conditional or argument.condition is not None  # noqa: SLF001 - compat's own
+            argument._conditionally_included = conditional or argument.condition is not None
             found.setdefault(argument.name, (argument, list(includes) or None))
             continue
         way = (*includes, entity) if role == "include" else includes

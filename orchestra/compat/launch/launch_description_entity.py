@@ -31,6 +31,6 @@ class LaunchDescriptionEntity:
         """Return what is to be visited next, in order."""
         return None
 
-    def get_asyncio_future(self) -> Any:  # noqa: ANN401 - an asyncio future
+    def get_asyncio_future(self) -> Any:
         """Return what the launch waits for, None here: plans wait for processes, not for futures."""
         return None

@@ -37,11 +37,11 @@ class Substitution:
         """Return the substitution as it would be written in a launch file, or else its description."""
         return str(self.describe())
 
-    def __truediv__(self, other: Any) -> Substitution:  # noqa: ANN401 - any substitutions
+    def __truediv__(self, other: Any) -> Substitution:
         """Join two parts of a path (newer ROS releases)."""
         return _Joined(self, other)
 
-    def __rtruediv__(self, other: Any) -> Substitution:  # noqa: ANN401 - any substitutions
+    def __rtruediv__(self, other: Any) -> Substitution:
         """Join two parts of a path (newer ROS releases)."""
         return _Joined(other, self)
 
@@ -49,7 +49,7 @@ class Substitution:
 class _Joined(Substitution):
     """Two parts of a path, joined by `/`."""
 
-    def __init__(self, left: Any, right: Any) -> None:  # noqa: ANN401 - any substitutions
+    def __init__(self, left: Any, right: Any) -> None:
         self._both = (left, right)
         self._place = here(self)
 
@@ -60,7 +60,7 @@ class _Joined(Substitution):
     def perform(self, context: LaunchContext) -> str:
         """Return the path."""
         span = self._place.span
-        return context._engine.evaluate(Template(self._parts(span), self._raw(), span))  # noqa: SLF001 - compat's own
+        return context._engine.evaluate(Template(self._parts(span), self._raw(), span))
 
     def _parts(self, span: Span) -> tuple[Part, ...]:
         return (Call("path-join", tuple(_template(side, span) for side in self._both), span),)
@@ -69,7 +69,7 @@ class _Joined(Substitution):
         return called("path-join", map(_written, self._both))
 
 
-def _template(side: Any, span: Span) -> Template:  # noqa: ANN401 - a text, a substitution, or several of both
+def _template(side: Any, span: Span) -> Template:
     if isinstance(side, str):
         return Template((Words(side, span),), escaped(side), span)
     items = [side] if isinstance(side, Substitution) else list(side)
@@ -77,19 +77,19 @@ def _template(side: Any, span: Span) -> Template:  # noqa: ANN401 - a text, a su
     return Template(parts, _written(side), span)
 
 
-def _parts(item: Any, span: Span) -> tuple[Part, ...]:  # noqa: ANN401 - a text or a substitution
+def _parts(item: Any, span: Span) -> tuple[Part, ...]:
     if isinstance(item, Substitution):
-        return item._parts(span)  # noqa: SLF001 - this class
+        return item._parts(span)
     return (Words(item, span),)
 
 
-def _written(side: Any) -> str:  # noqa: ANN401 - a text, a substitution, or several of both
+def _written(side: Any) -> str:
     if isinstance(side, str):
         return escaped(side)
     if isinstance(side, Substitution):
-        return side._raw()  # noqa: SLF001 - this class
+        return side._raw()
     return "".join(map(_written, side))
 
 
-def _described(side: Any) -> str:  # noqa: ANN401 - a text, a substitution, or several of both
+def _described(side: Any) -> str:
     return side.describe() if isinstance(side, Substitution) else repr(side)

@@ -12,6 +12,7 @@ from orchestra.resolve.dependencies import dependencies
 from orchestra.resolve.interpret import visit_file
 from orchestra.resolve.mentions import is_fixed
 from orchestra.resolve.paths import existing_file
+from orchestra.resolve.python.calling import user_code
 from orchestra.resolve.repetition import repeated
 from orchestra.resolve.resolution import Frame
 
@@ -87,10 +88,14 @@ def _arguments(action: Include, run: Resolution) -> list[tuple[Given, Evaluated,
 
 
 def _description(path: str, location: Location, run: Resolution) -> Description | None:
-    if path not in run.descriptions:
-        chain = (location.span, *location.included_from)
+    """Return what a file says. One in Python says it anew each time, in the environment of this place."""
+    chain = (location.span, *location.included_from)
+    if path.endswith(".py"):
+        with user_code(run, location.span):
+            run.descriptions[path] = run.load(path, run.problems, chain)
+    elif path not in run.descriptions:
         run.descriptions[path] = run.load(path, run.problems, chain)
-    return run.descriptions[path]
+    return run.descriptions.get(path)
 
 
 def _is_endless(frame: Frame, run: Resolution) -> bool:

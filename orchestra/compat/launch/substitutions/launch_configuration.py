@@ -20,7 +20,7 @@ class LaunchConfiguration(CallSubstitution):
 
     _name = "var"
 
-    def __init__(self, variable_name: Sub, *, default: Any = None) -> None:  # noqa: ANN401 - any scalar
+    def __init__(self, variable_name: Sub, *, default: Any = None) -> None:
         super().__init__()
         self.__variable_name = normalized(variable_name)
         self.__default = None if default is None else normalized(_texts(default))
@@ -39,7 +39,7 @@ class LaunchConfiguration(CallSubstitution):
         return (name,) if self.__default is None else (name, self.__default)
 
 
-def _texts(default: Any) -> Any:  # noqa: ANN401 - any scalar
+def _texts(default: Any) -> Any:
     """Return a default with its scalars as texts."""
     if isinstance(default, bool | int | float):
         return str(default)

@@ -1,0 +1,98 @@
+"""Serves the packages of this room under the names that launch files import, for as long as launch files are loaded.
+
+Rejected: installing a top-level package called `launch`, which would hide or be hidden by the real one; loading our
+files under those names, which would make every class exist twice.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+import sys
+from contextlib import contextmanager
+from importlib.abc import Loader, MetaPathFinder
+from importlib.machinery import ModuleSpec
+from importlib.util import find_spec
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+    from types import ModuleType
+
+SERVED: Final = frozenset(entry.name for entry in Path(__file__).parent.iterdir() if entry.is_dir())
+_ROOM: Final = __name__.rpartition(".")[0]
+
+
+class _Alias(Loader):
+    """Gives a module that exists under another name."""
+
+    def __init__(self, name: str) -> None:
+        self._name = name
+        self._spec: ModuleSpec | None = None
+
+    def create_module(self, spec: ModuleSpec) -> ModuleType:  # noqa: ARG002 - the protocol
+        module = importlib.import_module(self._name)
+        self._spec = module.__spec__
+        return module
+
+    def exec_module(self, module: ModuleType) -> None:
+        """Undo what the import system has written on the module: it stays what it is."""
+        module.__spec__ = self._spec
+        module.__loader__ = self._spec.loader if self._spec is not None else None
+
+
+class _Finder(MetaPathFinder):
+    """Finds what is served before anybody else does, an installed package of the same name included."""
+
+    def find_spec(
+        self,
+        fullname: str,
+        path: Sequence[str] | None = None,  # noqa: ARG002 - the protocol
+        target: ModuleType | None = None,  # noqa: ARG002 - the protocol
+    ) -> ModuleSpec | None:
+        if fullname.partition(".")[0] not in SERVED:
+            return None
+        name = f"{_ROOM}.{fullname}"
+        found = find_spec(name)
+        if found is None:
+            return None
+        return ModuleSpec(fullname, _Alias(name), is_package=found.submodule_search_locations is not None)
+
+
+@contextmanager
+def served() -> Iterator[None]:
+    """Serve the names for a while; afterwards the modules of this process are as they were.
+
+    What launch files have imported is forgotten where it is the users' own: the next one begins anew.
+    """
+    finder = _Finder()
+    before = dict(sys.modules)
+    bytecode, sys.dont_write_bytecode = sys.dont_write_bytecode, True
+    for name in before:
+        if name.partition(".")[0] in SERVED:
+            del sys.modules[name]
+    sys.meta_path.insert(0, finder)
+    try:
+        yield
+    finally:
+        sys.meta_path.remove(finder)
+        sys.dont_write_bytecode = bytecode
+        for name in sys.modules.keys() - before.keys():
+            if name.partition(".")[0] in SERVED or _is_of_users(sys.modules[name]):
+                del sys.modules[name]
+        sys.modules.update({name: module for name, module in before.items() if name not in sys.modules})
+
+
+def _is_of_users(module: ModuleType) -> bool:
+    """Return whether a module is neither part of Python nor installed for it."""
+    file = getattr(module, "__file__", None)
+    return file is not None and not os.path.realpath(file).startswith(_INSTALLED)
+
+
+_INSTALLED: Final = tuple(
+    os.path.join(os.path.realpath(prefix), "")  # noqa: PTH118 - compared with texts
+    for prefix in {*sys.path, os.path.dirname(os.__file__), str(Path(__file__).parents[2])}  # noqa: PTH120 - compared with texts
+    if prefix
+    and ("site-packages" in prefix or "dist-packages" in prefix or prefix == os.path.dirname(os.__file__))  # noqa: PTH120 - compared with texts
+)

@@ -1,0 +1,94 @@
+"""Launch files in Python: the file is run, and its `generate_launch_description` says what there is to visit.
+
+A file is run anew each time it is included, as upstream does: what it makes belongs to that visit. Bytecode is never
+written beside it.
+"""
+
+from __future__ import annotations
+
+import linecache
+import os
+import sys
+from functools import lru_cache
+from importlib.machinery import ModuleSpec
+from types import CodeType, ModuleType
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.compat import faults
+from orchestra.compat.launch.launch_description import LaunchDescription
+from orchestra.description.actions.opaque import OpaqueAction
+from orchestra.description.launch import Description
+from orchestra.description.text import Template, Words
+from orchestra.errors import Code
+from orchestra.location import Location, displayed, point
+from orchestra.nearest import nearest
+
+if TYPE_CHECKING:
+    from orchestra.errors import Problems
+    from orchestra.location import Span
+
+FUNCTION: Final = "generate_launch_description"
+_MODULE: Final = "python_launch_file"
+
+
+def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Description | None:
+    """Run a launch file and return what it describes. What goes wrong is reported; None where nothing comes of it."""
+    linecache.checkcache(path)
+    file = displayed(path)
+    at = point(file)
+    try:
+        made = _made(path)
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - the boundary of user code
+        faults.report(error, problems, included_from, at)
+        return None
+    if isinstance(made, LaunchDescription):
+        return Description(
+            path, file, (OpaqueAction.at(at, target=made, origin=made),), _deprecated(made, at)
+        )
+    if isinstance(made, ModuleType):
+        names = [name for name, value in vars(made).items() if callable(value)]
+        message = f"{file} has no function {FUNCTION}()"
+        meant = nearest(FUNCTION, names)
+        notes = () if meant is None else (f"it has {meant}()",)
+        problems.error(Code.NO_DESCRIPTION, message, Location(at, included_from), notes=notes)
+    else:
+        message = f"{FUNCTION}() returns a LaunchDescription, not {made!r}"
+        problems.error(Code.NO_DESCRIPTION, message, Location(at, included_from))
+    return None
+
+
+def load_module(path: str) -> ModuleType:
+    """Run a Python file as a module of its own, which stays out of `sys.modules`."""
+    module = ModuleType(_MODULE)
+    module.__file__ = path
+    module.__spec__ = ModuleSpec(_MODULE, None, origin=path)
+    status = os.stat(path)  # noqa: PTH116 - no object is wanted
+    code = _compiled(path, status.st_mtime_ns, status.st_size)
+    outer = sys.modules.get(_MODULE)
+    sys.modules[_MODULE] = module  # dataclasses and pickles look there for the module that they are in
+    try:
+        exec(code, vars(module))  # noqa: S102 - a launch file is code
+    finally:
+        if outer is None:
+            del sys.modules[_MODULE]
+        else:
+            sys.modules[_MODULE] = outer
+    return module
+
+
+@lru_cache(maxsize=256)
+def _compiled(path: str, _modified: int, _size: int) -> CodeType:
+    with open(path, "rb") as stream:  # noqa: PTH123 - no object is wanted
+        return compile(stream.read(), path, "exec", dont_inherit=True)
+
+
+def _made(path: str) -> Any:  # noqa: ANN401 - whatever the user's function returns
+    """Return what the file's function returns, or the module where it has no such function."""
+    module = load_module(path)
+    generate = getattr(module, FUNCTION, None)
+    return generate() if generate is not None else module
+
+
+def _deprecated(made: LaunchDescription, at: Span) -> Template | None:
+    reason = made.deprecated_reason
+    return None if reason is None else Template((Words(reason, at),), reason, at)

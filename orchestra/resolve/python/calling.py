@@ -1,0 +1,63 @@
+"""The boundary of user code: `os.environ` is that of the scope meanwhile, and what is raised becomes a problem."""
+
+from __future__ import annotations
+
+import os
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from orchestra.compat import faults
+from orchestra.location import Location
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from orchestra.location import Span
+    from orchestra.resolve.resolution import Resolution
+
+
+@contextmanager
+def user_code(run: Resolution, span: Span) -> Iterator[None]:
+    """Run code of a launch file, which `span` led to. What it raises is reported and does not get out."""
+    put_environment(run.scope.environment)
+    try:
+        yield
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - the boundary of user code
+        faults.report(error, run.problems, run.context.included_from, span)
+        run.scope.ledger.incomplete = True
+    finally:
+        take_environment(run, span)
+
+
+@contextmanager
+def our_code(run: Resolution, span: Span) -> Iterator[None]:
+    """Run code of ours that user code has called: it sees what that has done to the environment so far."""
+    take_environment(run, span)
+    try:
+        yield
+    finally:
+        put_environment(run.scope.environment)
+
+
+def put_environment(environment: Mapping[str, str]) -> None:
+    """Make the environment of this process that of a scope."""
+    if os.environ == environment:
+        return
+    for name in os.environ.keys() - environment.keys():
+        del os.environ[name]
+    for name, value in environment.items():
+        if os.environ.get(name) != value:
+            os.environ[name] = value
+
+
+def take_environment(run: Resolution, span: Span) -> None:
+    """Make what user code has done to the environment of this process part of the scope."""
+    environment, now = run.scope.environment, dict(os.environ)
+    if now == environment:
+        return
+    location = Location(span, run.context.included_from)
+    for name in environment.keys() - now.keys():
+        run.scope.change(name, None, location)
+    for name, value in now.items():
+        if environment.get(name) != value:
+            run.scope.change(name, value, location)

@@ -1,0 +1,125 @@
+"""Launch configurations and the environment of the current scope, as the mappings that user code reads and writes."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterator, MutableMapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.faults import ReportedError
+from orchestra.compat.place import here
+from orchestra.location import Location
+from orchestra.resolve.context import Value
+from orchestra.resolve.model import InlineParameter
+
+if TYPE_CHECKING:
+    from orchestra.resolve.resolution import Resolution
+
+_PARAMETERS = "global_params"
+_REMAPS = "ros_remaps"
+
+
+@dataclass(frozen=True, slots=True)
+class ObjectValue(Value):
+    """A configuration that user code has set to something that is no text."""
+
+    kept: Any = None
+
+
+class Configurations(MutableMapping[str, Any]):
+    """The variables. Upstream keeps two lists among them, which are made up here from what the scope has."""
+
+    def __init__(self, run: Resolution) -> None:
+        self._run = run
+
+    def __getitem__(self, name: str) -> Any:
+        if name in (_PARAMETERS, _REMAPS):
+            made_up = self._made_up(name)
+            if made_up:
+                return made_up
+        value = self._run.scope.get(name, self._location())
+        if value is None:
+            raise KeyError(name)
+        if not isinstance(value, Value):
+            raise ReportedError(
+                f"the launch configuration {name!r} has no value, for a reason that is reported"
+            )
+        return value.kept if isinstance(value, ObjectValue) else value.text
+
+    def __setitem__(self, name: str, value: Any) -> None:
+        location = self._location()
+        if isinstance(value, str):
+            self._run.scope.set(name, Value(value, location), location)
+        else:
+            self._run.scope.set(name, ObjectValue(str(value), location, value), location)
+
+    def __delitem__(self, name: str) -> None:
+        if self._run.scope.get(name, self._location()) is None:
+            raise KeyError(name)
+        self._run.scope.forget(name)
+
+    def __iter__(self) -> Iterator[str]:
+        self._run.scope.ledger.read.update(self._run.scope.names())
+        yield from self._run.scope.names()
+        yield from (name for name in (_PARAMETERS, _REMAPS) if self._made_up(name))
+
+    def __len__(self) -> int:
+        return sum(1 for _ in self)
+
+    def copy(self) -> dict[str, Any]:
+        """Return a dict with what is set now."""
+        return dict(self)
+
+    def __repr__(self) -> str:
+        return repr(self.copy())
+
+    def __or__(self, other: Any) -> dict[str, Any]:
+        return self.copy() | dict(other)
+
+    def _location(self) -> Location:
+        return Location(here().span, self._run.context.included_from)
+
+    def _made_up(self, name: str) -> list[Any]:
+        if name == _REMAPS:
+            return [(rule.source.text, rule.target.text) for rule in self._run.scope.remaps]
+        return [
+            (item.name, item.value) if isinstance(item, InlineParameter) else item.path
+            for item in self._run.scope.parameters
+        ]
+
+
+class Environment(MutableMapping[str, str]):
+    """The environment variables; `os.environ` has the same while user code runs."""
+
+    def __init__(self, run: Resolution) -> None:
+        self._run = run
+
+    def __getitem__(self, name: str) -> str:
+        return self._run.scope.environment[name]
+
+    def __setitem__(self, name: str, value: str) -> None:
+        os.environ[name] = value  # raises TypeError for what is no text
+        self._run.scope.change(name, value, self._location())
+
+    def __delitem__(self, name: str) -> None:
+        if name not in self._run.scope.environment:
+            raise KeyError(name)
+        del os.environ[name]
+        self._run.scope.change(name, None, self._location())
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._run.scope.environment)
+
+    def __len__(self) -> int:
+        return len(self._run.scope.environment)
+
+    def copy(self) -> dict[str, str]:
+        """Return a dict with what is set now."""
+        return dict(self)
+
+    def __repr__(self) -> str:
+        return repr(self.copy())
+
+    def _location(self) -> Location:
+        return Location(here().span, self._run.context.included_from)

@@ -1,0 +1,42 @@
+"""What compat objects reach where no `LaunchContext` is at hand: packages, and engines with a state of their own."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Problems
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from orchestra.compat.seam import Engine
+    from orchestra.resolve.packages import InstalledPackages
+    from orchestra.resolve.resolution import Resolution
+
+
+class LoadingConnection:
+    """Serves the launch files of one resolution. `begin` makes a state of its own for a context that users build."""
+
+    def __init__(self, packages: InstalledPackages, begin: Callable[[Problems], Resolution]) -> None:
+        self._packages = packages
+        self._begin = begin
+
+    def engine(self, argv: Sequence[str]) -> Engine:
+        """Return an engine with a state of its own, for a context that a user builds."""
+        del argv  # the context itself keeps the words
+        engine: Engine = self._begin(Problems()).engine
+        return engine
+
+    def package_prefix(self, package: str) -> str | None:
+        """Return the install prefix of a package, None for an unknown one."""
+        return self._packages.prefix(package)
+
+    def package_share(self, package: str) -> str | None:
+        """Return the share folder of a package, None for an unknown one."""
+        return self._packages.share(package)
+
+    def package_prefixes(self) -> dict[str, str]:
+        """Return the install prefixes of all packages by name."""
+        packages = self._packages
+        prefixes = ((name, packages.prefix(name)) for name in packages.names())
+        return {name: prefix for name, prefix in prefixes if prefix is not None}

@@ -1,0 +1,133 @@
+"""The state of a resolution as Python launch files reach it: `orchestra.compat.seam.Engine`."""
+
+from __future__ import annotations
+
+from contextlib import contextmanager
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.faults import ReportedError
+from orchestra.compat.launch.launch_context import LaunchContext
+from orchestra.compat.launch.substitutions.substitution_failure import SubstitutionFailure
+from orchestra.compat.place import here
+from orchestra.description.actions.reset_env import ResetEnv
+from orchestra.description.actions.stacks import (
+    PopEnvironment,
+    PopLaunchConfigurations,
+    PushEnvironment,
+    PushLaunchConfigurations,
+)
+from orchestra.errors import Problems, Severity
+from orchestra.resolve.context import Value
+from orchestra.resolve.evaluate import evaluate
+from orchestra.resolve.model import InlineParameter
+from orchestra.resolve.python.calling import our_code
+from orchestra.resolve.python.configurations import Configurations, Environment
+from orchestra.resolve.python.loading import load_description
+from orchestra.resolve.python.visiting import visit_entities
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Sequence
+
+    from orchestra.description.entity import Action
+    from orchestra.description.text import Template
+    from orchestra.errors import Problem
+    from orchestra.resolve.resolution import Resolution
+
+
+class ResolvingEngine:
+    """Serves one resolution. What is wrong is reported to it, and raised too, since user code cannot go on."""
+
+    def __init__(self, run: Resolution, argv: Sequence[str] = ()) -> None:
+        self._run = run
+        self._configurations = Configurations(run)
+        self._environment = Environment(run)
+        self.context = LaunchContext(argv=argv, noninteractive=True, _engine=self)
+
+    @property
+    def configurations(self) -> Configurations:
+        """The launch configurations of the current scope."""
+        return self._configurations
+
+    @property
+    def environment(self) -> Environment:
+        """The environment of the current scope."""
+        return self._environment
+
+    @property
+    def current_file(self) -> str | None:
+        """The launch file that is being visited."""
+        return self._run.context.file
+
+    def evaluate(self, template: Template) -> str:
+        """Return what a text comes to. Raises `SubstitutionFailure` with the problems, which nobody knows yet."""
+        found = Problems()
+        with our_code(self._run, here().span):
+            value = evaluate(template, replace(self._run.context, problems=found))
+        for problem in found:
+            if problem.severity is not Severity.ERROR:
+                self._run.problems.report(problem)
+        if isinstance(value, Value):
+            return value.text
+        raise EvaluationFailure(found.errors)
+
+    def carry_out(self, action: Action) -> None:
+        """Carry out an action in the current scope. Raises `ReportedError` where something is wrong with it."""
+        with self._refusing():
+            self._run.visit((action,), self._run)
+
+    def visit(self, entities: Iterable[Any]) -> None:
+        """Visit Python entities. Raises `ReportedError` where something is wrong with them."""
+        with self._refusing():
+            visit_entities(entities, self._run)
+
+    def parameters(self) -> Sequence[tuple[str, Any]]:
+        """Return what set_parameter put in scope."""
+        set_here = self._run.scope.parameters
+        return [(item.name, item.value) for item in set_here if isinstance(item, InlineParameter)]
+
+    def load(self, path: str, language: str | None) -> Any:
+        """Return the launch description of a file. Raises `ReportedError`."""
+        with our_code(self._run, here().span):
+            return load_description(path, language, self._run)
+
+    def push_configurations(self) -> None:
+        """Remember the configurations."""
+        self._stack(PushLaunchConfigurations)
+
+    def pop_configurations(self) -> None:
+        """Take up the configurations remembered last. Raises `ReportedError`."""
+        self._stack(PopLaunchConfigurations)
+
+    def push_environment(self) -> None:
+        """Remember the environment."""
+        self._stack(PushEnvironment)
+
+    def pop_environment(self) -> None:
+        """Take up the environment remembered last. Raises `ReportedError`."""
+        self._stack(PopEnvironment)
+
+    def reset_environment(self) -> None:
+        """Take up the environment with which the launch began."""
+        self._stack(ResetEnv)
+
+    def _stack(self, action: type[Action]) -> None:
+        self.carry_out(action.at(here().span))
+
+    @contextmanager
+    def _refusing(self) -> Iterator[None]:
+        """Raise where errors come up meanwhile: they have been reported, and user code is to stop."""
+        before = len(self._run.problems.errors)
+        with our_code(self._run, here().span):
+            yield
+        errors = self._run.problems.errors[before:]
+        if errors:
+            raise ReportedError(errors[0].message)
+
+
+class EvaluationFailure(SubstitutionFailure):
+    """A text that cannot be evaluated; `problems` say why, none where that has been reported."""
+
+    def __init__(self, problems: tuple[Problem, ...]) -> None:
+        super().__init__(problems[0].message if problems else "a value has a fault that is reported")
+        self.problems = problems

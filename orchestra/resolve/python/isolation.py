@@ -1,0 +1,52 @@
+"""One resolution leaves its process as it was: user code may change environment, paths, modules, folder and streams."""
+
+from __future__ import annotations
+
+import os
+import sys
+from contextlib import ExitStack, contextmanager, redirect_stdout
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from orchestra.compat.hook import served
+from orchestra.resolve.python.calling import put_environment
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+# Where prefixes keep the Python packages that come with launch files.
+_LIBRARIES = ("lib/python3*/site-packages", "local/lib/python3*/dist-packages", "lib/python3*/dist-packages")
+
+
+@contextmanager
+def isolated(environment: Mapping[str, str], argv: Sequence[str]) -> Iterator[None]:
+    """Let launch files in Python be loaded: `os.environ` is `environment`, `sys.argv` are the words of `ros2 launch`.
+
+    What they print goes to standard error, for standard output carries the product of the command.
+    """
+    with ExitStack() as restoring:
+        restoring.callback(put_environment, dict(os.environ))
+        restoring.callback(os.chdir, Path.cwd())
+        restoring.callback(_put_list, sys.path, list(sys.path))
+        restoring.callback(_put_list, sys.argv, list(sys.argv))
+        restoring.enter_context(redirect_stdout(sys.stderr))
+        restoring.enter_context(served())
+        put_environment(environment)
+        sys.argv[:] = argv
+        sys.path += _libraries(environment)
+        yield
+
+
+def _libraries(environment: Mapping[str, str]) -> list[str]:
+    """Return the folders with Python packages in the prefixes, for those that are not on the path already."""
+    prefixes = [
+        Path(prefix) for prefix in environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if prefix
+    ]
+    found = [
+        str(path) for prefix in prefixes for pattern in _LIBRARIES for path in sorted(prefix.glob(pattern))
+    ]
+    return [path for path in found if path not in sys.path]
+
+
+def _put_list(target: list[str], content: list[str]) -> None:
+    target[:] = content
