@@ -15,26 +15,42 @@ from orchestra.resolve.model import ResolvedSkip
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from orchestra.description.entity import Action
+    from orchestra.description.entity import Action, Conditional
     from orchestra.description.launch import Description
     from orchestra.description.text import Template
     from orchestra.resolve.resolution import Resolution
 
 VISITORS: dict[str, str] = {
+    "AppendEnv": "append_env",
     "Arg": "arg",
     "Executable": "executable",
     "Group": "group",
     "Include": "include",
     "Let": "let",
+    "LifecycleNode": "lifecycle_node",
+    "LoadComposableNode": "load_composable_node",
     "Log": "log",
     "Node": "node",
+    "NodeContainer": "node_container",
+    "OpaqueAction": "opaque",
+    "PopEnvironment": "pop_environment",
+    "PopLaunchConfigurations": "pop_launch_configurations",
+    "PushEnvironment": "push_environment",
+    "PushLaunchConfigurations": "push_launch_configurations",
     "PushRosNamespace": "push_ros_namespace",
+    "Reset": "reset",
+    "ResetEnv": "reset_env",
+    "RosTimer": "ros_timer",
     "SetEnv": "set_env",
     "SetParameter": "set_parameter",
+    "SetParametersFromFile": "set_parameters_from_file",
     "SetRemap": "set_remap",
+    "SetRosLogDir": "set_ros_log_dir",
+    "SetUseSimTime": "set_use_sim_time",
     "Shutdown": "shutdown",
     "Timer": "timer",
     "UnsetEnv": "unset_env",
+    "UnsetLet": "unset_let",
 }
 
 
@@ -51,7 +67,7 @@ def visit(actions: Sequence[Action], run: Resolution) -> None:
     for action in actions:
         if not run.goes_on(action.span):
             break
-        if not _wanted(action, run):
+        if not wanted(action, VISITORS[type(action).__name__], run):
             continue
         conditional = action.if_ is not None or action.unless is not None
         run.conditions += conditional
@@ -76,7 +92,8 @@ def _visitor(name: str) -> Visitor:
     return visitor
 
 
-def _wanted(action: Action, run: Resolution) -> bool:
+def wanted(action: Conditional, word: str, run: Resolution) -> bool:
+    """Return whether the condition of an action is true; where it is not, the action is recorded as left out."""
     template = action.if_ if action.if_ is not None else action.unless
     if template is None:
         return True
@@ -87,7 +104,7 @@ def _wanted(action: Action, run: Resolution) -> bool:
     part = hidden(action, run.context, run.scope.variables)
     run.scope.ledger.hidden.append(part)
     if holds is not None and isinstance(value, Value):
-        _skip(action, template, value.text, run)
+        _skip(action, word, template, value.text, run)
         return False
     if isinstance(value, Value):
         message = f"a condition is true or false, this is '{value.text}'"
@@ -97,11 +114,11 @@ def _wanted(action: Action, run: Resolution) -> bool:
     return False
 
 
-def _skip(action: Action, template: Template, value: str, run: Resolution) -> None:
+def _skip(action: Conditional, word: str, template: Template, value: str, run: Resolution) -> None:
     name = getattr(action, "name", None) or getattr(action, "file", None)
     run.found.skipped.append(
         ResolvedSkip(
-            VISITORS[type(action).__name__],
+            word,
             name.raw if name is not None else None,
             "if" if action.if_ is not None else "unless",
             template.raw,
