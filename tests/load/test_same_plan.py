@@ -1,0 +1,159 @@
+"""What can be written in YAML and in XML means the same in both."""
+
+from __future__ import annotations
+
+import json
+import re
+from typing import TYPE_CHECKING, Any
+
+import yaml
+from hypothesis import HealthCheck, given, settings
+from hypothesis import strategies as st
+
+from orchestra.description.written import escaped
+from orchestra.errors import Problems
+from orchestra.pipeline import collect, inputs_from
+from orchestra.plan.codec import encode
+from tests.load.written import Actions, as_xml, as_yaml
+from tests.plan.strategies import NAMES, actions, inner_actions
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+_ENVIRONMENT = {"PATH": "/bin", "A_1": "outside"}
+_WRITERS = {"yaml": as_yaml, "xml": as_xml}
+_quickly = settings(
+    max_examples=100,
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+)
+
+# Any text that both formats can hold: XML has no control characters but tab and line breaks.
+any_text = st.text(
+    st.characters(exclude_categories=("Cc", "Cs"), exclude_characters="\ufffe\uffff")
+    | st.sampled_from("\n\t '\"\\$()&<>[]{},;:#-"),
+    max_size=20,
+)
+_names = st.sampled_from(NAMES)
+_seconds = st.sampled_from([0, 1, 2.5, "3", "$(var a 4)"])
+_scalars = st.one_of(
+    st.integers(-(2**63), 2**63 - 1),
+    st.booleans(),
+    st.floats(allow_nan=False, allow_infinity=False),
+    st.sampled_from(["x", "5", "true", "1e3", "it's", "$(var a 7)", "[1, 2]", "- 1", "0x10", "~"]),
+)
+_lists = st.one_of(
+    st.lists(st.integers(0, 9), min_size=1, max_size=3),
+    st.lists(st.sampled_from(["a", "b, c", "7", "on", "|;"]), min_size=1, max_size=3),
+)
+
+
+def _some(**keys: st.SearchStrategy[Any]) -> st.SearchStrategy[dict[str, Any]]:
+    return st.fixed_dictionaries({}, optional=keys)
+
+
+_param = st.recursive(
+    st.fixed_dictionaries({"name": _names, "value": _scalars | _lists})
+    | st.fixed_dictionaries({"name": _names, "value": any_text, "type": st.just("str")}),
+    lambda inner: st.fixed_dictionaries({"name": _names, "param": st.lists(inner, min_size=1, max_size=2)}),
+    max_leaves=3,
+)
+_process = {
+    "env": st.lists(st.fixed_dictionaries({"name": _names, "value": any_text.map(escaped)}), max_size=2),
+    "cwd": st.just("/tmp"),  # noqa: S108 - nothing is written there
+    "launch-prefix": st.just("nice -n 5"),
+    "shell": st.booleans(),
+    "output": st.sampled_from(["screen", "own_log"]),
+    "respawn": st.booleans(),
+    "respawn_delay": _seconds,
+    "respawn_max_retries": st.integers(-1, 3),
+    "sigterm_timeout": _seconds,
+    "required": st.booleans(),
+    "stop": _some(signal=st.just("SIGTERM"), timeout=_seconds, kill_timeout=_seconds),
+    "ready": st.fixed_dictionaries({"message": st.just("/t")}, optional={"timeout": _seconds}),
+    "success_exit_codes": st.lists(st.integers(0, 9), min_size=1, max_size=3),
+}
+_rich = st.one_of(
+    st.fixed_dictionaries(
+        {"exec": st.just("prog"), "param": st.lists(_param, max_size=3)}, optional=_process
+    ).map(lambda keys: {"node": keys}),
+    st.fixed_dictionaries(
+        {"cmd": st.sampled_from(["prog 'a b' c", "prog x$(var a 'y z')"])}, optional=_process
+    ).map(lambda keys: {"executable": keys}),
+    st.fixed_dictionaries({"name": _names, "value": _scalars | _lists}).map(
+        lambda keys: {"set_parameter": keys}
+    ),
+    st.fixed_dictionaries({"name": _names, "default": st.just("p"), "choices": st.just(["p", "q, r"])}).map(
+        lambda keys: {"arg": keys}
+    ),
+    st.fixed_dictionaries(
+        {
+            "keep": st.lists(
+                st.fixed_dictionaries({"name": _names, "value": any_text.map(escaped)}), max_size=2
+            ),
+            "children": st.lists(actions, max_size=2),
+        }
+    ).map(lambda keys: {"group": keys}),
+    any_text.map(lambda text: {"log": {"message": escaped(text)}}),
+)
+
+
+@given(st.lists(actions | _rich, max_size=6), inner_actions)
+@_quickly
+def test_a_description_gives_the_same_plan_in_both_formats(
+    tmp_path: Path, written: Actions, inner: Actions
+) -> None:
+    plans = [_planned(tmp_path, language, written, inner) for language in _WRITERS]
+    assert plans[0] == plans[1]
+
+
+@given(st.sampled_from(sorted(_WRITERS)), any_text)
+@_quickly
+def test_any_string_survives_escaping_beside_and_inside_substitutions(
+    tmp_path: Path, language: str, text: str
+) -> None:
+    single, double = (escaped(text).replace(quote, f"\\{quote}") for quote in ("'", '"'))
+    messages = [escaped(text), f"$(var none '{single}')", f'$(var none "{double}")']
+    if text and " " not in text:  # what is not quoted holds no space and is never empty
+        plain = re.sub(r"""([\\$'"()])""", r"\\\1", text)
+        messages += [f"$(var none {plain})", f"$(var none '$(env NONE {plain})')"]
+    plan = _planned(tmp_path, language, [{"log": {"message": message}} for message in messages], [])
+    assert [trigger["do"][0]["message"] for trigger in plan["triggers"]] == [text] * len(messages)
+
+
+@given(st.sampled_from(sorted(_WRITERS)), any_text, _names)
+@_quickly
+def test_any_string_survives_in_a_parameter_file_with_substitutions(
+    tmp_path: Path, language: str, text: str, name: str
+) -> None:
+    scalar = yaml.safe_dump(text, default_style='"', width=float("inf"), allow_unicode=True)
+    parameters = f"/**:\n  ros__parameters:\n    {name}: {scalar}"
+    (tmp_path / "p.yaml").write_text(escaped(parameters), "utf-8")
+    node = {"exec": "prog", "name": "n", "param": [{"from": "p.yaml", "allow_substs": True}]}
+    plan = _planned(tmp_path, language, [{"node": node}], [])
+    assert plan["processes"][0]["parameters"] == {name: text}
+
+
+def _planned(folder: Path, language: str, written: Actions, inner: Actions) -> Any:
+    """Return the plan of a description in a format, without places and with problems by their codes."""
+    files = {f"main.launch.{language}": written, f"inner.launch.{language}": inner}
+    for name, content in files.items():
+        text = _WRITERS[language](content).replace("inner.launch.yaml", f"inner.launch.{language}")
+        (folder / name).write_text(text, "utf-8")
+    problems = Problems()
+    plan = collect(
+        str(folder / f"main.launch.{language}"), inputs_from([], environment=_ENVIRONMENT), problems
+    )
+    assert plan is not None
+    return _without_places(json.loads(json.dumps(encode(plan)).replace(f".launch.{language}", ".launch")))
+
+
+def _without_places(value: Any) -> Any:
+    if isinstance(value, list):
+        return [_without_places(item) for item in value]
+    if not isinstance(value, dict):
+        return value
+    if "severity" in value:
+        return value["code"], value["severity"]
+    places = {"location", "provenance", "line", "column", "end_line", "end_column"}
+    return {key: _without_places(item) for key, item in value.items() if key not in places}
