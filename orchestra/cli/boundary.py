@@ -16,7 +16,7 @@ import sys
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from orchestra.cli import colour
+from orchestra.cli import colour, launch_prefix
 from orchestra.errors import DescriptionError, RunError, UsageError
 
 if TYPE_CHECKING:
@@ -47,7 +47,7 @@ class Telling:
         """Return how the errors of a command with these options are told."""
         words = [word for word in getattr(options, "words", ()) if ":=" in word]
         files = [f"--params-file {file}" for file in getattr(options, "params_file", ())]
-        given = " ".join([*words, *files])
+        given = " ".join([*words, *launch_prefix.words(options), *files])
         return cls(command, getattr(options, "format", "text"), given, getattr(options, "debug", False))
 
 
@@ -89,12 +89,12 @@ def show_problems(
 ) -> None:
     """Print problems to a stream; `command_line` is the text that those of the command line point into."""
     # `orchestra --help` should be fast, and it has no problems.
-    from orchestra.cli.problems.formats import FORMATS  # noqa: PLC0415
+    from orchestra.cli.problems.formats import renderer  # noqa: PLC0415
     from orchestra.cli.problems.sources import from_files  # noqa: PLC0415
     from orchestra.resolve.command_line import COMMAND_LINE  # noqa: PLC0415
 
     paint = colour.painter(enabled=colour.wanted(stream, os.environ))
-    stream.write(FORMATS[problem_format](problems, from_files({COMMAND_LINE: command_line}), paint))
+    stream.write(renderer(problem_format)(problems, from_files({COMMAND_LINE: command_line}), paint))
 
 
 def _show_bug(error: Exception, *, debug: bool) -> None:

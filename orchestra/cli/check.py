@@ -10,7 +10,6 @@ from orchestra.cli import boundary
 from orchestra.cli.inputs import as_errors
 from orchestra.cli.parser import CommandParser
 from orchestra.cli.problems.formats import FORMATS
-from orchestra.cli.targets import targets
 from orchestra.errors import Severity, UsageError
 
 if TYPE_CHECKING:
@@ -18,8 +17,10 @@ if TYPE_CHECKING:
 
 _EPILOG = """\
 A file is checked whatever it is called. In a folder, and the folders below it, these are checked: files whose name
-ends in .launch, .launch.py, .launch.xml or .launch.yaml, YAML files with a `launch` key, and YAML files with
-`ros__parameters`. The exit status is 0, or 2 where there is an error.
+ends in .launch, or in launch.py, .xml, .yaml or .yml behind a dot, line or underline; Python, XML and YAML files whose
+text is that of a launch file; and YAML files with `ros__parameters`. A package stands for its share folder, PACKAGE
+FILE and PACKAGE/NAME for one of its launch files, as for `orchestra launch`. The exit status is 0, or 2 where there
+is an error.
 """
 
 
@@ -27,11 +28,12 @@ def parser() -> CommandParser:
     """Return what the command understands."""
     made = CommandParser("check", "Find what is wrong in launch files and parameter files.", _EPILOG)
     made.add_argument(
-        "words", nargs="*", metavar="PATH | NAME:=VALUE", help="files and folders; launch arguments"
+        "words",
+        nargs="*",
+        metavar="PATH | PACKAGE [FILE] | NAME:=VALUE",
+        help="files, folders, packages, launch files of packages; launch arguments",
     )
-    made.add_argument(
-        "--format", choices=sorted(FORMATS), default="text", help="of the problems (default: text)"
-    )
+    made.add_argument("--format", choices=FORMATS, default="text", help="of the problems (default: text)")
     made.add_argument("--strict", action="store_true", help="take warnings for errors")
     return made
 
@@ -42,11 +44,14 @@ def run(options: Namespace) -> int:
     if not paths:
         raise UsageError("a file or folder is missing")
     words = [word for word in options.words if ":=" in word]
-    found = targets(paths)
-    # Both are heavy, and `--help` does not need them.
+    # All of them are heavy, and `--help` does not need them.
     from orchestra.cli.checking import problems_in  # noqa: PLC0415
+    from orchestra.cli.places import places  # noqa: PLC0415
+    from orchestra.cli.targets import targets  # noqa: PLC0415
     from orchestra.pipeline import inputs_from  # noqa: PLC0415
+    from orchestra.resolve.packages import InstalledPackages  # noqa: PLC0415
 
+    found = targets(places(paths, InstalledPackages(os.environ)))
     problems = problems_in(found, inputs_from(words, environment=os.environ))
     if options.strict:
         problems = as_errors(problems)

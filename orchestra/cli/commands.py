@@ -22,12 +22,15 @@ COMMANDS: Final[dict[str, Command]] = {
     "schema": Command(
         "orchestra.cli.schema", "print the JSON Schema of launch files, plans, events or problems"
     ),
+    "completion": Command(
+        "orchestra.cli.completion", "print what makes a shell complete these command lines"
+    ),
 }
 
 
 def overview() -> str:
     """Return the text of `orchestra --help`."""
-    rows = "".join(f"  {name:<9} {command.summary}\n" for name, command in COMMANDS.items())
+    rows = "".join(f"  {name:<10} {command.summary}\n" for name, command in COMMANDS.items())
     return (
         "usage: orchestra [--help] [--version] COMMAND ...\n\n"
         "Launches, checks and supervises systems of ROS 2 nodes.\n\n"

@@ -7,7 +7,7 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
-from orchestra.cli import boundary
+from orchestra.cli import boundary, launch_prefix
 from orchestra.errors import DescriptionError, Severity, UsageError
 
 if TYPE_CHECKING:
@@ -15,13 +15,15 @@ if TYPE_CHECKING:
 
     from orchestra.errors import Problem
     from orchestra.plan.model import Plan
+    from orchestra.resolve.inputs import Inputs
 
 EPILOG = """\
 words after the launch file:
   NAME:=VALUE        a launch argument
   NODE:NAME:=VALUE   a parameter of one node; it wins over all that the description says
 
-The launch file is a path, or the name of a package and the name of a file in it.
+The launch file is a path, the name of a package and that of a file in it, or both in one word: nav2_bringup/bringup
+for the one launch file bringup.launch.py, bringup_launch.py, bringup.launch.xml ... of the package.
 """
 
 
@@ -35,21 +37,31 @@ def add_to(parser: ArgumentParser) -> None:
         metavar="FILE",
         help="a parameter file for every node; it wins over the description; may be given more than once",
     )
+    launch_prefix.add_to(parser)
     parser.add_argument("--strict", action="store_true", help="take warnings for errors")
 
 
-def plan_from(options: Namespace, *, launching: bool, required: bool = True) -> Plan:
-    """Make the plan that the options ask for; without `required`, arguments may lack values.
-
-    Raises `UsageError` and `DescriptionError`; with `--strict` also where there are only warnings.
-    """
+def file_and_inputs(options: Namespace) -> tuple[str, Inputs]:
+    """Return the path of the launch file that is meant, and what is given to it. Raises `UsageError`."""
     if not options.words:
         raise UsageError("a launch file is missing")
     from orchestra import pipeline  # noqa: PLC0415 - heavy, and `--help` does not need it
 
+    launch_prefix.check(options)
     file, words = pipeline.find_launch_file(options.words)
-    given = pipeline.inputs_from(words, environment=os.environ, params_files=options.params_file)
-    plan = pipeline.make_plan(file, dataclasses.replace(given, launching=launching, required=required))
+    words = (*words, *launch_prefix.words(options))
+    return file, pipeline.inputs_from(words, environment=os.environ, params_files=options.params_file)
+
+
+def plan_from(options: Namespace, *, launching: bool) -> Plan:
+    """Make the plan that the options ask for.
+
+    Raises `UsageError` and `DescriptionError`; with `--strict` also where there are only warnings.
+    """
+    from orchestra import pipeline  # noqa: PLC0415 - heavy, and `--help` does not need it
+
+    file, given = file_and_inputs(options)
+    plan = pipeline.make_plan(file, dataclasses.replace(given, launching=launching))
     if options.strict and plan.problems:
         raise DescriptionError(as_errors(plan.problems))
     return plan

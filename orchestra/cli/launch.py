@@ -6,12 +6,9 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from orchestra.cli import boundary, inputs
-from orchestra.cli.arguments import arguments_text
-from orchestra.cli.handover import add_run_options, hand_over, supervised
+from orchestra.cli import boundary, inputs, run_options
 from orchestra.cli.parser import CommandParser
 from orchestra.cli.problems.formats import FORMATS
-from orchestra.plan.render.formats import FORMATS as PLAN_FORMATS
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -24,11 +21,11 @@ def parser() -> CommandParser:
     inputs.add_to(made)
     made.add_argument(
         "--format",
-        choices=sorted(FORMATS),
+        choices=FORMATS,
         default="text",
         help="how problems are shown (default: text)",
     )
-    add_run_options(made)
+    run_options.add_to(made)
     showing = made.add_mutually_exclusive_group()
     showing.add_argument(
         *("-s", "--show-args", "--show-arguments"),
@@ -47,17 +44,27 @@ def parser() -> CommandParser:
 
 def run(options: Namespace) -> int:
     """Show what was asked for, else run the plan."""
+    # What each of the three needs is heavy, and `--help` and the other two do not need it.
     if options.show_args:
-        sys.stdout.write(arguments_text(inputs.plan_from(options, launching=False, required=False)))
-        return boundary.OK
+        from orchestra.cli.arguments import show_arguments  # noqa: PLC0415
+
+        return show_arguments(options)
     if options.print_plan:
-        sys.stdout.write(PLAN_FORMATS["text"](inputs.plan_from(options, launching=False)))
+        from orchestra.plan.render.formats import FORMATS as PLAN_FORMATS  # noqa: PLC0415
+
+        plan = inputs.plan_from(options, launching=False)
+        inputs.warn(plan, options)
+        sys.stdout.write(PLAN_FORMATS["text"](plan))
         return boundary.OK
+    from orchestra.cli.handover import supervised  # noqa: PLC0415
+
     return supervised("launch", prepare, options)
 
 
 def prepare(options: Namespace, stream: BinaryIO) -> int:
     """Make the plan and hand it to the supervisor; its warnings go to standard error."""
+    from orchestra.cli.handover import hand_over  # noqa: PLC0415 - heavy, and only a run needs it
+
     plan = inputs.plan_from(options, launching=True)
     inputs.warn(plan, options)
     hand_over(plan, options, Path(plan.file).name.partition(".")[0], stream)

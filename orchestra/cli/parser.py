@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, NoReturn
 from orchestra.errors import UsageError
 
 if TYPE_CHECKING:
+    from argparse import Action
     from collections.abc import Sequence
 
 
@@ -24,11 +25,16 @@ class CommandParser(ArgumentParser):
             allow_abbrev=False,
             formatter_class=RawDescriptionHelpFormatter,
         )
-        self._intermixed = intermixed
+        self.intermixed = intermixed
+
+    @property
+    def actions(self) -> tuple[Action, ...]:
+        """The options and positional words that it reads."""
+        return tuple(self._actions)
 
     def read(self, words: Sequence[str]) -> Namespace:
         """Return the options. Raises `UsageError`, or `SystemExit` after `--help`."""
-        return self.parse_intermixed_args(words) if self._intermixed else self.parse_args(words)
+        return self.parse_intermixed_args(words) if self.intermixed else self.parse_args(words)
 
     def error(self, message: str) -> NoReturn:
         """Raise instead of printing and leaving."""

@@ -6,8 +6,7 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
-from orchestra.cli import boundary, inputs
-from orchestra.cli.handover import add_run_options, hand_over, supervised
+from orchestra.cli import boundary, inputs, run_options
 from orchestra.cli.parser import CommandParser
 from orchestra.errors import UsageError
 
@@ -21,7 +20,7 @@ _EPILOG = "All words after the executable go to the node unchanged."
 def parser() -> CommandParser:
     """Return what the command understands."""
     made = CommandParser("run", "Start one node.", _EPILOG, intermixed=False)
-    add_run_options(made)
+    run_options.add_to(made)
     made.add_argument(
         "--prefix", default="", metavar="COMMAND", help="a command to run the node with: 'gdb --args'"
     )
@@ -33,6 +32,8 @@ def parser() -> CommandParser:
 
 def run(options: Namespace) -> int:
     """Run the node."""
+    from orchestra.cli.handover import supervised  # noqa: PLC0415 - heavy, and `--help` does not need it
+
     return supervised("run", prepare, options)
 
 
@@ -40,7 +41,9 @@ def prepare(options: Namespace, stream: BinaryIO) -> int:
     """Make the plan of the one node and hand it to the supervisor."""
     if len(options.words) < 2:  # noqa: PLR2004 - a package and an executable
         raise UsageError("a package and an executable are wanted")
-    from orchestra import pipeline  # noqa: PLC0415 - heavy, and `--help` does not need it
+    # Both are heavy, and `--help` does not need them.
+    from orchestra import pipeline  # noqa: PLC0415
+    from orchestra.cli.handover import hand_over  # noqa: PLC0415
 
     package, executable, *arguments = options.words
     given = pipeline.inputs_from((), environment=os.environ)

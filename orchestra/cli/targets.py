@@ -1,7 +1,7 @@
 """Which files `orchestra check` looks at, and what each of them is.
 
 A file that is named is always looked at. In a folder only what is plainly a launch file or a parameter file is: by
-its name, else by a key of its text. The text is searched, not parsed, so that a file with a syntax error is found.
+its name, else by a mark in its text. The text is searched, not parsed, so that a file with a syntax error is found.
 """
 
 from __future__ import annotations
@@ -14,15 +14,14 @@ from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from orchestra.errors import UsageError
 from orchestra.location import is_file
+from orchestra.resolve.launch_files import TEXTS, files_below, is_launch_name, is_launch_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Sequence
 
 Kind: TypeAlias = Literal["launch", "parameters"]
 
-_LAUNCH_NAME = re.compile(r".\.launch(\.(py|xml|ya?ml))?$")
 _YAML_NAME = re.compile(r"\.ya?ml$")
-_LAUNCH_KEY = re.compile(r"""^(\{\s*)?["']?launch["']?\s*:""", re.MULTILINE)
 _PARAMETERS_KEY = re.compile(r"""^[^#\n]*\bros__parameters["']?\s*:""", re.MULTILINE)
 
 
@@ -48,13 +47,9 @@ def targets(paths: Sequence[str]) -> tuple[Target, ...]:
 
 def kind_of(name: str, text: str) -> Kind | None:
     """Tell what a file is by its name and text, None where it is neither."""
-    if _LAUNCH_NAME.search(name):
+    if is_launch_name(name) or is_launch_text(name, text):
         return "launch"
-    if not _YAML_NAME.search(name):
-        return None
-    if _LAUNCH_KEY.search(text):
-        return "launch"
-    return "parameters" if _PARAMETERS_KEY.search(text) else None
+    return "parameters" if _YAML_NAME.search(name) and _PARAMETERS_KEY.search(text) else None
 
 
 def _behind(path: str) -> list[Target]:
@@ -62,21 +57,14 @@ def _behind(path: str) -> list[Target]:
         return [Target(path, _kind_of_file(Path(path)) or "launch")]
     if not os.path.isdir(path):  # noqa: PTH112 - pathlib raises for paths that the system refuses
         raise UsageError(f"there is no file or folder {path}")
-    found = [Target(str(file), kind) for file in sorted(_files(path)) if (kind := _kind_of_file(file))]
+    found = [Target(str(file), kind) for file in sorted(files_below(path)) if (kind := _kind_of_file(file))]
     if not found:
         raise UsageError(f"there is no launch file and no parameter file in {path}")
     return found
 
 
-def _files(folder: str) -> Iterator[Path]:
-    """Yield the files below a folder, hidden folders left out."""
-    for here, folders, files in os.walk(folder):
-        folders[:] = [name for name in folders if not name.startswith(".")]
-        yield from (Path(here, name) for name in files)
-
-
 def _kind_of_file(file: Path) -> Kind | None:
-    if not _YAML_NAME.search(file.name):
+    if file.suffix not in TEXTS:
         return kind_of(file.name, "")
     try:
         text = file.read_text("utf-8", errors="replace")

@@ -63,7 +63,7 @@ def test_version(orchestra: Command) -> None:
         (("plan",), "a launch file is missing", "orchestra plan --help"),
         (("plan", "--format", "xml", "x"), "invalid choice: 'xml'", "orchestra plan --help"),
         (("check",), "a file or folder is missing", "orchestra check --help"),
-        (("check", "nowhere"), "there is no file or folder nowhere", "orchestra check --help"),
+        (("check", "nowhere"), "there is no file, folder or package nowhere", "orchestra check --help"),
         (("run", "demo"), "a package and an executable are wanted", "orchestra run --help"),
         (("schema", "nothing"), "invalid choice: 'nothing'", "orchestra schema --help"),
     ],

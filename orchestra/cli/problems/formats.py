@@ -1,10 +1,9 @@
-"""The table of formats."""
+"""The table of formats: a module of this room each, imported when it is used."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
-
-from orchestra.cli.problems import github, json, sarif, text
+from importlib import import_module
+from typing import TYPE_CHECKING, Final, Protocol
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -21,9 +20,10 @@ class Renderer(Protocol):
         """Return the text."""
 
 
-FORMATS: dict[str, Renderer] = {
-    "text": text.render,
-    "json": json.render,
-    "github": github.render,
-    "sarif": sarif.render,
-}
+FORMATS: Final = ("github", "json", "sarif", "text")
+
+
+def renderer(name: str) -> Renderer:
+    """Return what renders a format of the table."""
+    render: Renderer = import_module(f"orchestra.cli.problems.{name}").render
+    return render

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.cli.colour import painter
-from orchestra.cli.problems.formats import FORMATS
+from orchestra.cli.problems.formats import FORMATS, renderer
 from orchestra.cli.problems.sources import from_files
 from orchestra.errors import Code, Problem, Severity
 from orchestra.location import Span
@@ -33,7 +33,7 @@ _ALL = (_UNKNOWN, _LEAK, _PLACELESS)
 
 
 def _render(name: str, problems: tuple[Problem, ...] = _ALL, *, coloured: bool = False) -> str:
-    return FORMATS[name](problems, from_files({"robot.yaml": _TEXT}), painter(enabled=coloured))
+    return renderer(name)(problems, from_files({"robot.yaml": _TEXT}), painter(enabled=coloured))
 
 
 def test_text() -> None:

@@ -1,0 +1,97 @@
+"""The candidates for the word at the cursor of an `orchestra` command line."""
+
+from __future__ import annotations
+
+import argparse
+from importlib import import_module
+from typing import TYPE_CHECKING, Final, TypeAlias
+
+from orchestra.cli.commands import COMMANDS
+from orchestra.cli.completing.candidates import Candidate, beginning_with
+from orchestra.cli.completing.paths import paths
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Sequence
+
+    from orchestra.cli.parser import CommandParser
+
+    Words: TypeAlias = Callable[[Sequence[str], str], Iterable[Candidate]]
+
+# The function of `launch_words` that knows the words of a command; those of the others are the choices of its parser.
+_WORDS: Final = {"launch": "launch_words", "plan": "launch_words", "check": "check_words", "run": "run_words"}
+_FILE = "FILE"
+
+
+def candidates(before: Sequence[str], begun: str) -> list[Candidate]:
+    """Return what the word at the cursor can become; `before` are the words between the program's name and it."""
+    if not before:
+        named = (Candidate(name, command.summary) for name, command in COMMANDS.items())
+        return beginning_with(begun, (*named, *map(Candidate, ("--help", "--version") if begun else ())))
+    command, *given = before
+    if command not in COMMANDS:
+        return []
+    parser: CommandParser = import_module(COMMANDS[command].module).parser()
+    return beginning_with(begun, _of_command(command, parser, given, begun))
+
+
+def _of_command(command: str, parser: CommandParser, given: Sequence[str], begun: str) -> Iterable[Candidate]:
+    options = {name: option for option in parser.actions for name in option.option_strings}
+    words, waiting, closed = _positional(given, options, intermixed=parser.intermixed)
+    if waiting is not None:
+        return _values(waiting, begun)
+    if begun.startswith("-") and not closed:
+        name, separator, value = begun.partition("=")
+        if separator and name in options:
+            found = _values(options[name], value)
+            return (candidate._replace(word=f"{name}={candidate.word}") for candidate in found)
+        return _options(options, given)
+    if command in _WORDS:
+        known = import_module("orchestra.cli.completing.launch_words")
+        function: Words = getattr(known, _WORDS[command])
+        return function(words, begun)
+    return _choices(parser, words)
+
+
+def _positional(
+    given: Sequence[str], options: dict[str, argparse.Action], *, intermixed: bool
+) -> tuple[list[str], argparse.Action | None, bool]:
+    """Return the words that are no options, the option whose value is at the cursor, and whether none can follow."""
+    words: list[str] = []
+    waiting = None
+    closed = False
+    for word in given:
+        if waiting is not None:
+            waiting = None
+        elif closed or not word.startswith("-"):
+            words.append(word)
+            closed |= not intermixed
+        elif word == "--":
+            closed = True
+        elif (option := options.get(word)) is not None and _takes_a_value(option):
+            waiting = option
+    return words, waiting, closed
+
+
+def _takes_a_value(option: argparse.Action) -> bool:
+    return option.nargs != 0
+
+
+def _options(options: dict[str, argparse.Action], given: Sequence[str]) -> Iterable[Candidate]:
+    """Yield options that are not given yet; of several names of one that is, none."""
+    for name, option in options.items():
+        repeated = type(option).__name__ == "_AppendAction"
+        if option.help != argparse.SUPPRESS and (repeated or not set(option.option_strings) & set(given)):
+            yield Candidate(name, option.help or "")
+
+
+def _values(option: argparse.Action, begun: str) -> Iterable[Candidate]:
+    if option.choices is not None:
+        return map(Candidate, map(str, option.choices))
+    return paths(begun) if option.metavar == _FILE else ()
+
+
+def _choices(parser: CommandParser, words: Sequence[str]) -> Iterable[Candidate]:
+    positional = [action for action in parser.actions if not action.option_strings]
+    if len(words) >= len(positional):
+        return ()
+    return map(Candidate, map(str, positional[len(words)].choices or ()))

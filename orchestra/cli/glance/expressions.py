@@ -1,0 +1,182 @@
+"""Expressions of Python launch files that come to the same whatever is set, found in the text of the file."""
+
+from __future__ import annotations
+
+import ast
+import os
+from collections import Counter
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+    from orchestra.cli.glance.model import Places
+
+
+class Expressions:
+    """The names of one file, and what expressions with them come to."""
+
+    def __init__(self, tree: ast.Module, places: Places) -> None:
+        self._places = places
+        self._originals = dict(_renamed_imports(tree))
+        self._values = _assigned_once(tree)
+        self._open: list[str] = []
+
+    def original(self, name: str) -> str:
+        """Return the name under which an imported thing was defined."""
+        return self._originals.get(name, name)
+
+    def named(self, node: ast.expr | None) -> ast.expr | None:
+        """Return the expression behind a name that is assigned once, any other expression as it is."""
+        seen = set()
+        while isinstance(node, ast.Name) and node.id in self._values and node.id not in seen:
+            seen.add(node.id)
+            node = self._values[node.id]
+        return node
+
+    def text(self, node: ast.expr | None) -> str | None:
+        """Return what an expression comes to as a text, None where that depends on anything."""
+        match node:
+            case ast.Constant(value=str() | bool() | int() | float() as value):
+                return str(value)
+            case ast.Name(id=name):
+                return self._name(name)
+            case ast.List(elts=elements) | ast.Tuple(elts=elements) | ast.JoinedStr(values=elements):
+                return self._joined("", elements)
+            case ast.FormattedValue(value=value, conversion=-1, format_spec=None):
+                return self.text(value)
+            case ast.BinOp(left=left, op=ast.Add() | ast.Div() as operator, right=right):
+                return self._joined(os.sep if isinstance(operator, ast.Div) else "", [left, right])
+            case ast.Attribute(value=value, attr="parent"):
+                return _parent(self.text(value))
+            case ast.Call():
+                return self._call(node)
+        return None
+
+    def texts(self, node: ast.expr | None) -> tuple[str, ...] | None:
+        """Return the texts of a list, None where one of them is unknown."""
+        node = self.named(node)
+        if not isinstance(node, ast.List | ast.Tuple):
+            return None
+        found = [self.text(element) for element in node.elts]
+        return tuple(text for text in found if text is not None) if None not in found else None
+
+    def keys(self, node: ast.expr | None) -> frozenset[str]:
+        """Return the names in `{'a': x}`, `{'a': x}.items()`, `dict(a=x)` or `[('a', x)]` that are known."""
+        node = self.named(node)
+        if isinstance(node, ast.Call):
+            if isinstance(node.func, ast.Attribute) and node.func.attr == "items":
+                return self.keys(node.func.value)
+            return frozenset(item.arg for item in node.keywords if item.arg)
+        found: list[ast.expr | None] = []
+        if isinstance(node, ast.Dict):
+            found = list(node.keys)
+        elif isinstance(node, ast.List | ast.Tuple):
+            found = [item.elts[0] for item in node.elts if isinstance(item, ast.Tuple) and item.elts]
+        texts = (self.text(key) for key in found)
+        return frozenset(text for text in texts if text is not None)
+
+    def _name(self, name: str) -> str | None:
+        if name == "__file__":
+            return self._places.path
+        if name not in self._values or name in self._open:
+            return None
+        self._open.append(name)
+        try:
+            return self.text(self._values[name])
+        finally:
+            self._open.pop()
+
+    def _joined(self, separator: str, elements: Sequence[ast.expr]) -> str | None:
+        parts = []
+        for element in elements:
+            text = self.text(element)
+            if text is None:
+                return None
+            parts.append(text)
+        return separator.join(parts)
+
+    def _call(self, call: ast.Call) -> str | None:
+        name = self.original(callee(call))
+        if name == "ThisLaunchFileDir":
+            return _parent(self._places.path)
+        if name in _SAME and not call.args and isinstance(call.func, ast.Attribute):
+            return self.text(call.func.value)  # a method: `Path(__file__).resolve()`
+        if name == "PathJoinSubstitution" and len(call.args) == 1:
+            elements = self.named(call.args[0])
+            return self._joined(os.sep, elements.elts) if isinstance(elements, ast.List | ast.Tuple) else None
+        if name == "join" and _is_path_join(call):
+            return self._joined(os.sep, call.args)
+        text = self.text(call.args[0] if call.args else keyword(call, "text") or keyword(call, "package"))
+        function = self._functions().get(name)
+        return None if text is None or function is None else function(text)
+
+    def _functions(self) -> dict[str, Callable[[str], str | None]]:
+        share, prefix = self._places.share, self._places.prefix
+        return {
+            **dict.fromkeys(_SAME, lambda text: text),
+            **dict.fromkeys(
+                ("get_package_share_directory", "get_package_share_path", "FindPackageShare"), share
+            ),
+            **dict.fromkeys(("get_package_prefix", "FindPackagePrefix", "FindPackage"), prefix),
+            "find": share,  # FindPackageShare('x').find('x')
+            "dirname": _parent,
+        }
+
+
+_SAME = frozenset(
+    {"str", "Path", "TextSubstitution", "PathSubstitution", "abspath", "realpath", "normpath"}
+    | {"resolve", "absolute", "as_posix"}
+)
+
+
+def callee(call: ast.Call) -> str:
+    """Return the last word of what is called, an empty text where it has none."""
+    if isinstance(call.func, ast.Attribute):
+        return call.func.attr
+    return call.func.id if isinstance(call.func, ast.Name) else ""
+
+
+def keyword(call: ast.Call, name: str) -> ast.expr | None:
+    """Return the value that a call gives under a keyword."""
+    return next((item.value for item in call.keywords if item.arg == name), None)
+
+
+def _is_path_join(call: ast.Call) -> bool:
+    """Tell `os.path.join(...)` and `join(...)` from the method of a text."""
+    return isinstance(call.func, ast.Name) or (
+        isinstance(call.func, ast.Attribute) and isinstance(call.func.value, ast.Name | ast.Attribute)
+    )
+
+
+def _parent(path: str | None) -> str | None:
+    return None if path is None else os.path.dirname(path)  # noqa: PTH120 - a text is wanted, and pathlib would change it
+
+
+def _renamed_imports(tree: ast.Module) -> Iterator[tuple[str, str]]:
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom):
+            for alias in node.names:
+                if alias.asname:
+                    yield alias.asname, alias.name
+
+
+def _assigned_once(tree: ast.Module) -> dict[str, ast.expr]:
+    """Return the values of the names that one plain assignment sets, and nothing else in the file."""
+    nodes = list(ast.walk(tree))
+    stores = Counter(
+        node.arg if isinstance(node, ast.arg) else node.id
+        for node in nodes
+        if isinstance(node, ast.arg) or (isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store))
+    )
+    found = {}
+    for node in nodes:
+        if isinstance(node, ast.Assign) and len(node.targets) == 1:
+            target, value = node.targets[0], node.value
+        elif isinstance(node, ast.AnnAssign) and node.value is not None:
+            target, value = node.target, node.value
+        else:
+            continue
+        if isinstance(target, ast.Name) and stores[target.id] == 1:
+            found[target.id] = value
+    return found
