@@ -14,7 +14,6 @@ from orchestra.errors import Code
 from orchestra.load.elements import emptied
 from orchestra.load.keys import action_meant, spelled
 from orchestra.load.reader import Reader
-from orchestra.load.words import UNSUPPORTED
 
 if TYPE_CHECKING:
     from orchestra.description.entity import Action, Entity
@@ -132,9 +131,6 @@ class _Builder:
         model = model_of(spelled(name))
         if model is not None:
             return model, True
-        if spelled(name) in UNSUPPORTED:
-            self.reader.error(Code.UNKNOWN_ACTION, f"the action '{name}' is not supported yet", at)
-            return None, False
         near, slip = action_meant(name)
         self.reader.error(Code.UNKNOWN_ACTION, f"unknown action '{name}'", at, suggestion=near)
         return (model_of(near) if near is not None and slip else None), False

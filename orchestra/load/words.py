@@ -1,4 +1,4 @@
-"""Names of actions that are none here: what they are called here, or that they are still to come."""
+"""Names of actions that are none here, and what they are called here."""
 
 from __future__ import annotations
 
@@ -23,18 +23,3 @@ ELSEWHERE: Final = {
     "timer_action": "timer",
     "unset_environment_variable": "unset_env",
 }
-
-# Actions of ROS 2 Jazzy that are not supported yet: to guess what was meant by them would mislead.
-UNSUPPORTED: Final = frozenset(
-    {
-        "append_env",
-        "load_composable_node",
-        "node_container",
-        "reset",
-        "reset_env",
-        "ros_timer",
-        "set_parameters_from_file",
-        "set_ros_log_dir",
-        "set_use_sim_time",
-    }
-)

@@ -59,6 +59,8 @@ def _offsets(text: str, content: bytes) -> Callable[[int], int]:
     last = [0, 0]
 
     def offset(index: int) -> int:
+        while content[index : index + 1] and content[index] & 0xC0 == 0x80:  # noqa: PLR2004 - in a character
+            index -= 1
         if index < last[0]:
             last[:] = [0, 0]
         last[1] += len(content[last[0] : index].decode("utf-8", "surrogatepass"))

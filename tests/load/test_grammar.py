@@ -17,6 +17,7 @@ from orchestra.location import Span
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from orchestra.description.text import Part
     from orchestra.errors import Problem
 
 
@@ -43,10 +44,14 @@ def _one_error(text: str) -> Problem:
 
 def _shape(template: Template) -> list[object]:
     """Show literal text as text, a substitution as the list of its name and its arguments' shapes."""
-    return [
-        part.text if isinstance(part, Words) else [part.name, *map(_shape, part.arguments)]
-        for part in template.parts
-    ]
+    return [_shape_of_part(part) for part in template.parts]
+
+
+def _shape_of_part(part: Part) -> object:
+    if isinstance(part, Words):
+        return part.text
+    assert isinstance(part, Call)
+    return [part.name, *map(_shape, part.arguments)]
 
 
 @pytest.mark.parametrize(
@@ -106,7 +111,7 @@ def test_a_text_is_read_as_upstream_reads_it(text: str, shape: list[object]) -> 
         ("$(find_pkg_share a)", Code.UNKNOWN_SUBSTITUTION, "find_pkg_share", "find-pkg-share"),
         ("$(arg a)", Code.UNKNOWN_SUBSTITUTION, "arg", "var"),
         ("$(find a)", Code.UNKNOWN_SUBSTITUTION, "find", "find-pkg-share"),
-        ("$(path-join a b)", Code.UNKNOWN_SUBSTITUTION, "path-join", None),
+        ("$(no-such a b)", Code.UNKNOWN_SUBSTITUTION, "no-such", None),
         ("x $(and a) y", Code.SUBSTITUTION_SYNTAX, "$(and a)", None),
         ("$(var)", Code.SUBSTITUTION_SYNTAX, "$(var)", None),
         ("$(dirname a b)", Code.SUBSTITUTION_SYNTAX, "a b", None),

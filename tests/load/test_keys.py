@@ -10,7 +10,7 @@ from orchestra.description.source import Keyed, Written
 from orchestra.errors import Code, Problems
 from orchestra.load.keys import known_keys, meant
 from orchestra.load.reader import Reader
-from orchestra.load.words import ELSEWHERE, UNSUPPORTED
+from orchestra.load.words import ELSEWHERE
 from orchestra.location import Span
 
 KNOWN = frozenset({"name", "value", "launch_prefix"})
@@ -97,4 +97,3 @@ def test_what_a_word_means(word: str, known: frozenset[str], expected: tuple[str
 def test_words_of_other_dialects_mean_actions_that_are_here() -> None:
     assert set(ELSEWHERE.values()) <= set(ACTIONS)
     assert not set(ELSEWHERE) & set(ACTIONS)
-    assert not UNSUPPORTED & set(ACTIONS), "this action is supported by now"

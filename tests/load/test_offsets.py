@@ -9,7 +9,11 @@ from hypothesis import strategies as st
 
 from orchestra.load.offsets import source, spans_of
 
-PLAIN = st.text(st.characters(codec="utf-8", exclude_categories=("Cs", "Cc")), min_size=1, max_size=40)
+PLAIN = st.text(
+    st.characters(codec="utf-8", exclude_categories=("Cs", "Cc"), exclude_characters="\ufffe\uffff"),
+    min_size=1,
+    max_size=40,
+)
 
 
 def _node(text: str) -> yaml.ScalarNode:

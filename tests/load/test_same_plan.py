@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from typing import TYPE_CHECKING, Any
 
@@ -11,17 +10,15 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from orchestra.description.written import escaped
-from orchestra.errors import Problems
-from orchestra.pipeline import collect, inputs_from
-from orchestra.plan.codec import encode
-from tests.load.written import Actions, as_xml, as_yaml
-from tests.plan.strategies import NAMES, actions, inner_actions
+from tests.load.planning import planned
+from tests.load.written import WRITERS, Actions
+from tests.plan.strategies import NAMES, inner_actions
+from tests.plan.strategies import actions as ordinary
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 _ENVIRONMENT = {"PATH": "/bin", "A_1": "outside"}
-_WRITERS = {"yaml": as_yaml, "xml": as_xml}
 _quickly = settings(
     max_examples=100,
     deadline=None,
@@ -91,23 +88,23 @@ _rich = st.one_of(
             "keep": st.lists(
                 st.fixed_dictionaries({"name": _names, "value": any_text.map(escaped)}), max_size=2
             ),
-            "children": st.lists(actions, max_size=2),
+            "children": st.lists(ordinary, max_size=2),
         }
     ).map(lambda keys: {"group": keys}),
     any_text.map(lambda text: {"log": {"message": escaped(text)}}),
 )
 
 
-@given(st.lists(actions | _rich, max_size=6), inner_actions)
+@given(st.lists(ordinary | _rich, max_size=6), inner_actions)
 @_quickly
 def test_a_description_gives_the_same_plan_in_both_formats(
     tmp_path: Path, written: Actions, inner: Actions
 ) -> None:
-    plans = [_planned(tmp_path, language, written, inner) for language in _WRITERS]
+    plans = [planned(tmp_path, language, written, _ENVIRONMENT, inner=inner) for language in WRITERS]
     assert plans[0] == plans[1]
 
 
-@given(st.sampled_from(sorted(_WRITERS)), any_text)
+@given(st.sampled_from(sorted(WRITERS)), any_text)
 @_quickly
 def test_any_string_survives_escaping_beside_and_inside_substitutions(
     tmp_path: Path, language: str, text: str
@@ -117,11 +114,11 @@ def test_any_string_survives_escaping_beside_and_inside_substitutions(
     if text and " " not in text:  # what is not quoted holds no space and is never empty
         plain = re.sub(r"""([\\$'"()])""", r"\\\1", text)
         messages += [f"$(var none {plain})", f"$(var none '$(env NONE {plain})')"]
-    plan = _planned(tmp_path, language, [{"log": {"message": message}} for message in messages], [])
-    assert [trigger["do"][0]["message"] for trigger in plan["triggers"]] == [text] * len(messages)
+    actions = [{"log": {"message": message}} for message in messages]
+    assert planned(tmp_path, language, actions, _ENVIRONMENT).messages == [text] * len(messages)
 
 
-@given(st.sampled_from(sorted(_WRITERS)), any_text, _names)
+@given(st.sampled_from(sorted(WRITERS)), any_text, _names)
 @_quickly
 def test_any_string_survives_in_a_parameter_file_with_substitutions(
     tmp_path: Path, language: str, text: str, name: str
@@ -130,30 +127,5 @@ def test_any_string_survives_in_a_parameter_file_with_substitutions(
     parameters = f"/**:\n  ros__parameters:\n    {name}: {scalar}"
     (tmp_path / "p.yaml").write_text(escaped(parameters), "utf-8")
     node = {"exec": "prog", "name": "n", "param": [{"from": "p.yaml", "allow_substs": True}]}
-    plan = _planned(tmp_path, language, [{"node": node}], [])
-    assert plan["processes"][0]["parameters"] == {name: text}
-
-
-def _planned(folder: Path, language: str, written: Actions, inner: Actions) -> Any:
-    """Return the plan of a description in a format, without places and with problems by their codes."""
-    files = {f"main.launch.{language}": written, f"inner.launch.{language}": inner}
-    for name, content in files.items():
-        text = _WRITERS[language](content).replace("inner.launch.yaml", f"inner.launch.{language}")
-        (folder / name).write_text(text, "utf-8")
-    problems = Problems()
-    plan = collect(
-        str(folder / f"main.launch.{language}"), inputs_from([], environment=_ENVIRONMENT), problems
-    )
-    assert plan is not None
-    return _without_places(json.loads(json.dumps(encode(plan)).replace(f".launch.{language}", ".launch")))
-
-
-def _without_places(value: Any) -> Any:
-    if isinstance(value, list):
-        return [_without_places(item) for item in value]
-    if not isinstance(value, dict):
-        return value
-    if "severity" in value:
-        return value["code"], value["severity"]
-    places = {"location", "provenance", "line", "column", "end_line", "end_column"}
-    return {key: _without_places(item) for key, item in value.items() if key not in places}
+    plan = planned(tmp_path, language, [{"node": node}], _ENVIRONMENT)
+    assert [process["parameters"] for process in plan.processes] == [{name: text}]

@@ -241,13 +241,20 @@ _PIECES = (
 )
 
 
+def _edited(edits: list[tuple[int, int, str]]) -> str:
+    text = _SEED
+    for at, removed, piece in edits:
+        text = text[:at] + piece + text[at + removed :]
+    return text
+
+
 @given(
     st.text(max_size=100)
     | st.lists(
         st.tuples(st.integers(0, len(_SEED)), st.integers(0, 8), st.sampled_from(("", *_PIECES))),
         min_size=1,
         max_size=4,
-    ).map(lambda edits: _edited(edits))
+    ).map(_edited)
 )
 @example("<a &")
 @example("<launch a='b")
@@ -262,10 +269,3 @@ def test_no_text_breaks_the_reader(text: str) -> None:
         assert problem.span is not None
         assert 1 <= problem.span.line <= problem.span.end_line <= lines
         assert "\n" not in problem.message
-
-
-def _edited(edits: list[tuple[int, int, str]]) -> str:
-    text = _SEED
-    for at, removed, piece in edits:
-        text = text[:at] + piece + text[at + removed :]
-    return text

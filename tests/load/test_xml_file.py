@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from itertools import pairwise
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -190,7 +191,7 @@ def test_every_character_of_a_value_is_found_again(pieces: list[tuple[str, str]]
 def _neighbours(pieces: list[tuple[str, str]]) -> list[tuple[str, str]]:
     """Return the source of all pieces beside each other: a return before a line feed is one break with it."""
     written = [piece for _, piece in pieces]
-    return [(one[-1], other[0]) for one, other in zip(written, written[1:], strict=False)]
+    return [(one[-1], other[0]) for one, other in pairwise(written)]
 
 
 def _loaded(text: str | bytes, folder: Path, name: str) -> list[tuple[Code, int, int]]:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from xml.sax.saxutils import escape
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Callable, Iterable, Iterator, Mapping
 
 Actions = list[dict[str, Any]]
 
@@ -27,6 +27,9 @@ def as_xml(actions: Actions) -> str:
     return f"<launch>{''.join(_actions(actions))}</launch>"
 
 
+WRITERS: Mapping[str, Callable[[Actions], str]] = {"xml": as_xml, "yaml": as_yaml}
+
+
 def attribute(text: str) -> str:
     """Return a text as it stands between the double quotes of an attribute."""
     return escape(text, _ESCAPES)
@@ -40,7 +43,8 @@ def _actions(actions: Actions) -> Iterator[str]:
 
 def _element(name: str, content: Mapping[str, Any]) -> str:
     typed = name in _TYPED and "type" not in content
-    attributes, inside = [], []
+    attributes: list[str] = []
+    inside: list[str] = []
     for key, value in content.items():
         if key == "children":
             inside += _actions(value)
