@@ -15,5 +15,5 @@ __all__ = sorted(_NAMES)  # noqa: PLE0605 - the names are those of the table
 _attribute = exported(__name__, _NAMES)
 
 
-def __getattr__(name: str) -> Any:  # noqa: ANN401 - whatever is exported
+def __getattr__(name: str) -> Any:
     return _attribute(name)

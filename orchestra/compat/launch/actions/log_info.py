@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 class LogInfo(ModelledAction):
     """Print a message when the action is visited."""
 
-    def __init__(self, *, msg: Sub, **kwargs: Any) -> None:  # noqa: ANN401 - what every action takes
+    def __init__(self, *, msg: Sub, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         self.__msg = normalized(msg)
 

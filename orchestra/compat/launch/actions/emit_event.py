@@ -1,0 +1,32 @@
+"""`EmitEvent`: lets an event happen."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.launch.action import ModelledAction
+from orchestra.compat.launch.event import Event
+from orchestra.description.actions.emit_event import EmitEvent as EmitEventModel
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from orchestra.description.entity import Action as Model
+
+
+class EmitEvent(ModelledAction):
+    """Let an event happen after what is being visited. Raises `RuntimeError` for anything but an event."""
+
+    def __init__(self, *, event: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        if not (isinstance(event, Event) or (isinstance(event, type) and issubclass(event, Event))):
+            raise RuntimeError(f"EmitEvent takes a launch.Event, not {event!r}")  # noqa: TRY004 - as upstream
+        self.__event = event
+
+    @property
+    def event(self) -> Any:
+        """The event."""
+        return self.__event
+
+    def _to_model(self, common: Mapping[str, Any]) -> Model:
+        return EmitEventModel.at(self._place.span, event=self.event, **common)

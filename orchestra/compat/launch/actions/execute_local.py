@@ -1,0 +1,238 @@
+"""`ExecuteLocal`: starts a process."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.building import models_of
+from orchestra.compat.launch.action import Action, ModelledAction
+from orchestra.compat.launch.actions.shutdown_action import Shutdown
+from orchestra.compat.launch.event_handler import entities_of
+from orchestra.compat.launch.substitutions.launch_configuration import LaunchConfiguration
+from orchestra.compat.text import normalized, template
+from orchestra.compat.values import optional, scalar, written
+from orchestra.description.actions.executable import Executable as ExecutableModel
+from orchestra.description.actions.group import Group
+from orchestra.description.actions.register_event_handler import RegisterEventHandler
+from orchestra.description.handlers import Handler
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from orchestra.compat.launch.descriptions.executable import Executable
+    from orchestra.compat.launch.launch_context import LaunchContext
+    from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
+    from orchestra.compat.launch.substitution import Substitution
+    from orchestra.compat.text import Sub
+    from orchestra.description.entity import Action as Model
+    from orchestra.location import Span
+
+_OVERRIDE = "OVERRIDE_LAUNCH_PROCESS_OUTPUT"
+
+
+class ExecuteLocal(ModelledAction):
+    """Start a process.
+
+    Where `output` is not said, both streams go to the screen and to the log. `on_exit` is entities, or a callable that
+    takes the event and the context and returns some; it is looked at each time the process ends. The environment
+    variable OVERRIDE_LAUNCH_PROCESS_OUTPUT stands for every `output`, as upstream. Accepted without effect:
+    `output_format` and `log_cmd`.
+    """
+
+    def __init__(  # noqa: PLR0913 - upstream's signature
+        self,
+        *,
+        process_description: Executable,
+        shell: bool = False,
+        sigterm_timeout: Sub | float | None = None,
+        sigkill_timeout: Sub | float | None = None,
+        emulate_tty: bool | Sub | None = None,
+        output: Sub | Mapping[str, Any] | None = None,
+        output_format: str = "[{this.process_description.final_name}] {line}",
+        cached_output: bool = False,
+        log_cmd: bool = False,
+        on_exit: Any = None,
+        respawn: bool | Sub = False,
+        respawn_delay: Sub | float | None = None,
+        respawn_max_retries: int = -1,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__process_description = process_description
+        self.__shell = shell
+        self.__timeouts = {"sigterm_timeout": sigterm_timeout, "sigkill_timeout": sigkill_timeout}
+        self.__emulate_tty = emulate_tty
+        self.__output = _normalized_output(os.environ.get(_OVERRIDE, output))
+        self.__output_format = output_format
+        self.__cached_output = cached_output
+        self.__log_cmd = log_cmd
+        self.__on_exit = on_exit
+        self.__respawn = respawn if isinstance(respawn, bool) else normalized(respawn)
+        self.__respawn_delay = respawn_delay
+        self.__respawn_max_retries = respawn_max_retries
+        # What is known of the process while it runs is put here by whoever delivers its events.
+        self._details: dict[str, Any] | None = None
+        self._return_code: int | None = None
+        self._cached = {"stdout": bytearray(), "stderr": bytearray()}
+
+    @property
+    def process_description(self) -> Executable:
+        """The program."""
+        return self.__process_description
+
+    @property
+    def shell(self) -> bool:
+        """Whether a shell reads the command."""
+        return self.__shell
+
+    @property
+    def emulate_tty(self) -> bool | Sub:
+        """Whether the output is a terminal."""
+        return False if self.__emulate_tty is None else self.__emulate_tty
+
+    @property
+    def sigterm_timeout(self) -> list[Substitution]:
+        """Seconds from SIGINT to SIGTERM."""
+        return self.__timeout("sigterm_timeout")
+
+    @property
+    def sigkill_timeout(self) -> list[Substitution]:
+        """Seconds from SIGTERM to SIGKILL."""
+        return self.__timeout("sigkill_timeout")
+
+    @property
+    def output(self) -> Any:
+        """Where the output goes."""
+        return normalized("log") if self.__output is None else self.__output
+
+    @property
+    def process_details(self) -> dict[str, Any] | None:
+        """What the process was started with, and its `pid` where it runs; None before it is prepared."""
+        return self._details
+
+    @property
+    def return_code(self) -> int | None:
+        """The exit status, None before the end."""
+        return self._return_code
+
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Return the entities of `on_exit` where they are a list."""
+        return self.__on_exit if isinstance(self.__on_exit, list) else []
+
+    def prepare(self, context: LaunchContext) -> None:
+        """Perform the substitutions of the program."""
+        description = self.process_description
+        description.prepare(context, self)
+        self._details = {
+            "action": self,
+            "name": description.final_name,
+            "cmd": description.final_cmd,
+            "cwd": description.final_cwd,
+            "env": description.final_env,
+        }
+
+    def get_stdout(self) -> str:
+        """Return what the process has written. Raises `RuntimeError` without `cached_output`."""
+        return self.__cached("stdout")
+
+    def get_stderr(self) -> str:
+        """Return what the process has written to standard error. Raises `RuntimeError` without `cached_output`."""
+        return self.__cached("stderr")
+
+    def _to_model(self, common: Mapping[str, Any]) -> Model:
+        """Return the model of the process; in a group where handlers of its own are to wait before it starts."""
+        handlers = tuple(self._handlers())
+        if not handlers:
+            return self._process_model(common)
+        span = self._place.span
+        children = (RegisterEventHandler.at(span, handlers=handlers), self._process_model({"origin": self}))
+        condition = {name: value for name, value in common.items() if name != "origin"}
+        return Group.at(span, scoped=scalar(value=False, span=span), children=children, **condition)
+
+    def _process_model(self, common: Mapping[str, Any]) -> Model:
+        """Return the model of the process alone. Kinds of nodes have models of their own."""
+        span = self._place.span
+        description = self.process_description
+        words = tuple(template(word, span) for word in description.cmd)
+        return ExecutableModel.at(
+            span, cmd=words, name=optional(description.name, span), **self._running_fields(), **common
+        )
+
+    def _running_fields(self) -> dict[str, Any]:
+        """Return the fields that the models of all processes share, without the name."""
+        span = self._place.span
+        fields = {
+            "shell": scalar(self.__shell, span) if self.__shell else None,
+            "emulate_tty": optional(self.__emulate_tty, span),
+            "output": _output_field(self.__output, span),
+            "on_exit": template("shutdown", span) if self.__ends_run() else None,
+            "respawn": scalar(self.__respawn, span) if self.__respawn else None,
+            "respawn_delay": optional(self.__respawn_delay, span),
+            "respawn_max_retries": None
+            if self.__respawn_max_retries == -1
+            else scalar(self.__respawn_max_retries, span),
+            **{name: optional(value, span) for name, value in self.__timeouts.items()},
+        }
+        given = {name: value for name, value in fields.items() if value is not None}
+        return self.process_description._fields(span) | given
+
+    def _handlers(self) -> list[Handler]:
+        """Return what is done about the events of this process."""
+        span = self._place.span
+        found = []
+        if callable(self.__on_exit):
+            found.append(self.__handler("process_exited", callback=self.__called_on_exit))
+        elif self.__on_exit is not None and not self.__ends_run():
+            children = models_of(entities_of(self.__on_exit))
+            found.append(
+                Handler.at(span, origin=self, event="process_exited", target=self, children=children)
+            )
+        if self.__cached_output:
+            found += [
+                self.__handler("process_output", stream=stream, callback=self.__cache)
+                for stream in self._cached
+            ]
+        return found
+
+    def __handler(self, event: str, **values: Any) -> Handler:
+        return Handler.at(self._place.span, origin=self, event=event, target=self, **values)
+
+    def __called_on_exit(self, event: Any, context: LaunchContext) -> Any:
+        context.extend_locals({"event": event})
+        return self.__on_exit(event, context)
+
+    def __cache(self, event: Any, _: LaunchContext) -> None:
+        self._cached["stdout" if event.from_stdout else "stderr"] += event.text
+
+    def __cached(self, stream: str) -> str:
+        if not self.__cached_output:
+            raise RuntimeError(f"the {stream} of a process is only kept with cached_output=True")
+        return self._cached[stream].decode(errors="replace")
+
+    def __ends_run(self) -> bool:
+        """Return whether `on_exit` is nothing but the action that ends the run."""
+        entities = self.__on_exit if isinstance(self.__on_exit, list | tuple) else [self.__on_exit]
+        if len(entities) != 1 or not isinstance(entities[0], Shutdown):
+            return False
+        return entities[0].condition is None and type(entities[0]).visit is Action.visit
+
+    def __timeout(self, name: str) -> list[Substitution]:
+        value = self.__timeouts[name]
+        return normalized(LaunchConfiguration(name, default="5") if value is None else written(value))
+
+
+def _normalized_output(output: Sub | Mapping[str, Any] | None) -> Any:
+    return output if output is None or isinstance(output, dict) else normalized(output)
+
+
+def _output_field(output: Any, span: Span) -> Any:
+    """Return where the output goes: a word, or places by stream."""
+    if not isinstance(output, dict):
+        return None if output is None else template(output, span)
+    return {stream: _places(places, span) for stream, places in output.items()}
+
+
+def _places(places: Any, span: Span) -> Any:
+    words = [places] if isinstance(places, str) else sorted(places)
+    return tuple(template(word, span) for word in words)

@@ -1,0 +1,62 @@
+"""`ExecuteProcess`: starts a program."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.launch.actions.execute_local import ExecuteLocal
+from orchestra.compat.launch.descriptions.executable import Executable
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from orchestra.compat.text import Sub
+
+
+class ExecuteProcess(ExecuteLocal):
+    """Start a program; the arguments are those of `launch.descriptions.Executable` and of `ExecuteLocal`."""
+
+    def __init__(
+        self,
+        *,
+        cmd: Iterable[Sub],
+        prefix: Sub | None = None,
+        name: Sub | None = None,
+        cwd: Sub | None = None,
+        env: Mapping[Sub, Sub] | None = None,
+        additional_env: Mapping[Sub, Sub] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        executable = Executable(
+            cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env
+        )
+        super().__init__(process_description=executable, **kwargs)
+
+    @property
+    def name(self) -> Any:
+        """The label of the process: a text with a number once it is prepared."""
+        description = self.process_description
+        return description.name if description.final_name is None else description.final_name
+
+    @property
+    def cmd(self) -> Any:
+        """The command line: texts once it is prepared."""
+        description = self.process_description
+        return description.cmd if description.final_cmd is None else description.final_cmd
+
+    @property
+    def cwd(self) -> Any:
+        """The working directory: a text once it is prepared."""
+        description = self.process_description
+        return description.cwd if description.final_cwd is None else description.final_cwd
+
+    @property
+    def env(self) -> Any:
+        """The whole environment: a mapping once it is prepared."""
+        description = self.process_description
+        return description.env if description.final_env is None else description.final_env
+
+    @property
+    def additional_env(self) -> Any:
+        """What is added to the environment."""
+        return self.process_description.additional_env

@@ -1,0 +1,32 @@
+"""The action that ends the run; the event of the same name is in `launch.events`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.launch.actions.emit_event import EmitEvent
+from orchestra.compat.launch.events.shutdown import Shutdown as ShutdownEvent
+from orchestra.compat.text import normalized, template
+from orchestra.description.actions.shutdown import Shutdown as ShutdownModel
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from orchestra.compat.text import Sub
+    from orchestra.description.entity import Action as Model
+
+_NO_REASON = "reason not given"
+
+
+class Shutdown(EmitEvent):
+    """End the run."""
+
+    def __init__(self, *, reason: Sub = _NO_REASON, **kwargs: Any) -> None:
+        self.__reason = normalized(reason)
+        super().__init__(event=ShutdownEvent(reason=reason), **kwargs)
+
+    def _to_model(self, common: Mapping[str, Any]) -> Model:
+        span = self._place.span
+        reason = template(self.__reason, span)
+        given = None if reason.constant == _NO_REASON else reason
+        return ShutdownModel.at(span, reason=given, **common)

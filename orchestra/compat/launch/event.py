@@ -1,0 +1,9 @@
+"""`launch.Event`: something that happens during a run."""
+
+from __future__ import annotations
+
+
+class Event:
+    """The base that users derive from; `name` tells kinds apart, with dots, as `launch.events.Shutdown`."""
+
+    name = "launch.Event"

@@ -1,0 +1,95 @@
+"""`OnActionEventBase`: event handlers for what happens to actions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.compat.building import models_of
+from orchestra.compat.launch.event import Event
+from orchestra.compat.launch.event_handler import BaseEventHandler, entities_of, is_of_ours
+from orchestra.compat.launch.events.execution_complete import ExecutionComplete
+from orchestra.compat.launch.events.process.process_exited import ProcessExited
+from orchestra.compat.launch.events.process.process_started import ProcessStarted
+
+if TYPE_CHECKING:
+    from orchestra.compat.launch.action import Action
+    from orchestra.compat.launch.launch_context import LaunchContext
+    from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
+    from orchestra.description.handlers import Handler
+
+# What each event is in a plan.
+_EVENTS: Final[dict[type[Event], str]] = {
+    ExecutionComplete: "process_completed",
+    ProcessExited: "process_exited",
+    ProcessStarted: "process_started",
+}
+
+
+class OnActionEventBase(BaseEventHandler):
+    """Wait for an event of a class whose `action` is the one that is meant.
+
+    `action_matcher` is an action, a predicate on actions, or None for any; `on_event` entities, or a callable that
+    takes the event and the context and returns some. Raises `TypeError` for anything else.
+    """
+
+    def __init__(
+        self,
+        *,
+        action_matcher: Any,
+        on_event: Any,
+        target_event_cls: type[Event],
+        target_action_cls: type[Action],
+        **kwargs: Any,
+    ) -> None:
+        if not (isinstance(target_event_cls, type) and issubclass(target_event_cls, Event)):
+            raise TypeError(f"target_event_cls is a kind of event, not {target_event_cls!r}")
+        _check_target(action_matcher, target_action_cls)
+        super().__init__(matcher=self.__matches, **kwargs)
+        self.__action_matcher = action_matcher
+        self.__target_event_cls = target_event_cls
+        self.__target_action_cls = target_action_cls
+        self.__function = on_event if callable(on_event) else None
+        self.__entities = [] if callable(on_event) else entities_of(on_event)
+
+    def handle(self, event: Event, context: LaunchContext) -> Any:
+        """Return the entities, or what the callable returns."""
+        super().handle(event, context)
+        return self.__entities if self.__function is None else self.__function(event, context)
+
+    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
+        """Return what the handler is, and the entities that are known to follow."""
+        return super().describe()[0], list(self.__entities)
+
+    @property
+    def handler_description(self) -> str:
+        """What is done."""
+        return "<actions>" if self.__function is None else f"{self.__function}"
+
+    @property
+    def matcher_description(self) -> str:
+        """Which events are meant."""
+        event = f"event == {self.__target_event_cls.__name__}"
+        if self.__action_matcher is None:
+            return event
+        return f"{event} and {self.__target_action_cls.__name__}(event.action)"
+
+    def __matches(self, event: Any) -> bool:
+        if not isinstance(event, self.__target_event_cls):
+            return False
+        target, action = self.__action_matcher, getattr(event, "action", None)
+        if callable(target):
+            return bool(target(action))
+        return target is None or action is target
+
+    def _to_models(self) -> tuple[Handler, ...]:
+        known = is_of_ours(self, "matches")
+        event = _EVENTS.get(self.__target_event_cls, "custom") if known else "custom"
+        done: dict[str, Any] = {"callback": self.handle}
+        if self.__function is None and is_of_ours(self, "handle"):
+            done = {"children": models_of(self.__entities)}
+        return (self._model(event, target=self.__action_matcher, **done),)
+
+
+def _check_target(target: Any, kind: type[Action]) -> None:
+    if target is not None and not isinstance(target, kind) and not callable(target):
+        raise TypeError(f"the action to wait for is {kind.__name__} or a callable, not {target!r}")

@@ -1,0 +1,25 @@
+"""What launch files import as `launch.events`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from orchestra.compat.lazy import exported
+
+_NAMES = {
+    "ExecutionComplete": "execution_complete",
+    "IncludeLaunchDescription": "include_launch_description",
+    "Shutdown": "shutdown",
+    "TimerEvent": "timer_event",
+    "matchers": "",
+    "matches_action": "matchers",
+    "process": "",
+}
+
+__all__ = sorted(_NAMES)  # noqa: PLE0605 - the names are those of the table
+
+_attribute = exported(__name__, _NAMES)
+
+
+def __getattr__(name: str) -> Any:
+    return _attribute(name)

@@ -1,0 +1,38 @@
+"""Predicates on actions, which tell whom an event is for."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any, Literal, TypeAlias
+
+By: TypeAlias = Literal["action", "pid", "name", "executable", "node_name"]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class ActionMatcher:
+    """A predicate that says what it looks for, so that a plan can name the processes that it holds for.
+
+    `by` is the property of the action that is compared with `target`: the object itself, the process id, the final
+    name of the process, the end of its program, or the full name of the node.
+    """
+
+    by: By
+    target: Any
+
+    def __call__(self, action: Any) -> bool:
+        """Return whether an action is meant; one that has not been executed has no process to compare."""
+        if self.by == "action":
+            return action is self.target
+        if self.by == "node_name":
+            return bool(action.node_name == self.target)
+        details = action.process_details
+        if details is None:
+            return False
+        if self.by == "executable":
+            return bool(details["cmd"][0].endswith(self.target))
+        return bool(details.get(self.by) == self.target)
+
+
+def matches_action(target_action: Any) -> ActionMatcher:
+    """Return the predicate that holds for this very action."""
+    return ActionMatcher("action", target_action)

@@ -1,0 +1,38 @@
+"""Values of Python launch files as the models take them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.text import Sub, template
+from orchestra.description.parts import Pair
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from orchestra.description.text import Template
+    from orchestra.location import Span
+
+
+def written(value: Any) -> Sub:
+    """Return a value as substitutions: numbers and truth values as they are written in a launch file."""
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    return repr(value) if isinstance(value, int | float) else value
+
+
+def scalar(value: Any, span: Span) -> Template:
+    """Return the template of a number, a truth value, or substitutions."""
+    return template(written(value), span)
+
+
+def optional(value: Any, span: Span) -> Template | None:
+    """Return the same, None for None."""
+    return None if value is None else scalar(value, span)
+
+
+def pairs(items: Iterable[tuple[Sub, Sub]], span: Span) -> tuple[Pair, ...]:
+    """Return names with their values."""
+    return tuple(
+        Pair.at(span, name=template(name, span), value=template(value, span)) for name, value in items
+    )

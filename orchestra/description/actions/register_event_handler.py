@@ -1,0 +1,14 @@
+"""Lets an event handler wait for its event. It has no name in the launch language: only Python makes one."""
+
+from __future__ import annotations
+
+from pydantic import InstanceOf  # noqa: TC002 - pydantic evaluates the annotations
+
+from orchestra.description.entity import Action
+from orchestra.description.handlers import Handler
+
+
+class RegisterEventHandler(Action):
+    """From here on an event handler waits, before those that wait already; it may look for several events."""
+
+    handlers: tuple[InstanceOf[Handler], ...]
