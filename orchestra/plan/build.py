@@ -46,7 +46,7 @@ def build(resolved: Resolved, problems: Problems) -> Plan:
         ),
         processes,
         (),
-        triggers(resolved, ids),
+        triggers(resolved, ids, ()),
         tuple(
             Skipped(item.action, item.name, item.condition, item.expression, item.value, item.location)
             for item in resolved.skipped

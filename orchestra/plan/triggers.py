@@ -1,35 +1,38 @@
-"""Triggers of a plan: what happens at the start of the run, after a while, and when a process ends."""
+"""Triggers of a plan: what is done at the start of the run, after a while, and when something happens."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.plan.reactions import LogAction, ShutdownAction, StartAction, Trigger, TriggerEvent
-from orchestra.resolve.model import ResolvedLog, ResolvedStart
+from orchestra.plan.reactions import (
+    ChangeStateAction,
+    DeferredAction,
+    LoadAction,
+    LogAction,
+    RegisterAction,
+    ShutdownAction,
+    SignalAction,
+    StartAction,
+    StopAction,
+    Trigger,
+    TriggerEvent,
+    UnregisterAction,
+)
+from orchestra.resolve import reactions
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.plan.reactions import TriggeredAction
     from orchestra.resolve.model import Resolved
-    from orchestra.resolve.model import TriggeredAction as ResolvedAction
 
 
-def triggers(resolved: Resolved, ids: Sequence[str]) -> tuple[Trigger, ...]:
-    """Return the triggers in the order in which they were written, then those of `on_exit`."""
-    started = TriggerEvent("run_started")
-    written = tuple(
-        Trigger(
-            f"t{number}",
-            started,
-            tuple(_action(action, ids) for action in item.do),
-            item.delay,
-            deferred=False,
-            location=item.location,
-        )
-        for number, item in enumerate(resolved.triggers, 1)
-    )
-    ends = tuple(
+def triggers(resolved: Resolved, ids: Sequence[str], components: Sequence[str]) -> tuple[Trigger, ...]:
+    """Return the triggers of `on_exit`, then the others in the order in which they were written.
+
+    `ids` are those of the processes.
+    """
+    return tuple(
         Trigger(
             f"{identity}:on_exit",
             TriggerEvent("process_exited", identity),
@@ -40,13 +43,51 @@ def triggers(resolved: Resolved, ids: Sequence[str]) -> tuple[Trigger, ...]:
         )
         for process, identity in zip(resolved.processes, ids, strict=True)
         if process.shutdown_on_exit
+    ) + tuple(
+        _trigger(f"t{number}", item, ids, components) for number, item in enumerate(resolved.triggers, 1)
     )
-    return written + ends
 
 
-def _action(action: ResolvedAction, ids: Sequence[str]) -> TriggeredAction:
-    if isinstance(action, ResolvedLog):
-        return LogAction(action.message, action.location)
-    if isinstance(action, ResolvedStart):
-        return StartAction(ids[action.index], action.location)
-    return ShutdownAction(action.reason, action.location)
+def _trigger(
+    identity: str, item: reactions.ResolvedTrigger, ids: Sequence[str], components: Sequence[str]
+) -> Trigger:
+    on = item.on
+    target = None if on.target is None else ids[on.target]
+    return Trigger(
+        identity,
+        TriggerEvent(on.event, target, on.stream, on.transition, on.start_state, on.goal_state),
+        tuple(_action(action, ids, components) for action in item.do),
+        item.delay,
+        deferred=any(isinstance(action, reactions.ResolvedDeferred) for action in item.do),
+        location=item.location,
+        armed=item.armed,
+        once=item.once,
+        cancel_on_shutdown=item.cancel_on_shutdown,
+    )
+
+
+def _action(  # noqa: C901, PLR0911 - one line per action
+    action: reactions.TriggeredAction, ids: Sequence[str], components: Sequence[str]
+) -> TriggeredAction:
+    at = action.location
+    match action:
+        case reactions.ResolvedLog(message, _, level):
+            return LogAction(message, at, level)
+        case reactions.ResolvedStart(index):
+            return StartAction(ids[index], at)
+        case reactions.ResolvedLoad(index):
+            return LoadAction(components[index], at)
+        case reactions.ResolvedStop(indexes):
+            return StopAction(tuple(ids[index] for index in indexes), at)
+        case reactions.ResolvedSignal(indexes, signal):
+            return SignalAction(tuple(ids[index] for index in indexes), signal, at)
+        case reactions.ResolvedChangeState(indexes, transitions):
+            return ChangeStateAction(tuple(ids[index] for index in indexes), transitions, at)
+        case reactions.ResolvedRegister(index):
+            return RegisterAction(f"t{index + 1}", at)
+        case reactions.ResolvedUnregister(index):
+            return UnregisterAction(f"t{index + 1}", at)
+        case reactions.ResolvedShutdown(reason):
+            return ShutdownAction(reason, at)
+        case reactions.ResolvedDeferred(ref):
+            return DeferredAction(ref, at)

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 VISITORS: dict[str, str] = {
     "AppendEnv": "append_env",
     "Arg": "arg",
+    "EmitEvent": "emit_event",
     "Executable": "executable",
     "Group": "group",
     "Include": "include",
@@ -41,6 +42,7 @@ VISITORS: dict[str, str] = {
     "Reset": "reset",
     "ResetEnv": "reset_env",
     "RosTimer": "ros_timer",
+    "RegisterEventHandler": "register_event_handler",
     "SetEnv": "set_env",
     "SetParameter": "set_parameter",
     "SetParametersFromFile": "set_parameters_from_file",
@@ -49,6 +51,7 @@ VISITORS: dict[str, str] = {
     "SetUseSimTime": "set_use_sim_time",
     "Shutdown": "shutdown",
     "Timer": "timer",
+    "UnregisterEventHandler": "unregister_event_handler",
     "UnsetEnv": "unset_env",
     "UnsetLet": "unset_let",
 }
@@ -72,6 +75,8 @@ def visit(actions: Sequence[Action], run: Resolution) -> None:
         conditional = action.if_ is not None or action.unless is not None
         run.conditions += conditional
         _visitor(type(action).__name__).visit(action, run)
+        if action.origin is not None:
+            run.found.carried_out[id(action.origin)] = action.origin
         run.conditions -= conditional
     run.depth -= 1
 

@@ -8,10 +8,12 @@ from typing import Any, Literal, TypeAlias
 
 from orchestra.location import Location
 from orchestra.resolve.context import Value
-from orchestra.resolve.rcl.sections import Section
+from orchestra.resolve.rcl.sections import Entry, Section
+from orchestra.resolve.reactions import ResolvedTrigger
 from orchestra.values import Condition, ParameterValue, Restart, Stop
 
 DependencyKind: TypeAlias = Literal["node", "process", "label"]
+Kind: TypeAlias = Literal["process", "node", "lifecycle_node", "container"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,11 +40,16 @@ class InlineParameter:
 
 @dataclass(frozen=True, slots=True)
 class FileParameters:
-    """The sections of a parameter file, as far as it could be read."""
+    """The sections of a parameter file, as far as it could be read; `everywhere` as with a single parameter.
+
+    `plain` are the parameters of a file that has no sections at all, which only components take.
+    """
 
     path: str
     sections: tuple[Section, ...]
     location: Location
+    everywhere: bool = False
+    plain: tuple[Entry, ...] = ()
 
 
 ParameterSource: TypeAlias = InlineParameter | FileParameters
@@ -92,7 +99,7 @@ class ResolvedProcess:
     nothing but `environment`. `origin` is the object of a Python launch file that made it.
     """
 
-    kind: Literal["process", "node"]
+    kind: Kind
     package: str | None
     executable: str
     name: Value | None
@@ -121,43 +128,35 @@ class ResolvedProcess:
     conditional: bool
     faulty: bool
     inherit_environment: bool = True
+    autostart: bool = False
     origin: Any = field(default=None, compare=False, repr=False)
 
 
-@dataclass(frozen=True, slots=True)
-class ResolvedLog:
-    """Tell the user something."""
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ResolvedComponent:
+    """A component to load into a container.
 
-    message: str
+    The container is known by its full name, by the index of its process, or by the object of a Python launch file that
+    starts it. `delayed`: it is
+    not loaded with the start of its container but where a `ResolvedLoad` says so.
+    """
+
+    package: str
+    plugin: str
+    name: Value | None
+    namespace: Value | None
+    container: Value | None
+    container_process: int | None
+    container_origin: Any = field(default=None, compare=False, repr=False)
+    parameters: tuple[ParameterSource, ...]
+    extra_arguments: tuple[ParameterSource, ...]
+    remaps: tuple[ResolvedRemap, ...]
+    autostart: bool
+    delayed: bool
     location: Location
-
-
-@dataclass(frozen=True, slots=True)
-class ResolvedStart:
-    """Start the process at `index` of the resolved processes."""
-
-    index: int
-    location: Location
-
-
-@dataclass(frozen=True, slots=True)
-class ResolvedShutdown:
-    """End the run."""
-
-    reason: str
-    location: Location
-
-
-TriggeredAction: TypeAlias = ResolvedLog | ResolvedStart | ResolvedShutdown
-
-
-@dataclass(frozen=True, slots=True)
-class ResolvedTrigger:
-    """Actions to carry out `delay` seconds after the run has started."""
-
-    do: tuple[TriggeredAction, ...]
-    delay: float | None
-    location: Location
+    conditional: bool
+    faulty: bool
+    origin: Any = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -196,3 +195,4 @@ class Resolved:
     given: tuple[GivenSections, ...]
     lost: frozenset[str] = frozenset()
     incomplete: bool = False
+    components: tuple[ResolvedComponent, ...] = ()

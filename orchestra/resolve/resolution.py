@@ -23,9 +23,9 @@ from orchestra.resolve.model import (
     ResolvedDependency,
     ResolvedProcess,
     ResolvedSkip,
-    ResolvedTrigger,
-    TriggeredAction,
 )
+from orchestra.resolve.occasions import Action as CollectedAction
+from orchestra.resolve.occasions import Occasion
 from orchestra.resolve.scope import Ledger, Scope
 
 if TYPE_CHECKING:
@@ -42,16 +42,21 @@ class Found:
     """What the visit has come upon so far.
 
     `lost` has the words of what has been left out for its faults: what depends on it is not reported. `endless` are
-    the files that include themselves without end, which are not gone into again.
+    the files that include themselves without end, which are not gone into again. `simulated_time` is where timers on
+    ROS time were told to go by simulated time. `carried_out` are the objects of Python launch files that were visited,
+    `kept` is the code of theirs that is called during the run.
     """
 
     processes: list[ResolvedProcess] = field(default_factory=list)
     components: list[ResolvedComponent] = field(default_factory=list)
     arguments: dict[str, ResolvedArgument] = field(default_factory=dict)
-    triggers: list[ResolvedTrigger] = field(default_factory=list)
+    occasions: list[Occasion] = field(default_factory=list)
     skipped: list[ResolvedSkip] = field(default_factory=list)
     lost: set[str] = field(default_factory=set)
     endless: set[str] = field(default_factory=set)
+    simulated_time: Location | None = None
+    carried_out: dict[int, Any] = field(default_factory=dict)
+    kept: list[Any] = field(default_factory=list)
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,8 +91,7 @@ class Resolution:
     scope: Scope
     found: Found = field(default_factory=Found)
     frames: tuple[Frame, ...] = ()
-    delayed: list[TriggeredAction] | None = None
-    delay: float = 0.0
+    occasion: Occasion | None = None
     depth: int = 0
     steps: int = 0
     conditions: int = 0
@@ -103,6 +107,16 @@ class Resolution:
         if self._engine is None and self.make_engine is not None:
             self._engine = self.make_engine(self)
         return self._engine
+
+    def handle_events(self) -> None:
+        """Hand events of the users' own, if any have happened, to the handlers that want them."""
+        if self._engine is not None:
+            self._engine.handle_events()
+
+    @property
+    def delayed(self) -> list[CollectedAction] | None:
+        """Where actions go that are not carried out now but when something happens; None where they are now."""
+        return None if self.occasion is None else self.occasion.do
 
     @property
     def frame(self) -> Frame:
@@ -184,6 +198,14 @@ class Resolution:
         suggestion = nearest(value.text, words)
         self.problems.error(Code.BAD_VALUE, message, value.location, suggestion=suggestion)
         return POISON
+
+    def collect(self, occasion: Occasion, children: Sequence[Action]) -> None:
+        """Visit actions that are carried out on an occasion: they see the scope as it is, and set nothing outside."""
+        outer, self.occasion = self.occasion, occasion
+        with self.scope.nested():
+            self.visit(children, self)
+        self.occasion = outer
+        self.found.occasions.append(occasion)
 
     @contextmanager
     def scoped(self, scope: Scope) -> Iterator[None]:

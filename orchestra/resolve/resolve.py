@@ -13,6 +13,7 @@ from orchestra.resolve.model import Resolved
 from orchestra.resolve.python.performing import perform_opaque
 from orchestra.resolve.resolution import Found, Frame, LoadFile, Resolution
 from orchestra.resolve.scope import Ledger, Scope
+from orchestra.resolve.settling import settled
 
 if TYPE_CHECKING:
     from orchestra.description.launch import Description
@@ -37,13 +38,14 @@ def resolve(
         run.scope.set(given.name, Value(given.value, location), location)
     with run.inside(Frame(description.path, run.scope)) as ledger:
         visit_file(description, run)
+        run.handle_events()
         names = [Given(item.name, Location(item.span)) for item in inputs.arguments]
         settle(names, description, ledger, run)
     return Resolved(
         description.file,
         tuple(run.found.arguments.values()),
         tuple(run.found.processes),
-        tuple(run.found.triggers),
+        settled(run.found.occasions, run),
         tuple(run.found.skipped),
         given_sections(run),
         frozenset(run.found.lost),

@@ -6,22 +6,17 @@ import re
 import shlex
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Literal, TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from orchestra.description.running import ON_EXIT
 from orchestra.errors import Code
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.dependencies import dependencies, readiness
-from orchestra.resolve.model import (
-    EnvironmentChange,
-    ParameterSource,
-    ResolvedProcess,
-    ResolvedRemap,
-    ResolvedStart,
-)
+from orchestra.resolve.model import EnvironmentChange, Kind, ParameterSource, ResolvedProcess, ResolvedRemap
 from orchestra.resolve.outputs import output
 from orchestra.resolve.policies import restart, stop
+from orchestra.resolve.reactions import ResolvedStart
 from orchestra.resolve.words import split
 
 if TYPE_CHECKING:
@@ -36,7 +31,7 @@ _T = TypeVar("_T")
 class Program:
     """What is run: the part in which nodes and other programs differ."""
 
-    kind: Literal["process", "node"]
+    kind: Kind
     executable: str
     words: tuple[str, ...]
     package: str | None = None
@@ -47,11 +42,12 @@ class Program:
     ros_arguments: tuple[str, ...] | None = None
     parameters: tuple[ParameterSource, ...] = ()
     remaps: tuple[ResolvedRemap, ...] = ()
+    autostart: bool = False
     faulty: bool = False
 
 
-def add_process(action: Running, program: Program, run: Resolution) -> None:
-    """Add a process to what has been found: it starts with the run, or with the timer around it."""
+def add_process(action: Running, program: Program, run: Resolution) -> int:
+    """Add a process to what has been found: it starts with the run, or with the timer around it. Return its index."""
     sound = _Sound()
     location = run.at(action.span)
     on_exit = sound(run.word(action.on_exit, ON_EXIT))
@@ -88,11 +84,13 @@ def add_process(action: Running, program: Program, run: Resolution) -> None:
         or program.faulty
         or action.faulty,  # the last one: all others have been looked at
         inherit_environment=action.env_only is None,
+        autostart=program.autostart,
         origin=action.origin,
     )
     if run.delayed is not None:
         run.delayed.append(ResolvedStart(len(run.found.processes), location))
     run.found.processes.append(process)
+    return len(run.found.processes) - 1
 
 
 def texts(argv: Template | tuple[Template, ...] | None, run: Resolution) -> tuple[str, ...] | Poison:
@@ -127,9 +125,15 @@ def _codes(action: Running, run: Resolution) -> tuple[int, ...] | Poison | None:
 
 
 def _prefix(action: Running, program: Program, run: Resolution) -> tuple[str, ...] | Poison:
-    """Return the words of the launch prefix: the action's own, or the one of the whole launch through its filter."""
-    if action.launch_prefix is not None:
+    """Return the words of the launch prefix: the action's own, or the one of the whole launch through its filter.
+
+    A text is split after its substitutions (launch, `Executable.prepare`), so that an argument can carry all of it.
+    """
+    if isinstance(action.launch_prefix, tuple):
         return texts(action.launch_prefix, run)
+    if action.launch_prefix is not None:
+        own = run.evaluate(action.launch_prefix)
+        return _words_of_prefix(own, run) if isinstance(own, Value) else POISON
     prefix, chosen = _setting("launch-prefix", run), _setting("launch-prefix-filter", run)
     if prefix is None or not prefix.text or not program.words:
         return ()
@@ -140,6 +144,10 @@ def _prefix(action: Running, program: Program, run: Resolution) -> tuple[str, ..
         message = f"'launch-prefix-filter' is no regular expression: {error}"
         run.problems.error(Code.BAD_VALUE, message, chosen.location if chosen is not None else None)
         return POISON
+    return _words_of_prefix(prefix, run)
+
+
+def _words_of_prefix(prefix: Value, run: Resolution) -> tuple[str, ...] | Poison:
     try:
         return tuple(shlex.split(prefix.text))
     except ValueError as error:

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.resolve.model import ResolvedTrigger
+from orchestra.resolve.occasions import Occasion, OpenEvent
 
 if TYPE_CHECKING:
-    from orchestra.resolve.model import TriggeredAction
+    from orchestra.resolve.occasions import Action
     from orchestra.resolve.resolution import Resolution
 
 
-def trigger(action: TriggeredAction, run: Resolution) -> None:
-    """Keep an action for the timer around it, or else for the start of the run."""
-    if run.delayed is not None:
-        run.delayed.append(action)
+def trigger(action: Action, run: Resolution) -> None:
+    """Keep an action for what is waited for around it, or else for the start of the run."""
+    if run.occasion is not None:
+        run.occasion.do.append(action)
     else:
-        run.found.triggers.append(ResolvedTrigger((action,), None, action.location))
+        run.found.occasions.append(Occasion(OpenEvent("run_started"), action.location, do=[action]))

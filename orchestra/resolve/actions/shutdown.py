@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.resolve.model import ResolvedShutdown
+from orchestra.resolve.reactions import ResolvedShutdown
 from orchestra.resolve.triggers import trigger
 
 if TYPE_CHECKING:

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from orchestra.resolve.model import ResolvedTrigger
+from orchestra.resolve.occasions import Occasion, OpenEvent
 
 if TYPE_CHECKING:
     from orchestra.description.actions.timer import Timer
@@ -12,12 +13,20 @@ if TYPE_CHECKING:
 
 
 def visit(action: Timer, run: Resolution) -> None:
-    """Keep the children for later: they see the scope as it is here, and set nothing outside."""
-    period = run.number(action.period)
-    outer, outer_delay = run.delayed, run.delay
-    run.delayed, run.delay = [], outer_delay + (period if isinstance(period, float) else 0.0)
-    with run.scope.nested():
-        run.visit(action.children, run)
-    trigger = ResolvedTrigger(tuple(run.delayed), run.delay, run.at(action.span))
-    run.delayed, run.delay = outer, outer_delay
-    run.found.triggers.append(trigger)
+    """Keep the children for later: they see the scope as it is here, and set nothing outside.
+
+    A timer inside a timer or an event handler begins when those are carried out.
+    """
+    period, cancelled = run.number(action.period), run.flag(action.cancel_on_shutdown, default=True)
+    outer = run.occasion or Occasion(OpenEvent("run_started"), run.at(action.span))
+    seconds = period if isinstance(period, float) else 0.0
+    run.collect(
+        replace(
+            outer,
+            location=run.at(action.span),
+            delay=(outer.delay or 0.0) + seconds,
+            cancel_on_shutdown=cancelled is not False,
+            do=[],
+        ),
+        action.children,
+    )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Problems
+from orchestra.resolve.python.frontend import LoadingFrontEnd
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -18,6 +19,7 @@ class LoadingConnection:
     """Serves the launch files of one resolution. `begin` makes a state of its own for a context that users build."""
 
     def __init__(self, packages: InstalledPackages, begin: Callable[[Problems], Resolution]) -> None:
+        self.front_end = LoadingFrontEnd()
         self._packages = packages
         self._begin = begin
 

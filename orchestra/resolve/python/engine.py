@@ -18,12 +18,15 @@ from orchestra.description.actions.stacks import (
     PushLaunchConfigurations,
 )
 from orchestra.errors import Problems, Severity
+from orchestra.location import Location
 from orchestra.resolve.context import Value
 from orchestra.resolve.evaluate import evaluate
 from orchestra.resolve.model import InlineParameter
-from orchestra.resolve.python.calling import our_code
+from orchestra.resolve.python.calling import our_code, user_code
 from orchestra.resolve.python.configurations import Configurations, Environment
+from orchestra.resolve.python.emitting import emit, handle_events
 from orchestra.resolve.python.loading import load_description
+from orchestra.resolve.python.matching import accepts
 from orchestra.resolve.python.visiting import visit_entities
 
 if TYPE_CHECKING:
@@ -32,6 +35,8 @@ if TYPE_CHECKING:
     from orchestra.description.entity import Action
     from orchestra.description.text import Template
     from orchestra.errors import Problem
+    from orchestra.location import Span
+    from orchestra.resolve.model import ResolvedProcess
     from orchestra.resolve.resolution import Resolution
 
 
@@ -42,6 +47,8 @@ class ResolvingEngine:
         self._run = run
         self._configurations = Configurations(run)
         self._environment = Environment(run)
+        self.happening: list[tuple[Any, Location]] = []
+        self._handlers: list[Any] = []
         self.context = LaunchContext(argv=argv, noninteractive=True, _engine=self)
 
     @property
@@ -110,6 +117,48 @@ class ResolvingEngine:
     def reset_environment(self) -> None:
         """Take up the environment with which the launch began."""
         self._stack(ResetEnv)
+
+    def register(self, handler: Any, *, first: bool) -> None:
+        """Let an event handler wait, before those that wait already or after them."""
+        self._handlers.insert(0 if first else len(self._handlers), handler)
+
+    def unregister(self, handler: Any) -> None:
+        """Let an event handler wait no more. Raises `ValueError` where it does not wait."""
+        if not any(known is handler for known in self._handlers):
+            raise ValueError(f"{handler!r} is not registered")
+        self._handlers = [known for known in self._handlers if known is not handler]
+        self._run.found.occasions = [
+            occasion for occasion in self._run.found.occasions if occasion.handler is not handler
+        ]
+
+    def emit(self, event: Any) -> None:
+        """Let an event happen after the visit."""
+        emit(event, Location(here().span, self._run.context.included_from), self._run)
+
+    def handle_events(self) -> None:
+        """Hand what has happened to the handlers."""
+        handle_events(self._run)
+
+    def would_handle(self, event: Any) -> bool:
+        """Return whether a handler waits for such an event."""
+        return any(handler.matches(event) for handler in self._handlers)
+
+    def wanting(self, event: Any, span: Span) -> list[Any]:
+        """Return the handlers that want an event, the newest first."""
+        found: list[Any] = []
+        for handler in tuple(self._handlers):
+            with user_code(self._run, span):
+                if handler.matches(event):
+                    found.append(handler)
+        return found
+
+    def accepts(self, predicate: Any, index: int, process: ResolvedProcess) -> bool:
+        """Return whether a predicate on actions means a process."""
+        return accepts(predicate, index, process, self._run)
+
+    def completed(self, action: Any) -> None:
+        """Take note that an action has been executed."""
+        self._run.found.carried_out[id(action)] = action
 
     def _stack(self, action: type[Action]) -> None:
         self.carry_out(action.at(here().span))

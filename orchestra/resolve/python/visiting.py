@@ -14,6 +14,8 @@ from orchestra.compat.launch.launch_description_entity import LaunchDescriptionE
 from orchestra.errors import Code
 from orchestra.location import displayed, point
 from orchestra.resolve.python.calling import user_code
+from orchestra.resolve.python.deferral import Deferred, defer
+from orchestra.resolve.reactions import ResolvedDeferred
 
 if TYPE_CHECKING:
     from orchestra.description.actions.opaque import OpaqueAction
@@ -46,6 +48,11 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
     entity = action.target
     if type(entity).visit is LaunchDescription.visit:
         visit_entities(entity.entities, run)
+        return
+    if run.occasion is not None:
+        location = run.at(action.span)
+        kept = defer(Deferred("entity", entity), location, run)
+        run.occasion.do.append(ResolvedDeferred(kept, location))
         return
     following: Any = None
     context = run.engine.context

@@ -1,0 +1,61 @@
+"""What only code of the description knows at run time: kept with the scope in which it stands."""
+
+from __future__ import annotations
+
+import copy
+import dataclasses
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Literal
+
+from orchestra.location import Location
+from orchestra.resolve.context import Context
+from orchestra.resolve.resolution import Frame
+from orchestra.resolve.scope import Ledger, Scope
+
+if TYPE_CHECKING:
+    from orchestra.resolve.resolution import Resolution
+
+
+@dataclass(frozen=True, slots=True)
+class Deferred:
+    """Code to call.
+
+    `handler`: `callback(event, context)` of an event handler, `target`, which also says whether it wants the event.
+    `entity`: a Python entity to visit. `event`: an event to emit.
+    """
+
+    kind: Literal["handler", "entity", "event"]
+    target: Any
+    callback: Any = None
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """Deferred code, and where it stands: what it sets later is not seen where it came from."""
+
+    deferred: Deferred
+    location: Location
+    scope: Scope
+    context: Context
+    frames: tuple[Frame, ...]
+
+
+def defer(deferred: Deferred, location: Location, run: Resolution) -> int:
+    """Keep code for later; return the number under which it is kept."""
+    scope = copied(run.scope)
+    context = dataclasses.replace(
+        run.context, variables=scope, environment=scope.environment, parameters=scope.parameter_texts
+    )
+    run.found.kept.append(Kept(deferred, location, scope, context, run.frames))
+    return len(run.found.kept) - 1
+
+
+def copied(scope: Scope) -> Scope:
+    """Return a scope that is changed without the other, and whose reads and writes are nobody else's."""
+    other = copy.copy(scope)
+    for entry in dataclasses.fields(scope):
+        value = getattr(scope, entry.name)
+        if isinstance(value, dict | list):
+            setattr(other, entry.name, copy.copy(value))
+    other.ledger = Ledger()
+    return other

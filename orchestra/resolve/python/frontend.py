@@ -1,0 +1,79 @@
+"""The launch language for Python code that parses it: `orchestra.compat.seam.FrontEnd`, by the loaders' own readers."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.exposures import Exposures
+from orchestra.compat.launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
+from orchestra.errors import Problems
+from orchestra.load import yaml_file
+from orchestra.load.grammar import parse_template
+from orchestra.load.reader import Reader
+
+if TYPE_CHECKING:
+    from orchestra.compat.launch_xml.element import PlacedElement
+    from orchestra.description.source import Written
+    from orchestra.description.text import Template
+    from orchestra.errors import Problem
+
+
+class InvalidSubstitutionError(ValueError):
+    """A text that is not written as substitutions are; `problems` say why."""
+
+    def __init__(self, problems: tuple[Problem, ...]) -> None:
+        super().__init__(problems[0].message)
+        self.problems = problems
+
+
+class FaultyFileError(InvalidFrontendLaunchFileError):
+    """A file that is not written in its language; `problems` say why."""
+
+    def __init__(self, language: str, problems: tuple[Problem, ...]) -> None:
+        super().__init__(language, likely_errors=[ValueError(problem.message) for problem in problems])
+        self.problems = problems
+
+
+class LoadingFrontEnd:
+    """Serves the launch files of one resolution."""
+
+    def __init__(self) -> None:
+        self.exposures = Exposures()
+
+    def tree(self, text: str, name: str, language: str) -> Any:
+        """Return the tree of a file. Raises `InvalidFrontendLaunchFileError`; its `problems` say why."""
+        problems = Problems()
+        reader = Reader(problems)
+        tree = (_xml if language == "xml" else yaml_file.read)(text, name, reader)
+        if problems.errors:
+            error: Any = InvalidFrontendLaunchFileError(
+                language, likely_errors=[ValueError(problems.errors[0].message)]
+            )
+            error.problems = problems.errors
+            raise error
+        return tree
+
+    def template(self, written: Written) -> Template:
+        """Return a text with its substitutions. Raises `InvalidSubstitutionError`."""
+        problems = Problems()
+        template = parse_template(written.text, written.spans, problems, quoted=written.quoted)
+        if problems.errors:
+            raise InvalidSubstitutionError(problems.errors)
+        return template
+
+    def forget(self) -> None:
+        """Let what has added to the language be imported anew by the next resolution."""
+        packages = self.exposures.packages()
+        for name in [name for name in sys.modules if name.partition(".")[0] in packages]:
+            del sys.modules[name]
+
+
+def _xml(text: str, file: str, reader: Reader) -> PlacedElement | None:
+    whole = source(file, text)
+    try:
+        return placed(parse(whole), whole)
+    except NotXmlError as error:
+        fault = error.fault
+        reader.error(fault.code, fault.message, fault.span, suggestion=fault.suggestion, notes=fault.notes)
+        return None

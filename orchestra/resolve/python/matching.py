@@ -1,0 +1,48 @@
+"""Which processes a predicate on actions means."""
+
+from __future__ import annotations
+
+from pathlib import PurePath
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.launch.events.matchers import ActionMatcher
+from orchestra.resolve.python.calling import user_code
+
+if TYPE_CHECKING:
+    from orchestra.resolve.model import ResolvedProcess
+    from orchestra.resolve.resolution import Resolution
+
+
+def accepts(predicate: Any, index: int, process: ResolvedProcess, run: Resolution) -> bool:
+    """Return whether a predicate means a process: one of ours by what it looks for, another by calling it."""
+    if isinstance(predicate, ActionMatcher):
+        return _looked_for(predicate, index, process)
+    if process.origin is None:
+        return False
+    answers: list[Any] = []
+    with user_code(run, process.location.span):
+        answers.append(predicate(process.origin))
+    return any(answers)
+
+
+def _looked_for(matcher: ActionMatcher, index: int, process: ResolvedProcess) -> bool:
+    match matcher.by:
+        case "action":
+            return process.origin is matcher.target
+        case "name":  # upstream counts all processes of a launch
+            label = process.label or PurePath(process.executable).name
+            return bool(matcher.target == f"{label}-{index + 1}")
+        case "executable":
+            end: str = matcher.target
+            return bool(process.program) and process.program[0].endswith(end)
+        case "node_name":
+            return bool(_full_name(process) == matcher.target)
+        case _:
+            return False
+
+
+def _full_name(process: ResolvedProcess) -> str | None:
+    if process.name is None:
+        return None
+    namespace = process.namespace.text if process.namespace is not None else ""
+    return f"{namespace.rstrip('/')}/{process.name.text}"

@@ -1,0 +1,80 @@
+"""Triggers of what the visit has collected, when all processes are known."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.resolve.occasions import OpenAction, Registration
+from orchestra.resolve.reactions import (
+    ResolvedEvent,
+    ResolvedRegister,
+    ResolvedTrigger,
+    ResolvedUnregister,
+)
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from orchestra.resolve.occasions import Action, Occasion, OpenEvent
+    from orchestra.resolve.reactions import TriggeredAction
+    from orchestra.resolve.resolution import Resolution
+
+
+def settled(occasions: Sequence[Occasion], run: Resolution) -> tuple[ResolvedTrigger, ...]:
+    """Return the triggers, one for each process that an occasion is about."""
+    events = [(occasion, event) for occasion in occasions for event in _events(occasion, run)]
+    positions: dict[int, list[int]] = {}
+    for position, (occasion, _) in enumerate(events):
+        if occasion.handler is not None:
+            positions.setdefault(id(occasion.handler), []).append(position)
+    return tuple(
+        ResolvedTrigger(
+            event,
+            tuple(done for action in occasion.do for done in _actions(action, positions, run)),
+            occasion.delay,
+            occasion.location,
+            occasion.armed,
+            occasion.once,
+            occasion.cancel_on_shutdown,
+        )
+        for occasion, event in events
+    )
+
+
+def processes_of(target: Any, run: Resolution) -> tuple[int, ...]:  # noqa: ANN401 - an object or a predicate
+    """Return the processes that an object of a Python launch file made, or those whose objects a predicate accepts."""
+    processes = list(enumerate(run.found.processes))
+    made = tuple(index for index, process in processes if process.origin is target)
+    if made or not callable(target):
+        return made
+    return tuple(index for index, process in processes if run.engine.accepts(target, index, process))
+
+
+def _events(occasion: Occasion, run: Resolution) -> Iterable[ResolvedEvent]:
+    on = occasion.on
+    if on.event == "process_completed":
+        yield from _completions(on, run)
+        return
+    targets: tuple[int | None, ...] = (None,) if on.target is None else processes_of(on.target, run)
+    for target in targets:
+        yield ResolvedEvent(on.event, target, on.stream, on.transition, on.start_state, on.goal_state)
+
+
+def _completions(on: OpenEvent, run: Resolution) -> Iterable[ResolvedEvent]:
+    if on.target is None:
+        yield ResolvedEvent("process_completed")
+        return
+    found = processes_of(on.target, run)
+    yield from (ResolvedEvent("process_completed", index) for index in found)
+    if not found and id(on.target) in run.found.carried_out:
+        yield ResolvedEvent("run_started")
+
+
+def _actions(action: Action, positions: dict[int, list[int]], run: Resolution) -> Iterable[TriggeredAction]:
+    if isinstance(action, OpenAction):
+        yield action.make(processes_of(action.target, run))
+    elif isinstance(action, Registration):
+        kind = ResolvedRegister if action.armed else ResolvedUnregister
+        yield from (kind(index, action.location) for index in positions.get(id(action.handler), ()))
+    else:
+        yield action
