@@ -128,8 +128,8 @@ class Entity(BaseModel):
         return entity
 
 
-class Action(Entity):
-    """What a launch description is made of."""
+class Conditional(Entity):
+    """What is left out where its condition says so."""
 
     if_: Flag | None = Field(
         default=None, alias="if", description="Carry the action out only if this is true."
@@ -140,6 +140,10 @@ class Action(Entity):
         """Return a conflict between the two conditions."""
         both = self.if_ is not None and self.unless is not None
         return "`if` and `unless` cannot stand on one action" if both else None
+
+
+class Action(Conditional):
+    """What a launch description is made of."""
 
 
 def _sound(entity: _EntityT) -> _EntityT:

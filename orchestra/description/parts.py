@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, TypeAlias
 
 from pydantic import Field, PlainValidator, WithJsonSchema
 
@@ -23,6 +23,10 @@ VALUE_TYPES = (
     "list_of_float",
     "yaml",
 )
+
+TypeWord: TypeAlias = Annotated[
+    Template, PlainValidator(word(*VALUE_TYPES)), WithJsonSchema({"enum": list(VALUE_TYPES)})
+]
 
 
 class Pair(Entity):
@@ -46,10 +50,9 @@ class Param(Entity):
         default=None, description="Name of the parameter, or of the level above `param`."
     )
     value: AnyValue | None = Field(default=None, description="A scalar or a list of scalars of one type.")
-    type: (
-        Annotated[Template, PlainValidator(word(*VALUE_TYPES)), WithJsonSchema({"enum": list(VALUE_TYPES)})]
-        | None
-    ) = Field(default=None, description="Read the value as this type instead of by its looks.")
+    type: TypeWord | None = Field(
+        default=None, description="Read the value as this type instead of by its looks."
+    )
     param: tuple[Param, ...] | None = Field(default=None, description="Nested parameters.")
     from_: Text | None = Field(default=None, alias="from", description="A parameter file.")
     allow_substs: Flag | None = Field(default=None, description="Whether `$(...)` in the file is evaluated.")
@@ -64,6 +67,10 @@ class Param(Entity):
         if self.allow_substs is not None and self.from_ is None:
             return "`allow_substs` goes with `from`"
         return "`type` goes with `value`" if self.type is not None and self.value is None else None
+
+
+class Override(Param):
+    """A parameter that upstream hands over as `-p`, which is for every node in the process (`Parameter` in Python)."""
 
 
 class DependsOn(Entity):

@@ -62,6 +62,10 @@ SIGNATURES: Final[Mapping[str, Signature]] = MappingProxyType({
     "not-equals": _takes("left", "right", summary="true where equals is false"),
     "or": _takes("left", "right", summary="true where at least one of two values is true"),
     "param": _takes("name", "[default]", summary="a parameter that set_parameter put in scope"),
+    "path-join": _takes(
+        "component", "[component...]", summary="a path of its parts; an absolute one discards those before it"
+    ),
+    "string-join": _takes("delimiter", "[text...]", summary="texts with a delimiter between them"),
     "var": _takes("name", "[default]", summary="a launch argument or variable"),
 })  # fmt: skip
 

@@ -22,7 +22,7 @@ from orchestra.resolve.scope import Hidden, Variable
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
-    from orchestra.description.entity import Action
+    from orchestra.description.entity import Conditional
     from orchestra.description.launch import Description
     from orchestra.location import Location
     from orchestra.resolve.context import Evaluated, Packages
@@ -43,7 +43,7 @@ def glimpse(template: Template, context: Context, variables: Mapping[str, Variab
     return value if isinstance(value, Value) else None
 
 
-def hidden(action: Action, context: Context, variables: Mapping[str, Variable]) -> Hidden:
+def hidden(action: Conditional, context: Context, variables: Mapping[str, Variable]) -> Hidden:
     """Return an action that is not visited; `variables` are those that are set around it."""
     return Hidden(action, _files((action,), context, variables))
 
@@ -54,7 +54,7 @@ def files_named(description: Description, environment: Mapping[str, str], packag
     return {path for path in _files(description.actions, context, {}) if path is not None}
 
 
-def names_in(actions: Iterable[Action]) -> set[str]:
+def names_in(actions: Iterable[Conditional]) -> set[str]:
     """Return the arguments that actions declare and the variables that they read, whatever their conditions say."""
     found = set()
     for entity in _entities(tuple(actions)):
@@ -65,7 +65,7 @@ def names_in(actions: Iterable[Action]) -> set[str]:
     return found
 
 
-def words_in(action: Action) -> set[str]:
+def words_in(action: Conditional) -> set[str]:
     """Return every constant text of an action and the actions in it."""
     texts = (template.constant for entity in _entities(action) for template in _templates(entity))
     return {text for text in texts if text is not None}
@@ -120,7 +120,7 @@ def _run_nothing(command: tuple[str, ...], environment: Mapping[str, str]) -> Co
 
 
 def _files(
-    actions: tuple[Action, ...], context: Context, variables: Mapping[str, Variable]
+    actions: tuple[Conditional, ...], context: Context, variables: Mapping[str, Variable]
 ) -> tuple[str | None, ...]:
     includes = [entity for entity in _entities(actions) if isinstance(entity, Include)]
     values = [glimpse(include.file, context, variables) for include in includes]

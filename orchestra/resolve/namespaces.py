@@ -9,7 +9,10 @@ from orchestra.resolve.context import POISON, Evaluated, Poison, Value
 from orchestra.resolve.names import joined, namespace_fault
 
 if TYPE_CHECKING:
+    from orchestra.description.text import Template
     from orchestra.errors import Problems
+    from orchestra.location import Span
+    from orchestra.resolve.resolution import Resolution
 
 
 def below(base: Evaluated | None, namespace: Evaluated | None, problems: Problems) -> Evaluated | None:
@@ -29,3 +32,8 @@ def below(base: Evaluated | None, namespace: Evaluated | None, problems: Problem
         problems.error(Code.BAD_NAME, f"'{text}' cannot be a namespace: {fault.reason}", location)
         return POISON
     return Value(text, location)
+
+
+def namespace_at(written: Template | None, at: Span, run: Resolution) -> Evaluated | None:
+    """Return the namespace of a node that is described at a place: what is written, below what has been pushed."""
+    return below(run.scope.namespace(run.at(at)), run.evaluate(written), run.problems)

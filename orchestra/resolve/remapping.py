@@ -11,6 +11,9 @@ from orchestra.resolve.names import InvalidName
 from orchestra.resolve.remaps import read_rule
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from orchestra.description.parts import Remap
     from orchestra.description.text import Template
     from orchestra.resolve.resolution import Resolution
 
@@ -28,3 +31,10 @@ def remap(source: Template, target: Template, run: Resolution) -> ResolvedRemap 
         run.problems.error(Code.BAD_NAME, message, value.location)
         return None
     return ResolvedRemap(left, right)
+
+
+def remaps(written: Sequence[Remap], run: Resolution) -> tuple[tuple[ResolvedRemap, ...], bool]:
+    """Return the rules of a node in order, and whether all of them are sound."""
+    rules = [remap(item.from_, item.to, run) for item in written]
+    sound = tuple(rule for rule in rules if rule is not None)
+    return sound, len(sound) == len(rules)

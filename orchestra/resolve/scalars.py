@@ -58,10 +58,10 @@ def differs(text: str) -> str | None:
     try:
         core = core_value(text)
     except ValueError:
-        return f"'{text}' is read as {_described(upstream)}, as ROS 2 does; YAML 1.2 cannot read it so"
+        return f"'{text}' is read as {described(upstream)}, as ROS 2 does; YAML 1.2 cannot read it so"
     if _same(upstream, core):
         return None
-    return f"'{text}' is read as {_described(upstream)}, as ROS 2 does; YAML 1.2 reads {_described(core)}"
+    return f"'{text}' is read as {described(upstream)}, as ROS 2 does; YAML 1.2 reads {described(core)}"
 
 
 def coerced(text: str, type_word: str) -> ParameterValue:
@@ -106,8 +106,13 @@ def checked(value: ParameterValue, type_word: str | None = None) -> ParameterVal
     else:
         found = unified([_sayable(item) for item in value])
     if type_word not in (None, "yaml") and _type_word(found) != type_word:
-        raise ValueError(f"{_described(found)} is not of the type {type_word}")
+        raise ValueError(f"{described(found)} is not of the type {type_word}")
     return found
+
+
+def flow(value: ParameterValue) -> str:
+    """Return the text of a value for `$(param)`, as Python writes it; a list so that it can be read again."""
+    return f"[{', '.join(map(_shown, value))}]" if isinstance(value, tuple) else str(value)
 
 
 def _value(text: str, construct: Construct) -> ParameterValue:
@@ -141,7 +146,7 @@ def _list_of(text: str, type_word: str) -> ParameterValue:
         items = [float(item) if type(item) is int else item for item in items]
     for item in items:
         if type(item) is not kind:
-            raise ValueError(f"{_described(item)} does not fit into a {type_word}")
+            raise ValueError(f"{described(item)} does not fit into a {type_word}")
     return _uniform(items)
 
 
@@ -196,7 +201,8 @@ def _same(one: ParameterValue, other: ParameterValue) -> bool:
     return repr(one) == repr(other)
 
 
-def _described(value: ParameterValue) -> str:
+def described(value: ParameterValue) -> str:
+    """Return a value in words, for messages."""
     if isinstance(value, tuple):
         return f"the list [{', '.join(map(_shown, value))}]"
     return f"the {_WORDS[type(value)]} {_shown(value)}"

@@ -13,14 +13,15 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.description.entity import Action
+from orchestra.description.entity import Conditional
 from orchestra.errors import Code, Problems
 from orchestra.location import Location, Span
 from orchestra.resolve.context import POISON, Evaluated, Value
-from orchestra.resolve.model import EnvironmentChange, InlineParameter, ResolvedRemap
+from orchestra.resolve.model import EnvironmentChange, InlineParameter, ParameterSource, ResolvedRemap
+from orchestra.resolve.scalars import flow
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
 
 
 NAMESPACE = "ros_namespace"
@@ -41,7 +42,7 @@ class Variable:
 class Hidden:
     """An action that its condition left out, and the files that includes in it name: None for one that is not known."""
 
-    action: Action
+    action: Conditional
     files: tuple[str | None, ...]
 
 
@@ -70,6 +71,24 @@ class Ledger:
         self.incomplete |= other.incomplete
 
 
+@dataclass(frozen=True, slots=True)
+class SavedEnvironment:
+    """The environment at one place, and what the description had changed in it."""
+
+    environment: dict[str, str]
+    changes: dict[str, tuple[EnvironmentChange, ...]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True, slots=True)
+class SavedSettings:
+    """Variables, and what was set for all nodes, at one place."""
+
+    variables: dict[str, Variable] = field(default_factory=dict)
+    parameters: tuple[ParameterSource, ...] = ()
+    parameter_texts: dict[str, str] = field(default_factory=dict)
+    remaps: tuple[ResolvedRemap, ...] = ()
+
+
 @dataclass(slots=True)
 class Scope:
     """What is set at one place of a description."""
@@ -79,9 +98,11 @@ class Scope:
     environment: dict[str, str]
     variables: dict[str, Variable] = field(default_factory=dict)
     changes: dict[str, tuple[EnvironmentChange, ...]] = field(default_factory=dict)
-    parameters: tuple[InlineParameter, ...] = ()
+    parameters: tuple[ParameterSource, ...] = ()
     parameter_texts: dict[str, str] = field(default_factory=dict)
     remaps: tuple[ResolvedRemap, ...] = ()
+    saved_environments: list[SavedEnvironment] = field(default_factory=list)
+    saved_settings: list[SavedSettings] = field(default_factory=list)
     _journal: list[tuple[dict[str, Any], str, Any]] = field(default_factory=list)
 
     def get(self, name: str, reader: Location) -> Evaluated | None:
@@ -115,7 +136,27 @@ class Scope:
     def set_parameter(self, parameter: InlineParameter) -> None:
         """Set a parameter of every node."""
         self.parameters = (*self.parameters, parameter)
-        self._put(self.parameter_texts, parameter.name, str(parameter.value))
+        self._put(self.parameter_texts, parameter.name, flow(parameter.value))
+
+    def save_environment(self) -> None:
+        """Save the environment, to be restored later."""
+        self.saved_environments.append(SavedEnvironment(dict(self.environment), dict(self.changes)))
+
+    def restore_environment(self, saved: SavedEnvironment) -> None:
+        """Make the environment what it was."""
+        self._fill(self.environment, saved.environment)
+        self._fill(self.changes, saved.changes)
+
+    def save_settings(self) -> None:
+        """Save variables, and what is set for all nodes."""
+        saved = SavedSettings(dict(self.variables), self.parameters, dict(self.parameter_texts), self.remaps)
+        self.saved_settings.append(saved)
+
+    def restore_settings(self, saved: SavedSettings) -> None:
+        """Make variables, and what is set for all nodes, what they were."""
+        self._fill(self.variables, saved.variables)
+        self._fill(self.parameter_texts, saved.parameter_texts)
+        self.parameters, self.remaps = saved.parameters, saved.remaps
 
     def namespace(self, reader: Location) -> Evaluated | None:
         """Return the pushed namespace; `reader` is the place that asks."""
@@ -130,12 +171,14 @@ class Scope:
     def nested(self) -> Iterator[None]:
         """Begin an inner scope: what is set in it is gone where it ends."""
         mark, parameters, remaps = self.mark(), self.parameters, self.remaps
+        heights = len(self.saved_environments), len(self.saved_settings)
         try:
             yield
         finally:
             while len(self._journal) > mark:
                 _write(*self._journal.pop())
             self.parameters, self.remaps = parameters, remaps
+            del self.saved_environments[heights[0] :], self.saved_settings[heights[1] :]
 
     def mark(self) -> int:
         """Return a mark of the present state."""
@@ -163,6 +206,14 @@ class Scope:
     def _put(self, table: dict[str, Any], name: str, value: object) -> None:
         self._journal.append((table, name, table.get(name, _ABSENT)))
         _write(table, name, value)
+
+    def _fill(self, table: dict[str, Any], content: Mapping[str, Any]) -> None:
+        """Make a table hold nothing but this."""
+        for name in [name for name in table if name not in content]:
+            self._put(table, name, _ABSENT)
+        for name, value in content.items():
+            if table.get(name, _ABSENT) is not value:
+                self._put(table, name, value)
 
     def _earliest(self, mark: int) -> list[tuple[dict[str, Any], str, Any]]:
         """Return what has changed since a mark, with what stood there at the mark."""

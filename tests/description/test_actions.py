@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import importlib
+import pkgutil
 from typing import TYPE_CHECKING
 
 import pytest
 from pydantic import ValidationError
 
+from orchestra.description import actions
 from orchestra.description.actions import ACTIONS, model_of
 from orchestra.description.actions.let import Let
 from orchestra.description.entity import Action, Entity
@@ -42,8 +45,13 @@ def test_an_action_is_modelled_visited_and_in_the_schema(name: str) -> None:
 
 
 def test_there_is_nothing_else_to_visit() -> None:
+    """Every other model is one that only Python launch files make."""
+    for module in pkgutil.iter_modules(actions.__path__, f"{actions.__name__}."):
+        importlib.import_module(module.name)
     models = {model.__name__ for model in map(model_of, ACTIONS) if model is not None}
-    assert models == set(VISITORS)
+    others = {model.__name__ for model in _entities(Action)} - models - {"Running"}
+    assert models | others == set(VISITORS)
+    assert all(importlib.import_module(f"orchestra.resolve.actions.{name}").visit for name in VISITORS.values())
     assert model_of("nothing") is None
 
 

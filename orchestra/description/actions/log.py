@@ -2,11 +2,21 @@
 
 from __future__ import annotations
 
+from typing import Annotated
+
+from pydantic import Field, PlainValidator, WithJsonSchema
+
 from orchestra.description.entity import Action
-from orchestra.description.fields import Text
+from orchestra.description.fields import Text, word
+from orchestra.description.text import Template
+
+LEVELS = ("debug", "info", "warning", "error")
 
 
 class Log(Action):
     """Print a message when the run starts, or when the timer around it goes off."""
 
     message: Text
+    level: (
+        Annotated[Template, PlainValidator(word(*LEVELS)), WithJsonSchema({"enum": list(LEVELS)})] | None
+    ) = Field(default=None, description="How much it matters; `info` where absent.")

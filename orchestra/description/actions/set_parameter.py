@@ -2,12 +2,27 @@
 
 from __future__ import annotations
 
+from pydantic import Field
+
 from orchestra.description.entity import Action
 from orchestra.description.fields import AnyValue, Text
+from orchestra.description.parts import Param, TypeWord
 
 
 class SetParameter(Action):
     """Set a parameter of every node that follows in this scope."""
 
-    name: Text
-    value: AnyValue
+    name: Text = Field(description="Name of the parameter, or of the level above `param`.")
+    value: AnyValue | None = Field(default=None, description="A scalar or a list of scalars of one type.")
+    type: TypeWord | None = Field(
+        default=None, description="Read the value as this type instead of by its looks."
+    )
+    param: tuple[Param, ...] | None = Field(default=None, description="Nested parameters.")
+
+    def conflict(self) -> str | None:
+        """Return what keeps this from being a value or a group of values."""
+        if (self.value is None) == (self.param is None):
+            return "`set_parameter` has one of `value` and `param`"
+        if self.type is not None and self.value is None:
+            return "`type` goes with `value`"
+        return super().conflict()

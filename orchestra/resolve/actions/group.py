@@ -5,7 +5,7 @@ from __future__ import annotations
 from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
-from orchestra.resolve.context import Value
+from orchestra.resolve.kept import kept
 from orchestra.resolve.repetition import repeated
 from orchestra.resolve.scope import Scope
 
@@ -13,17 +13,15 @@ if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
     from orchestra.description.actions.group import Group
-    from orchestra.location import Location
-    from orchestra.resolve.context import Evaluated
     from orchestra.resolve.resolution import Resolution
 
 
 def visit(action: Group, run: Resolution) -> None:
     """Visit the children, in a scope of their own unless `scoped` is false."""
     for _ in repeated(action.for_each, run):
-        kept = _kept(action, run)
+        keep = kept(action.keep, run)
         with _scope(action, run):
-            for name, value, location in kept:
+            for name, value, location in keep:
                 run.scope.set(name, value, location)
             run.visit(action.children, run)
 
@@ -34,13 +32,3 @@ def _scope(action: Group, run: Resolution) -> AbstractContextManager[None]:
     if run.flag(action.forwarding, default=True) is False:
         return run.scoped(Scope(run.problems, run.scope.ledger, dict(run.inputs.environment)))
     return run.scope.nested()
-
-
-def _kept(action: Group, run: Resolution) -> list[tuple[str, Evaluated, Location]]:
-    """Return the variables of `keep`, which are evaluated outside."""
-    kept = []
-    for pair in action.keep:
-        name, value = run.evaluate(pair.name), run.evaluate(pair.value)
-        if isinstance(name, Value) and value is not None:
-            kept.append((name.text, value, run.at(pair.value.span)))
-    return kept

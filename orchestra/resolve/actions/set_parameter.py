@@ -4,10 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.description.text import span_of
-from orchestra.resolve.context import Poison
-from orchestra.resolve.model import InlineParameter
-from orchestra.resolve.parameters import typed
+from orchestra.resolve.parameters import everywhere
 
 if TYPE_CHECKING:
     from orchestra.description.actions.set_parameter import SetParameter
@@ -16,11 +13,9 @@ if TYPE_CHECKING:
 
 def visit(action: SetParameter, run: Resolution) -> None:
     """Set a parameter of every node that follows."""
-    name, value = run.text(action.name), typed(action.value, None, run)
-    if isinstance(name, str) and isinstance(value, Poison):
+    found = everywhere(action, run)
+    if None in found and isinstance(name := run.text(action.name), str):
         run.found.lost.add(name)
-    if not isinstance(name, str) or isinstance(value, Poison):
-        return
-    at = run.at(span_of(action.value) or action.span)
-    parameter = InlineParameter(name, value, at, everywhere=True)
-    run.scope.set_parameter(parameter)
+    for parameter in found:
+        if parameter is not None:
+            run.scope.set_parameter(parameter)

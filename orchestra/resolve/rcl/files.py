@@ -8,19 +8,25 @@ warning is given where the two part. Source: `rcl_yaml_param_parser` (`parse_fil
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import yaml
 
 from orchestra.errors import Code
 from orchestra.location import Location, Span
 from orchestra.resolve.rcl.duplicates import report_duplicates
-from orchestra.resolve.rcl.reader import Reader, Unreadable
+from orchestra.resolve.rcl.reader import SECTION_KEY, Reader, Unreadable
 from orchestra.resolve.rcl.values import LOADER
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
     from orchestra.errors import Problems
     from orchestra.resolve.rcl.sections import Section
+
+    _Change: TypeAlias = Callable[[Iterator[yaml.Event]], Iterator[yaml.Event]]
+
+_EVERY_NODE: Final = ("/**", SECTION_KEY)
 
 
 def read_parameter_file(
@@ -32,9 +38,26 @@ def read_parameter_file(
     way that nobody means as a warning, what is set twice as `DUPLICATE_PARAMETER`. After an error the sections are
     those that could be read all the same.
     """
+    return _read(text, file, problems, included_from, lambda events: events)
+
+
+def read_plain_file(
+    text: str, file: str, problems: Problems, included_from: tuple[Span, ...] = ()
+) -> tuple[Section, ...]:
+    """Return one section, for every node, with the parameters of a file that has nothing but parameters.
+
+    The parameters of components may come from such a file (launch_ros, `to_parameters_list`). Faults are reported as
+    by `read_parameter_file`.
+    """
+    return _read(text, file, problems, included_from, _within_section)
+
+
+def _read(
+    text: str, file: str, problems: Problems, included_from: tuple[Span, ...], changed: _Change
+) -> tuple[Section, ...]:
     reader = Reader(file, problems, included_from)
     try:
-        for event in yaml.parse(text.removeprefix("\ufeff"), Loader=LOADER):
+        for event in changed(yaml.parse(text.removeprefix("\ufeff"), Loader=LOADER)):
             reader.take(event)
     except yaml.YAMLError as error:
         at = Location(_span(file, error), included_from)
@@ -47,6 +70,32 @@ def read_parameter_file(
     sections = reader.sections()
     report_duplicates(sections, problems)
     return sections
+
+
+def _within_section(events: Iterator[yaml.Event]) -> Iterator[yaml.Event]:
+    """Put the mapping of a document below the keys that make it the section for every node."""
+    for event in events:
+        outermost = isinstance(event, yaml.MappingStartEvent)
+        if outermost:
+            for key in _EVERY_NODE:
+                yield yaml.MappingStartEvent(None, None, implicit=True, **_marks(event))
+                yield yaml.ScalarEvent(None, None, (True, False), key, **_marks(event))
+        yield event
+        if outermost:
+            break
+    yield from _closed_twice(events)
+
+
+def _closed_twice(events: Iterator[yaml.Event]) -> Iterator[yaml.Event]:
+    for event in events:
+        if isinstance(event, yaml.DocumentEndEvent):
+            for _ in _EVERY_NODE:
+                yield yaml.MappingEndEvent(**_marks(event))
+        yield event
+
+
+def _marks(event: yaml.Event) -> dict[str, Any]:
+    return {"start_mark": event.start_mark, "end_mark": event.start_mark}
 
 
 def _span(file: str, error: yaml.YAMLError) -> Span:

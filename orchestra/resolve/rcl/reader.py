@@ -20,7 +20,7 @@ from orchestra.resolve.rcl.values import scalar, terminated
 if TYPE_CHECKING:
     from orchestra.values import ParameterValue, Scalar
 
-_KEY = "ros__parameters"
+SECTION_KEY = "ros__parameters"
 
 
 class Unreadable(Exception):  # noqa: N818 - no fault of the program
@@ -86,7 +86,7 @@ class Reader:
             raise self.unreadable("a parameter cannot be a list of lists", event)
         if self.inside:
             self.parameter_key(name, event)
-        elif name.startswith(_KEY):
+        elif name.startswith(SECTION_KEY):
             self.open_section(name, event)
         else:
             self.before_key = copy.copy(self.node)
@@ -98,15 +98,15 @@ class Reader:
         """Take the key `ros__parameters`: rcl looks only at how it begins."""
         at = self.at(event)
         if not self.node.count:
-            raise self.unreadable(f"'{_KEY}' must stand below the name of a node", event)
+            raise self.unreadable(f"'{SECTION_KEY}' must stand below the name of a node", event)
         pattern, said = self.node.text, joined("/", self.keys[1:])
         fault = pattern_fault(pattern)
         if fault is not None:
             self.error(f"'{pattern}' cannot be the name of a node: {fault.reason}", at)
         elif pattern != said:
             self.surprise(f"rcl reads this as the section of '{pattern}', not of '{said}'", at)
-        if name != _KEY:
-            self.surprise(f"rcl reads '{name}' as '{_KEY}'", at)
+        if name != SECTION_KEY:
+            self.surprise(f"rcl reads '{name}' as '{SECTION_KEY}'", at)
         self.found.append(OpenSection(pattern, at, sound=fault is None))
         self.before_key = copy.copy(self.node)
         self.node.shrink()
@@ -117,9 +117,7 @@ class Reader:
         """Take the name of a parameter or of a group of them."""
         if self.fresh:
             if self.parameter is None:
-                message = (
-                    f"rcl cannot read a node below one that has '{_KEY}' itself: write its full name apart"
-                )
+                message = f"rcl cannot read a node below one that has '{SECTION_KEY}' itself: write its full name apart"
                 raise self.unreadable(message, event)
             self.group.replace(self.parameter.name)
             self.fresh = False
@@ -168,13 +166,13 @@ class Reader:
     def misplaced(self, event: yaml.Event) -> None:
         """Report a value above the parameters, and go on as if its key were not there."""
         if self.inside:
-            message = f"'{_KEY}' must hold a mapping from names to values"
+            message = f"'{SECTION_KEY}' must hold a mapping from names to values"
         elif self.depth == 0:
             raise self.unreadable("a parameter file must be a mapping from nodes to parameters", event)
         else:
             empty = isinstance(event, yaml.ScalarEvent) and not event.value
-            reason = "is empty" if empty else f"stands outside '{_KEY}'"
-            message = f"'{self.last_key}' {reason}: parameters belong below '{_KEY}' of a node"
+            reason = "is empty" if empty else f"stands outside '{SECTION_KEY}'"
+            message = f"'{self.last_key}' {reason}: parameters belong below '{SECTION_KEY}' of a node"
         notes = (
             [] if self.emptied is None else [f"the empty mapping at {self.emptied} ends the section for rcl"]
         )
@@ -219,7 +217,7 @@ class Reader:
             what = "a parameter cannot be a list of lists" if self.lists else "a list cannot be a key"
             raise self.unreadable(what if self.depth else "a parameter file must be a mapping", event)
         if self.parameter is None or not self.inside:
-            raise self.unreadable(f"a list cannot stand above the parameters of '{_KEY}'", event)
+            raise self.unreadable(f"a list cannot stand above the parameters of '{SECTION_KEY}'", event)
         if self.lists:
             self.surprise("a list of lists is no parameter; rcl takes one of the inner lists", self.at(event))
             if self.lists[-1].items:

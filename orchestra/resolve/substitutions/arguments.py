@@ -52,11 +52,3 @@ def boolean_argument(argument: Template, context: Context, evaluate: Evaluate) -
     if flag is None:
         refuse(argument, context, Code.BAD_VALUE, f"{value.text!r} is not a boolean: write true or false")
     return flag
-
-
-def fallback(call: Call, context: Context, evaluate: Evaluate) -> Evaluated | None:
-    """Evaluate the default, the second argument, of a substitution that looks a name up; None without one."""
-    if len(call.arguments) == 1:
-        return None
-    value = evaluate(call.arguments[1], context)
-    return value if isinstance(value, Poison) else made(call, context, value.text)

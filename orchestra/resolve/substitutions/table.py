@@ -17,6 +17,7 @@ from orchestra.resolve.substitutions import (
     file_content,
     find_exec,
     find_package,
+    joining,
     log_folder,
     logic,
     param,
@@ -51,5 +52,7 @@ SUBSTITUTIONS: Final[Mapping[str, Substitution]] = MappingProxyType({
     "not-equals": equality.not_equals,
     "or": logic.disjunction,
     "param": param.perform,
+    "path-join": joining.path,
+    "string-join": joining.string,
     "var": var.perform,
 })  # fmt: skip

@@ -32,6 +32,9 @@ _DIFFERENT_HERE = {
     "$(var a )": "A",
     '$(command "echo hi")': "hi",
     "$(command 'echo hi')": "hi",
+    # Names of later releases.
+    "$(path-join a b)": "a/b",
+    "$(string-join a b)": "b",
 }
 
 

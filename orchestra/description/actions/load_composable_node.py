@@ -1,0 +1,19 @@
+"""`load_composable_node`: loads components into a container that runs already."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from orchestra.description.components import ComposableNode
+from orchestra.description.entity import Action
+from orchestra.description.fields import Text
+
+
+class LoadComposableNode(Action):
+    """Load components into a container of this launch, or of another one.
+
+    Where Python names the container by the action that starts it, `target` is an `Opaque` of that action.
+    """
+
+    target: Text = Field(description="Full name of the container's node.")
+    composable_node: tuple[ComposableNode, ...] = Field(min_length=1, description="The components, in order.")

@@ -1,0 +1,14 @@
+"""`set_parameters_from_file`: gives a parameter file to every node."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from orchestra.description.entity import Action
+from orchestra.description.fields import Text
+
+
+class SetParametersFromFile(Action):
+    """Give a parameter file to every node that follows in this scope, before the node's own parameters."""
+
+    filename: Text = Field(description="Path, relative to the launch file.")

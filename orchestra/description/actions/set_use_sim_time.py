@@ -1,0 +1,12 @@
+"""`set_use_sim_time`: the clock of `ros_timer`."""
+
+from __future__ import annotations
+
+from orchestra.description.entity import Action
+from orchestra.description.fields import Flag
+
+
+class SetUseSimTime(Action):
+    """Let `ros_timer` go by simulated time. Nodes are not concerned: they take `set_parameter`."""
+
+    value: Flag

@@ -1,0 +1,30 @@
+"""Components: nodes that a container loads into its own process."""
+
+from __future__ import annotations
+
+from pydantic import Field
+
+from orchestra.description.entity import Conditional
+from orchestra.description.fields import Flag, Text
+from orchestra.description.parts import Param, Remap
+
+
+class ComposableNode(Conditional):
+    """One component."""
+
+    pkg: Text = Field(description="Package of the component.")
+    plugin: Text = Field(description="Its class, as the package registers it.")
+    name: Text | None = Field(default=None, description="Name of its node; that of the class where absent.")
+    namespace: Text | None = Field(
+        default=None, description="Namespace; a relative one is put below the pushed one."
+    )
+    param: tuple[Param, ...] = Field(
+        default=(), description="Parameters and parameter files, later ones win."
+    )
+    remap: tuple[Remap, ...] = Field(default=(), description="Remappings, the first that matches counts.")
+    extra_arg: tuple[Param, ...] = Field(
+        default=(), description="What else the container is told, as use_intra_process_comms."
+    )
+    autostart: Flag | None = Field(
+        default=None, description="Whether a component with a managed life cycle is configured and activated."
+    )

@@ -1,0 +1,27 @@
+"""`append_env`."""
+
+from __future__ import annotations
+
+import os
+from typing import TYPE_CHECKING
+
+from orchestra.resolve.context import Poison
+
+if TYPE_CHECKING:
+    from orchestra.description.actions.append_env import AppendEnv
+    from orchestra.resolve.resolution import Resolution
+
+
+def visit(action: AppendEnv, run: Resolution) -> None:
+    """Add to an environment variable for what follows; one that is unset gets the new text alone."""
+    name, value = run.text(action.name), run.text(action.value)
+    prepend, separator = run.flag(action.prepend, default=False), run.text(action.separator)
+    if not isinstance(name, str):
+        return
+    if not isinstance(value, str) or not isinstance(prepend, bool) or isinstance(separator, Poison):
+        run.found.lost.add(name)
+        return
+    present = run.scope.environment.get(name)
+    texts = [value] if present is None else [value, present] if prepend else [present, value]
+    joined = (os.pathsep if separator is None else separator).join(texts)
+    run.scope.change(name, joined, run.at(action.value.span))

@@ -1,0 +1,78 @@
+"""Components as written, evaluated in the scope they stand in."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from orchestra.resolve.context import Poison, Value
+from orchestra.resolve.interpret import wanted
+from orchestra.resolve.model import ResolvedComponent
+from orchestra.resolve.namespaces import namespace_at
+from orchestra.resolve.node_names import named
+from orchestra.resolve.parameters import parameters
+from orchestra.resolve.reactions import ResolvedLoad
+from orchestra.resolve.remapping import remaps
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from orchestra.description.components import ComposableNode
+    from orchestra.resolve.resolution import Resolution
+
+
+@dataclass(frozen=True, slots=True)
+class Container:
+    """What components are loaded into: a container by its full name, by the index of its process, or by its action."""
+
+    name: Value | None = None
+    process: int | None = None
+    origin: Any = None
+    faulty: bool = False
+
+
+def add_components(
+    written: Sequence[ComposableNode], container: Container, run: Resolution, *, delayed: bool
+) -> None:
+    """Add components to what has been found, but for those whose condition says no.
+
+    Unless they are `delayed` they are loaded as soon as the container takes orders.
+    """
+    for item in written:
+        if not wanted(item, "composable_node", run):
+            continue
+        component = _component(item, container, run, delayed=delayed)
+        if delayed and run.delayed is not None:
+            run.delayed.append(ResolvedLoad(len(run.found.components), component.location))
+        run.found.components.append(component)
+
+
+def _component(
+    written: ComposableNode, container: Container, run: Resolution, *, delayed: bool
+) -> ResolvedComponent:
+    package, plugin = run.text(written.pkg), run.text(written.plugin)
+    name, namespace = named(written.name, run), namespace_at(written.namespace, written.span, run)
+    own, whole = parameters(written.param, run, component=True)
+    extra, told = parameters(written.extra_arg, run, component=True)
+    rules, regular = remaps(written.remap, run)
+    autostart = run.flag(written.autostart, default=False)
+    values = (package, plugin, name, namespace, autostart)
+    sound = whole and told and regular and not any(isinstance(value, Poison) for value in values)
+    return ResolvedComponent(
+        package=package if isinstance(package, str) else written.pkg.raw,
+        plugin=plugin if isinstance(plugin, str) else written.plugin.raw,
+        name=name if isinstance(name, Value) and not isinstance(namespace, Poison) else None,
+        namespace=namespace if isinstance(namespace, Value) else None,
+        container=container.name,
+        container_process=container.process,
+        container_origin=container.origin,
+        parameters=(*run.scope.parameters, *own),
+        extra_arguments=extra,
+        remaps=(*run.scope.remaps, *rules),
+        autostart=autostart is True,
+        delayed=delayed,
+        location=run.at(written.span),
+        conditional=run.conditions > 0 or written.if_ is not None or written.unless is not None,
+        faulty=not sound or container.faulty or written.faulty,
+        origin=written.origin,
+    )

@@ -1,0 +1,30 @@
+"""Names that a description gives to nodes."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code
+from orchestra.resolve.context import POISON, Evaluated, Poison, Value
+from orchestra.resolve.names import node_name_fault
+
+if TYPE_CHECKING:
+    from orchestra.description.text import Template
+    from orchestra.resolve.resolution import Resolution
+
+
+def named(template: Template | None, run: Resolution) -> Evaluated | None:
+    """Return the name of a node, None where none is given; one that rcl does not take is reported.
+
+    A slash in front is taken away: upstream means to, and refuses the name.
+    """
+    value = run.evaluate(template)
+    if value is None or isinstance(value, Poison):
+        return value
+    name = Value(value.text.removeprefix("/"), value.location)
+    fault = node_name_fault(name.text)
+    if fault is None:
+        return name
+    message = f"'{value.text}' cannot be a node's name: {fault.reason}"
+    run.problems.error(Code.BAD_NAME, message, value.location)
+    return POISON

@@ -1,0 +1,48 @@
+"""What the substitutions share that look a name up and may have a default."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.nearest import nearest
+from orchestra.resolve.context import POISON, Poison
+from orchestra.resolve.refusals import refuse
+from orchestra.resolve.substitutions.arguments import made
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from orchestra.description.text import Call
+    from orchestra.errors import Code
+    from orchestra.resolve.context import Context, Evaluated
+    from orchestra.resolve.substitutions.arguments import Evaluate
+
+
+def looked_up(
+    call: Call,
+    context: Context,
+    evaluate: Evaluate,
+    *,
+    find: Callable[[str], Evaluated | str | None],
+    code: Code,
+    told: str,
+    known: Callable[[], Iterable[str]],
+) -> Evaluated:
+    """Return what `find` has for the first argument, else the second one, which is evaluated only then.
+
+    Where there is neither, that is reported: `told` says it, with `{}` in the place of the name; `known` are the names
+    that there are.
+    """
+    written = call.arguments[0]
+    name = evaluate(written, context)
+    if isinstance(name, Poison):
+        return POISON
+    value = find(name.text)
+    if value is None and len(call.arguments) > 1:
+        value = evaluate(call.arguments[1], context)
+    if value is None:
+        meant = nearest(name.text, known())
+        return refuse(written, context, code, told.format(repr(name.text)), meant=meant)
+    if isinstance(value, Poison):
+        return POISON
+    return made(call, context, value if isinstance(value, str) else value.text)
