@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from orchestra.compat.calls import CallSubstitution
+from orchestra.compat.described import described
+from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.text import normalized
 
 if TYPE_CHECKING:
@@ -15,10 +16,11 @@ if TYPE_CHECKING:
     from orchestra.compat.text import Sub
 
 
-class LaunchConfiguration(CallSubstitution):
+class LaunchConfiguration(ParsedSubstitution):
     """The value, else the default: a scalar, which becomes a text, or substitutions, or several of both."""
 
     _name = "var"
+    _parameters = ("variable_name", "default")
 
     def __init__(self, variable_name: Sub, *, default: Any = None) -> None:
         super().__init__()
@@ -32,7 +34,7 @@ class LaunchConfiguration(CallSubstitution):
 
     def describe(self) -> str:
         """Return the name and what it is."""
-        return f"LaunchConfig({' + '.join(item.describe() for item in self.variable_name)})"
+        return f"LaunchConfig({described(self.variable_name)})"
 
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
         name = self.variable_name

@@ -1,0 +1,41 @@
+"""`IfCondition`: holds where a text comes to true."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.described import described
+from orchestra.compat.launch.condition import Condition
+from orchestra.compat.launch.conditions.evaluate_condition_expression_impl import (
+    evaluate_condition_expression,
+)
+from orchestra.compat.text import normalized, template
+
+if TYPE_CHECKING:
+    from orchestra.compat.launch.launch_context import LaunchContext
+    from orchestra.compat.text import Sub
+    from orchestra.location import Span
+
+
+class IfCondition(Condition):
+    """Holds where the substitutions come to true. Raises `TypeError` for a boolean of Python: that is no condition."""
+
+    _field = "if"
+    _wanted = True
+
+    def __init__(self, predicate_expression: Sub) -> None:
+        self.__expression = normalized(predicate_expression)
+        super().__init__(predicate=self._holds)
+
+    def describe(self) -> str:
+        """Return the text and what becomes of it."""
+        return f"{type(self).__name__}({described(self.__expression)})"
+
+    def _holds(self, context: LaunchContext) -> bool:
+        return evaluate_condition_expression(context, self.__expression) is self._wanted
+
+    def _fields(self, span: Span) -> dict[str, Any]:
+        evaluate: Any = type(self).evaluate
+        if not evaluate.__module__.startswith("orchestra.compat."):
+            return super()._fields(span)
+        return {self._field: template(self.__expression, span)}

@@ -1,0 +1,49 @@
+"""`LaunchConfigurationEquals`: holds where a launch configuration has a value."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.described import described
+from orchestra.compat.launch.condition import Condition
+from orchestra.compat.launch.utilities.perform_substitutions_impl import perform_substitutions
+from orchestra.compat.text import normalized, template
+from orchestra.description.text import Call, Opaque, Template
+
+if TYPE_CHECKING:
+    from orchestra.compat.launch.launch_context import LaunchContext
+    from orchestra.compat.text import Sub
+    from orchestra.location import Span
+
+
+class LaunchConfigurationEquals(Condition):
+    """Holds where the configuration is exactly the text; None: where it is not set.
+
+    Upstream warns that it is deprecated; launch files are full of it, so it is silent here.
+    """
+
+    _wanted = True
+
+    def __init__(self, launch_configuration_name: str, expected_value: Sub | None) -> None:
+        self.__name = launch_configuration_name
+        self.__expected = None if expected_value is None else normalized(expected_value)
+        super().__init__(predicate=self._holds)
+
+    def describe(self) -> str:
+        """Return the name and the value."""
+        expected = "None" if self.__expected is None else described(self.__expected)
+        return f"{type(self).__name__}('{self.__name}', {expected})"
+
+    def _holds(self, context: LaunchContext) -> bool:
+        value: Any = context.launch_configurations.get(self.__name)
+        expected = None if self.__expected is None else perform_substitutions(context, self.__expected)
+        return (value == expected) is self._wanted
+
+    def _fields(self, span: Span) -> dict[str, Any]:
+        """Return an opaque text, of which it is known what it reads: equality of booleans is another thing."""
+        (part,) = super()._fields(span)["if"].parts
+        name = template(self.__name, span)
+        inside = [Template((Call("var", (name, Template((), "", span)), span),), self.describe(), span)]
+        if self.__expected is not None:
+            inside.append(template(self.__expected, span))
+        return {"if": Template((Opaque(part.target, span, tuple(inside)),), self.describe(), span)}

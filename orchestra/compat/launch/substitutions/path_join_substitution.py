@@ -1,0 +1,58 @@
+"""`PathJoinSubstitution`: the parts of a path, joined."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Self
+
+from orchestra.compat.described import described
+from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.parsed import ParsedSubstitution
+from orchestra.compat.performed import Concatenated
+from orchestra.compat.text import normalized
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from orchestra.compat.text import Sub
+
+
+class PathJoinSubstitution(ParsedSubstitution):
+    """A path of its components; an absolute one discards those before it, as `os.path.join` does.
+
+    A component that is a list is concatenated first, as in newer ROS releases. Raises `TypeError` without components.
+    """
+
+    _name = "path-join"
+
+    def __init__(self, substitutions: Iterable[Sub]) -> None:
+        super().__init__()
+        self.__substitutions = [_component(item) for item in _listed(substitutions)]
+        if not self.__substitutions:
+            raise TypeError("a PathJoinSubstitution needs at least one component")
+
+    @classmethod
+    def parse(cls, data: Sequence[Sub]) -> tuple[type[Self], dict[str, Any]]:
+        """Return the class and the keywords of its constructor."""
+        return cls, {"substitutions": data}
+
+    @property
+    def substitutions(self) -> list[Substitution]:
+        """The components."""
+        return self.__substitutions
+
+    def describe(self) -> str:
+        """Return the components and what they are in."""
+        return f"PathJoin('{described(self.substitutions)}')"
+
+    def _arguments(self) -> Sequence[Sequence[Substitution]]:
+        return [[item] for item in self.substitutions]
+
+
+def _component(item: Sub) -> Substitution:
+    parts = normalized(item)
+    return parts[0] if len(parts) == 1 else Concatenated(parts)
+
+
+def _listed(substitutions: Sub | Iterable[Sub]) -> Iterable[Sub]:
+    """Return the components: a text or a substitution by itself is one."""
+    return [substitutions] if isinstance(substitutions, str | Substitution) else substitutions

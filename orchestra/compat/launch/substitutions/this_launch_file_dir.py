@@ -1,0 +1,25 @@
+"""`ThisLaunchFileDir`: the folder of the launch file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.compat.parsed import ParsedSubstitution
+
+if TYPE_CHECKING:
+    from orchestra.compat.launch.launch_context import LaunchContext
+
+
+class ThisLaunchFileDir(ParsedSubstitution):
+    """The absolute path of the folder of the launch file that is visited."""
+
+    _name = "dirname"
+
+    def describe(self) -> str:
+        """Return what it is."""
+        return "ThisLaunchFileDir()"
+
+    def perform(self, context: LaunchContext) -> str:
+        """Return the path; what the user has put among the locals comes first. Raises `SubstitutionFailure`."""
+        put: str | None = context.get_locals_as_dict().get("current_launch_file_directory")
+        return super().perform(context) if put is None else put
