@@ -9,6 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 _SPECIAL = frozenset("\\\"'`$&;()<>|*?[]{}!# \t\n")
+_BLANKS = " \t\n"
 _SPECIAL_IN_DOUBLE = frozenset('\\"`$')
 
 
@@ -31,7 +32,8 @@ def split_line(text: str, breaks: str) -> Line:
     inside = escaped = False
     for character in text:
         if escaped:
-            line.begun += character
+            kept = line.quote and character not in _SPECIAL_IN_DOUBLE
+            line.begun += f"\\{character}" if kept else character
             escaped = False
         elif character == "\\" and line.quote != "'":
             inside = escaped = True
@@ -39,7 +41,7 @@ def split_line(text: str, breaks: str) -> Line:
             line.quote, line.begun = _in_quotes(line, character)
         elif character in "\"'":
             inside, line.quote, line.kept = True, character, len(line.begun)
-        elif character.isspace():
+        elif character in _BLANKS:
             if inside:
                 line.before.append(line.begun)
             line.begun, line.kept, inside = "", 0, False
