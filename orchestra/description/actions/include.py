@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
-from pydantic import Field
+from typing import Any, Literal, Self, TypeAlias
+
+from pydantic import Field, PrivateAttr
 
 from orchestra.description.entity import Action
 from orchestra.description.fields import Flag, Text
 from orchestra.description.nested import ForEach
 from orchestra.description.parts import DependsOn, Pair
+
+Language: TypeAlias = Literal["python", "xml", "yaml"]
 
 
 class Include(Action):
@@ -22,3 +26,22 @@ class Include(Action):
     scoped: Flag | None = Field(default=None, description="Whether what the file sets ends with it.")
     label: Text | None = Field(default=None, description="Name for all processes inside, for `depends_on`.")
     depends_on: tuple[DependsOn, ...] = Field(default=(), description="What every process inside waits for.")
+
+    _language: Language | None = PrivateAttr(default=None)
+    _source: Any = PrivateAttr(default=None)
+
+    @property
+    def language(self) -> Language | None:
+        """What the file is read as, None: its name tells. Only Python code says it."""
+        return self._language
+
+    @property
+    def source(self) -> Any:  # noqa: ANN401 - a source of a Python launch file
+        """The object that has the launch description, which is then not read from the file, which may not exist."""
+        return self._source
+
+    def taken_from(self, *, language: Language | None, source: Any) -> Self:  # noqa: ANN401 - a source of a Python launch file
+        """Set where Python code takes the description from; return the action."""
+        self._language = language
+        self._source = source
+        return self

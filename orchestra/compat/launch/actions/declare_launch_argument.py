@@ -1,0 +1,99 @@
+"""`DeclareLaunchArgument`: declares a launch argument."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.launch.action import ModelledAction
+from orchestra.compat.text import Sub, normalized, template
+from orchestra.compat.values import optional, written
+from orchestra.description.actions.arg import Arg
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from orchestra.compat.launch.substitution import Substitution
+    from orchestra.description.entity import Action as Model
+
+
+class DeclareLaunchArgument(ModelledAction):
+    """Declare an argument of the launch file; a value that somebody has set before is kept.
+
+    Raises `RuntimeError` for no choices, and for a default that is none of them.
+    """
+
+    _role = "declaration"
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        default_value: Sub | float | None = None,
+        description: str | None = None,
+        choices: Iterable[str] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.__name = name
+        self.__default_value = None if default_value is None else normalized(_text(default_value))
+        self.__choices = None if choices is None else list(choices)
+        self.__description = _described(description, self.__choices)
+        self.__given_description = description
+        # Whether a condition decides on the declaration, as `get_launch_arguments` has found.
+        self._conditionally_included = False
+        _check(name, default_value, self.__choices)
+
+    @property
+    def name(self) -> str:
+        """The name."""
+        return self.__name
+
+    @property
+    def default_value(self) -> list[Substitution] | None:
+        """The value where nobody sets one."""
+        return self.__default_value
+
+    @property
+    def description(self) -> str:
+        """What it is for, and the choices."""
+        return self.__description
+
+    @property
+    def choices(self) -> list[str] | None:
+        """The values that it may have."""
+        return self.__choices
+
+    def _to_model(self, common: Mapping[str, Any]) -> Model:
+        span = self._place.span
+        choices = None if self.choices is None else tuple(template(choice, span) for choice in self.choices)
+        return Arg.at(
+            span,
+            name=template(self.name, span),
+            default=optional(self.default_value, span),
+            description=optional(self.__given_description, span),
+            choices=choices,
+            **common,
+        )
+
+
+def _text(default: Any) -> Sub:
+    """Return a default as substitutions; truth values are spelt as Python does."""
+    return str(default) if isinstance(default, bool) else written(default)
+
+
+def _check(name: str, default: Any, choices: list[str] | None) -> None:
+    if choices is None:
+        return
+    if not choices:
+        raise RuntimeError(f"the launch argument '{name}' has no choice at all")
+    if isinstance(default, str) and default not in choices:
+        raise RuntimeError(f"the default '{default}' of the launch argument '{name}' is none of {choices}")
+
+
+def _described(description: str | None, choices: list[str] | None) -> str:
+    """Return the description with the choices, in upstream's words: `ros2 launch -s` shows it."""
+    if description is None:
+        return "no description given" if choices is None else f"One of: {choices}"
+    if choices is None:
+        return description
+    return f"{description.removesuffix('.')}. Valid choices are: {choices}"

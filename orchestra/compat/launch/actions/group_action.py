@@ -1,0 +1,90 @@
+"""`GroupAction`: actions in a scope of their own."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.building import models_of
+from orchestra.compat.launch.action import ModelledAction
+from orchestra.compat.launch.actions.pop_environment import PopEnvironment
+from orchestra.compat.launch.actions.pop_launch_configurations import PopLaunchConfigurations
+from orchestra.compat.launch.actions.push_environment import PushEnvironment
+from orchestra.compat.launch.actions.push_launch_configurations import PushLaunchConfigurations
+from orchestra.compat.launch.actions.reset_environment import ResetEnvironment
+from orchestra.compat.launch.actions.reset_launch_configurations import ResetLaunchConfigurations
+from orchestra.compat.launch.actions.set_launch_configuration import SetLaunchConfiguration
+from orchestra.compat.launch.event_handler import is_of_ours
+from orchestra.compat.values import pairs, scalar
+from orchestra.description.actions.group import Group
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from orchestra.compat.launch.launch_context import LaunchContext
+    from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
+    from orchestra.compat.text import Sub
+    from orchestra.description.entity import Action as Model
+
+
+class GroupAction(ModelledAction):
+    """Visit actions; unless told otherwise, what they set ends with the group.
+
+    Without `forwarding` what is set outside is not seen inside, but for `launch_configurations`.
+    """
+
+    def __init__(
+        self,
+        actions: Iterable[LaunchDescriptionEntity],
+        *,
+        scoped: bool = True,
+        forwarding: bool = True,
+        launch_configurations: Mapping[Sub, Sub] | None = None,
+        **left_over_kwargs: Any,
+    ) -> None:
+        super().__init__(**left_over_kwargs)
+        self.__actions = actions
+        self.__scoped = scoped
+        self.__forwarding = forwarding
+        self.__launch_configurations = dict(launch_configurations or {})
+        self.__all: list[LaunchDescriptionEntity] | None = None
+
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Return the actions, with those that make the scope around them."""
+        if self.__all is None:
+            self.__actions = list(self.__actions)
+            self.__all = [*self.__before(), *self.__actions, *self.__after()]
+        return self.__all
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:  # noqa: ARG002 - for subclasses
+        """Return the actions, with those that make the scope around them."""
+        return self.get_sub_entities()
+
+    def __before(self) -> list[LaunchDescriptionEntity]:
+        settings = self.__launch_configurations
+        if self.__scoped and not self.__forwarding:
+            return [
+                PushLaunchConfigurations(),
+                PushEnvironment(),
+                ResetEnvironment(),
+                ResetLaunchConfigurations(settings),
+            ]
+        scope = [PushLaunchConfigurations(), PushEnvironment()] if self.__scoped else []
+        return [*scope, *(SetLaunchConfiguration(name, value) for name, value in settings.items())]
+
+    def __after(self) -> list[LaunchDescriptionEntity]:
+        return [PopEnvironment(), PopLaunchConfigurations()] if self.__scoped else []
+
+    def _is_as_described(self) -> bool:
+        return super()._is_as_described() and is_of_ours(self, "get_sub_entities")
+
+    def _to_model(self, common: Mapping[str, Any]) -> Model:
+        span = self._place.span
+        self.__actions = list(self.__actions)
+        return Group.at(
+            span,
+            scoped=None if self.__scoped else scalar(value=False, span=span),
+            forwarding=None if self.__forwarding else scalar(value=False, span=span),
+            keep=pairs(self.__launch_configurations.items(), span),
+            children=models_of(self.__actions),
+            **common,
+        )

@@ -1,0 +1,70 @@
+"""The action that includes a launch description; the event of the same name is in `launch.events`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.launch.action import ModelledAction
+from orchestra.compat.launch.launch_description_source import LaunchDescriptionSource
+from orchestra.compat.launch.launch_description_sources.any_launch_description_source import (
+    AnyLaunchDescriptionSource,
+)
+from orchestra.compat.values import pairs
+from orchestra.description.actions.include import Include
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
+    from orchestra.compat.text import Sub
+    from orchestra.description.entity import Action as Model
+
+
+class IncludeLaunchDescription(ModelledAction):
+    """Visit a launch description: a source, or the path of a launch file of any kind.
+
+    `launch_arguments` are pairs of name and value, or a mapping; they are set before, and stay.
+    """
+
+    _role = "include"
+
+    def __init__(
+        self,
+        launch_description_source: LaunchDescriptionSource | Sub,
+        *,
+        launch_arguments: Iterable[tuple[Sub, Sub]] | Mapping[Sub, Sub] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        source = launch_description_source
+        if not isinstance(source, LaunchDescriptionSource):
+            source = AnyLaunchDescriptionSource(source)
+        self.__source = source
+        given = launch_arguments.items() if isinstance(launch_arguments, Mapping) else launch_arguments
+        self.__launch_arguments = tuple(given or ())
+
+    @property
+    def launch_description_source(self) -> LaunchDescriptionSource:
+        """The source."""
+        return self.__source
+
+    @property
+    def launch_arguments(self) -> tuple[tuple[Sub, Sub], ...]:
+        """The arguments, as they were given."""
+        return self.__launch_arguments
+
+    def describe(self) -> str:
+        """Return what is included."""
+        return f"{type(self).__name__}({self.__source.location})"
+
+    def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
+        """Return the description, as far as it is known without a visit."""
+        found = self.__source.try_get_launch_description_without_context()
+        return [] if found is None else [found]
+
+    def _to_model(self, common: Mapping[str, Any]) -> Model:
+        span = self._place.span
+        file, language, source = self.__source._described(span)
+        include = Include.at(span, file=file, arg=pairs(self.launch_arguments, span), **common)
+        return include.taken_from(language=language, source=source)

@@ -1,0 +1,44 @@
+"""`OpaqueFunction`: calls a function of the launch file."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.launch.action import Action
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from orchestra.compat.launch.launch_context import LaunchContext
+    from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
+
+
+class OpaqueFunction(Action):
+    """Call `function(context, *args, **kwargs)`; what it returns, None or a list of entities, is visited next.
+
+    Raises `TypeError` for what cannot be called.
+    """
+
+    def __init__(
+        self,
+        *,
+        function: Callable[..., list[LaunchDescriptionEntity] | None],
+        args: Iterable[Any] | None = None,
+        kwargs: Mapping[str, Any] | None = None,
+        **left_over_kwargs: Any,
+    ) -> None:
+        super().__init__(**left_over_kwargs)
+        if not callable(function):
+            raise TypeError(f"the function of an OpaqueFunction cannot be called: {function!r}")
+        self.__function = function
+        self.__args = () if args is None else tuple(args)
+        self.__kwargs = {} if kwargs is None else dict(kwargs)
+
+    @property
+    def function(self) -> Callable[..., list[LaunchDescriptionEntity] | None]:
+        """The function."""
+        return self.__function
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Call it."""
+        return self.__function(context, *self.__args, **self.__kwargs)
