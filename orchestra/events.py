@@ -23,7 +23,13 @@ Kind: TypeAlias = Literal[
     "signal_sent",  # data: signal
     "descendant_adopted",  # a child of a process detached itself; data: command
     "left_behind",  # something outlived its process or the run; data: command
-    "trigger_fired",  # data: on, target, do
+    "trigger_fired",  # data: trigger, on, do; process is what set it off
+    "plan_revised",  # data: trigger, revision, and what it added: processes, components, triggers, do, problems
+    "state_changed",  # of a lifecycle node; data: transition, start_state, goal_state
+    "transition_done",  # an order to a lifecycle node; data: transition, state
+    "transition_failed",  # data: transition, reason
+    "component_loaded",  # process is the id of the component; data: node, container, unique_id
+    "component_failed",  # data: container, reason
     "message",  # what the user was told; data: text
 ]
 

@@ -11,9 +11,10 @@ from orchestra.logs.page import Page
 from orchestra.logs.terminal_text import coloured, for_screen, plain
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
     from pathlib import Path
 
+    from orchestra.logs.outputs import Output
     from orchestra.logs.screen import Screen
 
 OURSELVES = "orchestra"
@@ -47,30 +48,46 @@ class Sheets:
 class Journal:
     """Writes what processes and we ourselves have to say.
 
-    `words` maps each process, in plan order, to its `output` word. `failed` hears of a file that cannot be written,
-    `told` of everything that we say.
+    `wanted` maps each process, in plan order, to its `output`; `forced`, where given, counts for all of them. `failed`
+    hears of a file that cannot be written, `told` of everything that we say.
     """
 
     def __init__(
         self,
         folder: Path,
-        words: dict[str, str | None],
+        wanted: Mapping[str, Output],
         sheets: Sheets,
         failed: Callable[[Path, OSError], None],
         told: Callable[[str], None],
         wall: Callable[[], float] = time.time,
+        *,
+        forced: str | None = None,
     ) -> None:
+        self._folder = folder
         self._sheets = sheets
+        self._failed = failed
         self._told = told
         self._wall = wall
-        self._shown = {process: outputs.on_screen(word) for process, word in words.items()}
-        self._prefixes = names.prefixes(words)
-        stems = names.log_stems(words)
-        self._files = {process: LogFile(folder / f"{stems[process]}.log", failed) for process in words}
-        self._pages = {process: Page() for process in words}
+        self._forced = forced
+        self._shown: dict[str, frozenset[str]] = {}
+        self._prefixes: dict[str, str] = {}
+        self._colours: dict[str, str] = {}
+        self._files: dict[str, LogFile] = {}
+        self._pages: dict[str, Page] = {}
         self._all = LogFile(folder / "all.log", failed)
         self._all_page = Page()
-        self._colours = self._colour_prefixes() if sheets.output.colour else self._prefixes
+        self.add(wanted)
+
+    def add(self, wanted: Mapping[str, Output]) -> None:
+        """Take up more processes, after those that are known: names and files of these stay."""
+        for process, output in wanted.items():
+            self._shown[process] = outputs.on_screen(output if self._forced is None else self._forced)
+            self._pages[process] = Page()
+        self._prefixes = names.prefixes(self._shown)
+        self._colours = self._colour_prefixes() if self._sheets.output.colour else self._prefixes
+        stems = names.log_stems(self._shown)
+        for process in wanted:
+            self._files[process] = LogFile(self._folder / f"{stems[process]}.log", self._failed)
 
     def output(self, process: str, stream: str, text: str) -> None:
         """Write a piece of a process's output."""
@@ -84,11 +101,15 @@ class Journal:
 
     def say(self, text: str) -> None:
         """Tell the user something, in whole lines."""
-        self._told(text)
-        self._write_all(OURSELVES, OURSELVES, f"{text}\n")
+        self.note(text)
         sheet = self._sheets.messages
         prefix = f"[{OURSELVES}] "
         sheet.write(OURSELVES, f"\x1b[1m{prefix}\x1b[0m" if sheet.colour else prefix, f"{text}\n")
+
+    def note(self, text: str) -> None:
+        """Keep something for whoever reads the run afterwards, in whole lines."""
+        self._told(text)
+        self._write_all(OURSELVES, OURSELVES, f"{text}\n")
 
     def rest(self, process: str) -> None:
         """Close the file of a process that does not run; its next output opens it again."""

@@ -10,7 +10,7 @@ from orchestra.supervise import life, order
 from orchestra.supervise.life import Phase
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Callable, Iterable, Mapping
 
     from orchestra.plan.model import Dependency
     from orchestra.supervise.loop import Timer
@@ -21,21 +21,27 @@ _PARTICIPLES = {"started": "started", "ready": "ready", "completed": "completed"
 
 
 class Beginning:
-    """Lets waiting processes begin. `held` are those that only a trigger starts."""
+    """Lets waiting processes begin."""
 
-    def __init__(
-        self, units: Mapping[str, Unit], held: Iterable[str], surroundings: Surroundings, listener: Listener
-    ) -> None:
+    def __init__(self, units: Mapping[str, Unit], surroundings: Surroundings, listener: Listener) -> None:
         self._units = units
-        self._held = set(held)
+        self._held: set[str] = set()
         self._around = surroundings
         self._listener = listener
         self._edge_timers: dict[tuple[str, Dependency], Timer] = {}
 
-    def prepare_observers(self) -> None:
-        """Start observers early: their imports take as long as those of the nodes that are awaited."""
+    def hold(self, processes: Iterable[str]) -> None:
+        """Only a trigger starts these."""
+        self._held.update(processes)
+
+    def holds(self, process: str) -> bool:
+        """Tell whether a process waits for a trigger."""
+        return process in self._held
+
+    def prepare_observers(self, needed: Callable[[Unit], bool]) -> None:
+        """Start observers early: their imports take as long as those of the nodes that they look at."""
         for unit in self._units.values():
-            if unit.awaits_message:
+            if needed(unit):
                 try:
                     self._around.observers.prepare(self._around.environment(unit.process))
                 except OSError as error:
@@ -56,10 +62,13 @@ class Beginning:
                 self._time_edges(unit, fate.awaited)
 
     def release(self, unit: Unit) -> None:
-        """Let a process begin that only a trigger starts; one that has ended begins again."""
+        """Let a process begin that only a trigger starts; one that has ended begins again, one that runs does not."""
         self._held.discard(unit.id)
-        if unit.state.phase is not Phase.WAITING:
+        if unit.over:
             unit.handle(life.Start())
+        elif unit.state.phase is not Phase.WAITING:
+            state = "was skipped" if unit.state.phase is Phase.SKIPPED else "has not ended"
+            self._around.journal.say(f"{unit.name} is not started by a trigger: it {state}")
 
     def stop(self) -> None:
         """Nothing begins any more."""
@@ -70,6 +79,7 @@ class Beginning:
         target, condition = shown(blocker.process), _PARTICIPLES[blocker.condition]
         self._around.journal.say(f"{unit.name} is skipped: {target} will not be {condition} any more")
         unit.handle(life.Skip())
+        self._listener.skipped(unit.id)
         if unit.process.required:
             reason = f"required process {unit.name} could not begin: {target} never was {condition}"
             self._listener.failed(reason)

@@ -4,21 +4,19 @@ from __future__ import annotations
 
 import os
 import signal
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.plan import codec
-from orchestra.plan.parameter_file import contents
 from orchestra.supervise import directory
 from orchestra.supervise.attention import Attention
 from orchestra.supervise.keeper import say
+from orchestra.supervise.furnishing import furnish
 from orchestra.supervise.kin import Kin, send_to_groups
 from orchestra.supervise.leftovers import end_leftovers
 from orchestra.supervise.loop import Loop
 from orchestra.supervise.outcome import FAILED, judge
 from orchestra.supervise.resolving import Collection, Refused
 from orchestra.supervise.setting import surroundings
-from orchestra.supervise.spec import RUN_FOLDER, located
 from orchestra.supervise.system import System
 
 if TYPE_CHECKING:
@@ -27,10 +25,11 @@ if TYPE_CHECKING:
     from orchestra.supervise.directory import RunDirectory
     from orchestra.supervise.document import Document
     from orchestra.supervise.outcome import Outcome
+    from orchestra.supervise.resolver import Resolver
     from orchestra.supervise.surroundings import Surroundings
 
 # They are asked, and killed after a second; in seconds.
-_OBSERVERS_LEAVE_WITHIN = 1.5
+_TOOLS_LEAVE_WITHIN = 1.5
 
 
 def conduct(beginnings: Beginnings) -> int:
@@ -38,14 +37,17 @@ def conduct(beginnings: Beginnings) -> int:
     loop = Loop()
     collection = Collection(beginnings.resolver, loop)
     attention = Attention(loop, beginnings.signals, collection.stop_signal)
-    document = _collect(loop, collection)
+    document, resolver = _collect(loop, collection, beginnings.resolver)
     runs = directory.state_folder() / "runs"
     try:
         run_directory = directory.create(runs, document.options.name)
         plan = _furnish(document.plan, run_directory)
     except OSError as error:
         raise Refused(FAILED, f"the run directory cannot be written: {error}") from error
-    outcome = _run(beginnings, attention, loop, run_directory, document._replace(plan=plan))
+    with surroundings(
+        loop, run_directory, plan, document.options, run_id=beginnings.run_id, resolver=resolver
+    ) as around:
+        outcome = _run(beginnings, attention, plan, around)
     run_directory.release()
     try:
         directory.prune(runs)
@@ -54,69 +56,67 @@ def conduct(beginnings: Beginnings) -> int:
     return outcome.status
 
 
-def _collect(loop: Loop, collection: Collection) -> Document:
-    """Wait for the plan. What the resolver started and left behind ends here: it was not asked for."""
+def _collect(loop: Loop, collection: Collection, resolver: Resolver) -> tuple[Document, Resolver | None]:
+    """Wait for the plan, and for the end of the resolver unless a trigger needs it: then it is returned too.
+
+    What the resolver started and left behind ends here: it was not asked for.
+    """
     try:
         while not collection.done:
             loop.run_once()
-        return collection.result()
+        document = collection.result()
+        if not collection.stays:
+            return document, None
+        if any(trigger.deferred for trigger in document.plan.triggers):
+            collection.hand_on()
+            return document, resolver
+        collection.dismiss()
+        while not collection.done:
+            loop.run_once()
+        collection.check_ending()
+        return document, None
     finally:
         kin = Kin("")
+        kin.add(resolver.pid, None)
         kin.refresh()
         send_to_groups([adopted.pid for adopted in kin.of(None)], signal.SIGKILL)
 
 
 def _furnish(plan: Plan, run_directory: RunDirectory) -> Plan:
     """Write the plan and the parameter files; return the plan with the run directory filled in."""
-    folder = str(run_directory.path)
     (run_directory.path / "plan.json").write_text(
         codec.dumps(plan, indent=2) + "\n", "utf-8", "surrogatepass"
     )
-    processes = tuple(located(process, folder) for process in plan.processes)
-    for process in processes:
-        for path, text in contents(process).items():
-            with open(path.replace(RUN_FOLDER, folder), "w", encoding="utf-8") as file:  # noqa: PTH123 - may be any path
-                file.write(text)
-    return replace(plan, processes=processes)
+    return furnish(plan, str(run_directory.path))
 
 
-def _run(
-    beginnings: Beginnings, attention: Attention, loop: Loop, run_directory: RunDirectory, document: Document
-) -> Outcome:
-    plan, options = document
-    with surroundings(
-        loop,
-        run_directory,
-        plan,
-        options,
-        run_id=beginnings.run_id,
-        failed=lambda reason: system.failed(reason),  # noqa: PLW0108 - it is bound below,
-    ) as around:
-        system = System(plan, options, around)
-        attention.on_child = system.look
-        attention.on_stop = system.stop_signal
-        around.recorder.record(
-            "run_started",
-            pid=os.getpid(),
-            run=beginnings.run_id,
-            name=options.name,
-            directory=str(run_directory.path),
-            file=plan.file,
-        )
-        count = len(plan.processes)
-        around.journal.say(f"{count} process{'' if count == 1 else 'es'}; logs in {run_directory.logs}")
-        system.begin()
-        while not system.over:
-            loop.run_once()
-        system.finish()
-        return _conclude(system, around, beginnings)
+def _run(beginnings: Beginnings, attention: Attention, plan: Plan, around: Surroundings) -> Outcome:
+    system = System(plan, around)
+    attention.on_child = system.look
+    attention.on_stop = system.stop_signal
+    around.recorder.record(
+        "run_started",
+        pid=os.getpid(),
+        run=beginnings.run_id,
+        name=around.options.name,
+        directory=str(around.folder),
+        file=plan.file,
+    )
+    count = len(plan.processes)
+    around.journal.say(f"{count} process{'' if count == 1 else 'es'}; logs in {around.folder / 'logs'}")
+    system.begin()
+    while not system.over:
+        around.loop.run_once()
+    system.finish()
+    return _conclude(system, around, beginnings)
 
 
 def _conclude(system: System, around: Surroundings, beginnings: Beginnings) -> Outcome:
     """Look for leftovers, and tell how it all ended: the last line and the last event."""
     around.observers.leave()
-    patience = around.loop.call_later(_OBSERVERS_LEAVE_WITHIN, lambda: None)
-    while around.observers.alive and not patience.cancelled:
+    around.questions.leave()
+    patience = around.loop.call_later(_TOOLS_LEAVE_WITHIN, lambda: None)
+    while (around.observers.alive or around.questions.alive) and not patience.cancelled:
         around.loop.run_once()
     left = end_leftovers(around, beginnings.run_id, remaining=system.stopping.remaining)
     outcome = judge(system.facts(left))

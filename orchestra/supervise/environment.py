@@ -6,6 +6,11 @@ PATH gets the interpreter's folder in front only where that is a virtual environ
 `#!/usr/bin/env python3` then finds the interpreter that has rclpy, as if the environment had been activated, and
 whoever chose an order keeps it. RCUTILS_LOGGING_BUFFERED_STREAM stays as it is: unset, rcutils hands over each message
 in one write; set to 1 it takes three (rcutils of Jazzy, counted on a packet socket).
+
+A process that is to inherit nothing (`env` of the launch language, which replaces the whole environment) gets what its
+description says, the marks, and of the rest only what a ROS process cannot start without, unless the description gives
+it: where the wheels' shared libraries and the ament index are, and a folder for logs, since without it and without HOME
+rcl refuses to start. All else, PATH, ROS_DOMAIN_ID and the reach of discovery included, is as the description says.
 """
 
 from __future__ import annotations
@@ -48,9 +53,13 @@ def node_environment(
     log_folder: str,
     colour: bool,
     marks: tuple[str, str],
+    inherit: bool = True,
 ) -> dict[str, str]:
     """Return the environment of a process; `marks` are the ids of the run and of the process."""
-    environment = {**caller, **_for_run(caller, log_folder, colour=colour), **_for_wheels(caller, host)}
+    if inherit:
+        environment = {**caller, **_for_run(caller, log_folder, colour=colour), **_for_wheels(caller, host)}
+    else:
+        environment = {**_for_wheels({"PATH": host.path or ""}, host), "ROS_LOG_DIR": log_folder}
     for name, value in description.items():
         if value is None:
             environment.pop(name, None)

@@ -43,10 +43,14 @@ class Fragment:
 
 @dataclass(frozen=True, slots=True)
 class Failure:
-    """Why there is none; `location` where the resolver knows a better one than that of the trigger."""
+    """Why there is none; `location` where the resolver knows a better one than that of the trigger.
+
+    `abandoned` says that nothing went wrong: the answer was not awaited, since the run ended.
+    """
 
     reason: str
     location: Location | None = None
+    abandoned: bool = False
 
 
 _NOTHING: dict[str, Any] = {"processes": [], "components": [], "triggers": [], "do": [], "problems": []}
@@ -58,7 +62,7 @@ def loads(line: bytes) -> Fragment | Failure:
         answer = json.loads(line)
         if "failure" in answer:
             return codec.decode(  # type: ignore[no-any-return] # what it decodes is what it is given
-                Failure, {"reason": answer["failure"], "location": answer.get("location")}
+                Failure, {"reason": answer["failure"], "location": answer.get("location"), "abandoned": False}
             )
         return _read({**_NOTHING, **answer})
     except (ValueError, KeyError, TypeError, AttributeError, IndexError) as error:

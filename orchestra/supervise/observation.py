@@ -1,7 +1,14 @@
-"""Talks with the observer: a process of ours with rclpy, which looks into the ROS graph while something is awaited.
+"""Talks with the observer: a process of ours with rclpy, which looks into the ROS graph, and asks nodes, for us.
 
-One JSON object per line. To it: `{"watch": ID, "topic": NAME}`, `{"forget": ID}`. From it: `{"seen": ID}`,
-`{"impossible": ID, "reason": TEXT}`. It ends when its standard input does.
+One JSON object per line. Orders to it, each with an id, are `{"id": ID, "do": NAME, ...}`; `{"forget": ID}` takes one
+back. What it says to an order is `{"id": ID, "say": WORD, ...}`:
+
+    watch          topic                 done: the first message on it came
+    transitions    node                  watching; then moved, again and again: transition, start_state, goal_state
+    change_state   node, transition      asking: the service is there; done: state, as it is now
+    load           container, component  asking: the service is there; done: node, unique_id
+
+and `impossible` with a `reason` where it will not be done. It ends when its standard input does.
 """
 
 from __future__ import annotations
@@ -11,12 +18,13 @@ import os
 import signal
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from orchestra.supervise.ending import Ending
 from orchestra.supervise.environment import middleware
 from orchestra.supervise.kin import send_to_groups
 from orchestra.supervise.marks import PROCESS
+from orchestra.supervise.outbox import Outbox
 from orchestra.supervise.spawn import Child, spawn
 from orchestra.supervise.spec import Spec
 from orchestra.supervise.stream import Stream
@@ -28,6 +36,9 @@ if TYPE_CHECKING:
     from orchestra.supervise.kin import Kin
     from orchestra.supervise.loop import Loop
 
+    # Who hears what the observer says to one order.
+    Heard: TypeAlias = Callable[[dict[str, Any]], None]
+
 # By its file and with `-P`: with `-m`, modules in the user's working directory would come before all others.
 _COMMAND = (sys.executable, "-P", str(Path(__file__).parents[1] / "ros" / "observer" / "__main__.py"))
 # A participant that leaves without saying so stays in the graphs of others for 20 s, so it is asked first.
@@ -35,7 +46,7 @@ _LEAVE_WITHIN = 1.0
 
 
 class Observer:
-    """One running observer. `answers` maps what is watched to whom is told: None for seen, else why it cannot be."""
+    """One running observer. `orders` maps the ids of open orders to who hears what is said to them."""
 
     def __init__(
         self, loop: Loop, kin: Kin, spec: Spec, said: Callable[[str], None], died: Callable[[str], None]
@@ -43,7 +54,7 @@ class Observer:
         self._loop = loop
         self._kin = kin
         self._died = died
-        self.answers: dict[str, Callable[[str | None], None]] = {}
+        self.orders: dict[str, Heard] = {}
         self._partial = ""
         inner, outer = os.pipe()
         try:
@@ -54,7 +65,7 @@ class Observer:
         finally:
             os.close(inner)
         os.set_blocking(outer, False)
-        self._stdin: int | None = outer
+        self._outbox = Outbox(loop, outer, self._broken)
         kin.add(self._child.pid, None)
         outputs = self._child.outputs
         self._streams = [Stream(loop, outputs["stdout"], self._heard), Stream(loop, outputs["stderr"], said)]
@@ -68,23 +79,22 @@ class Observer:
     @property
     def leaving(self) -> bool:
         """Whether it has been asked to end."""
-        return self._stdin is None
+        return not self._outbox.open
 
-    def watch(self, name: str, request: Request, answer: Callable[[str | None], None]) -> None:
-        """Look out for something."""
-        self.answers[name] = answer
-        self._tell({"watch": name, "topic": request.topic})
+    def order(self, name: str, order: Mapping[str, Any], heard: Heard) -> None:
+        """Have something done; `heard` gets everything that is said to it."""
+        self.orders[name] = heard
+        self._tell({"id": name, **order})
 
     def forget(self, name: str) -> None:
-        """Look out no longer."""
-        if self.answers.pop(name, None) and not self.leaving:
+        """Take an order back."""
+        if self.orders.pop(name, None) and not self.leaving:
             self._tell({"forget": name})
 
     def leave(self) -> None:
         """Ask it to end; it is killed where it does not."""
-        if self._stdin is not None:
-            os.close(self._stdin)
-            self._stdin = None
+        if self._outbox.open:
+            self._outbox.close()
             self._loop.call_later(_LEAVE_WITHIN, self.kill)
 
     def kill(self) -> None:
@@ -92,26 +102,25 @@ class Observer:
         if self._child:
             send_to_groups([self._child.pid], signal.SIGKILL)
 
-    def _tell(self, message: dict[str, str]) -> None:
-        if self._stdin is None:
-            return
-        try:
-            os.write(self._stdin, (json.dumps(message) + "\n").encode())
-        except OSError as error:  # it is dead, which its pidfd tells too, or it does not read at all
-            os.close(self._stdin)
-            self._stdin = None
-            self._died(f"the observer takes no requests: {error.strerror}")
+    def _tell(self, message: Mapping[str, Any]) -> None:
+        self._outbox.send((json.dumps(message) + "\n").encode())
+
+    def _broken(self, error: OSError) -> None:
+        """It is dead, which its pidfd tells too, or has closed its input."""
+        self._outbox.close()
+        self._died(f"the observer takes no requests: {error.strerror}")
 
     def _heard(self, text: str) -> None:
         *lines, self._partial = (self._partial + text).split("\n")
         for line in lines:
-            self._answer(json.loads(line))
+            self._hear(json.loads(line))
 
-    def _answer(self, message: dict[str, str]) -> None:
-        name = message.get("seen") or message.get("impossible")
-        answer = self.answers.pop(name, None) if name else None
-        if answer:
-            answer(message.get("reason"))
+    def _hear(self, message: dict[str, Any]) -> None:
+        name = message["id"]
+        final = message["say"] in ("done", "impossible")
+        heard = self.orders.pop(name, None) if final else self.orders.get(name)
+        if heard:
+            heard(message)
 
     def _ended(self) -> None:
         child = self._child
@@ -124,22 +133,22 @@ class Observer:
         self._kin.remove(child.pid)
         child.reap()
         self._child = None
-        if self._stdin is not None:
-            os.close(self._stdin)
-            self._stdin = None
+        if self._outbox.open:
+            self._outbox.close()
             self._died(f"the observer, which looks into the ROS graph, ended ({Ending(*ended)})")
 
 
 class Observers:
-    """One observer for each way to reach the middleware: nodes in another domain need one of their own."""
+    """One observer for each way to reach the middleware: nodes in another domain need one of their own.
 
-    def __init__(
-        self, loop: Loop, kin: Kin, said: Callable[[str], None], died: Callable[[str], None]
-    ) -> None:
+    `on_death` hears why one of them has ended that should not have.
+    """
+
+    def __init__(self, loop: Loop, kin: Kin, said: Callable[[str], None]) -> None:
+        self.on_death: Callable[[str], None] = lambda _reason: None
         self._loop = loop
         self._kin = kin
         self._said = said
-        self._died = died
         self._running: dict[str, Observer] = {}
         self._former: list[Observer] = []
 
@@ -152,7 +161,7 @@ class Observers:
                 self._former.append(observer)
             variables = {name: value for name, value in environment.items() if name != PROCESS}
             spec = Spec("observer", (*_COMMAND, str(os.getpid())), variables, None, tty=False, stdin=False)
-            observer = Observer(self._loop, self._kin, spec, self._said, self._died)
+            observer = Observer(self._loop, self._kin, spec, self._said, self.on_death)
             self._running[key] = observer
         return observer
 
@@ -163,16 +172,23 @@ class Observers:
         environment: Mapping[str, str],
         answer: Callable[[str | None], None],
     ) -> None:
-        """Look out for something in the graph that processes with this environment see."""
+        """Look out for something in the graph; `answer` gets None where it came, else why it cannot."""
+        order = {"do": "watch", "topic": request.topic}
+        self.order(name, order, environment, lambda message: answer(message.get("reason")))
+
+    def order(
+        self, name: str, order: Mapping[str, Any], environment: Mapping[str, str], heard: Heard
+    ) -> None:
+        """Have something done in the graph that processes with this environment see."""
         try:
             observer = self.prepare(environment)
         except OSError as error:
-            answer(f"the observer could not be started: {error}")
+            heard({"say": "impossible", "reason": f"the observer could not be started: {error}"})
         else:
-            observer.watch(name, request, answer)
+            observer.order(name, order, heard)
 
     def forget(self, name: str) -> None:
-        """Look out no longer."""
+        """Take an order back."""
         for observer in self._running.values():
             observer.forget(name)
 

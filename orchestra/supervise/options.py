@@ -10,12 +10,23 @@ from typing import Any
 class RunOptions:
     """`name` is part of the run directory's name. `fail_on_any` makes any failed process fail the run (status 1).
 
-    `colour` None means: on a terminal, unless `NO_COLOR` or `FORCE_COLOR` says otherwise.
+    `colour` None means: on a terminal, unless `NO_COLOR` or `FORCE_COLOR` says otherwise. `show_all_output` shows the
+    output of every process, whatever the description says. `noninteractive` is accepted as by `ros2 launch`: nothing
+    here depends on a terminal. `debug` shows messages of level debug too.
+
+    Limits are in seconds: `service_timeout` until the service of a lifecycle node or a container is there,
+    `answer_timeout` for its answer, `resolver_timeout` for the code of the description that decides what a trigger does.
     """
 
     name: str = "run"
     fail_on_any: bool = False
     colour: bool | None = None
+    show_all_output: bool = False
+    noninteractive: bool = False
+    debug: bool = False
+    service_timeout: float = 60.0
+    answer_timeout: float = 60.0
+    resolver_timeout: float = 30.0
 
 
 def encode(options: RunOptions) -> dict[str, Any]:

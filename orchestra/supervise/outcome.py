@@ -20,8 +20,8 @@ class Facts:
     """What counts for the outcome of a run.
 
     `required` is the first required process that failed, `signal` the first stop signal, `failure` why the run failed
-    otherwise, `ended_by` why it ended where nothing failed. `failed` are all processes that failed. `unstoppable` names
-    what was left.
+    otherwise, `ended_by` why it ended where nothing failed. `failed` are all processes that failed, `mishaps` says what
+    else did not happen as described: components, transitions. `unstoppable` names what was left.
     """
 
     unstoppable: tuple[str, ...] = ()
@@ -29,6 +29,7 @@ class Facts:
     signal: int | None = None
     failure: str | None = None
     failed: tuple[tuple[str, Ending], ...] = ()
+    mishaps: tuple[str, ...] = ()
     fail_on_any: bool = False
     ended_by: str | None = None
 
@@ -45,7 +46,8 @@ def judge(facts: Facts) -> Outcome:
     """Return the outcome of a run."""
     status, reason = _verdict(facts)
     others = [f"{name} ({ending})" for name, ending in facts.failed if (name, ending) != facts.required]
-    return Outcome(status, "; ".join([reason, *(["failed: " + ", ".join(others)] if others else [])]))
+    named = ["failed: " + ", ".join(others)] if others else []
+    return Outcome(status, "; ".join([reason, *named, *facts.mishaps]))
 
 
 def _verdict(facts: Facts) -> tuple[int, str]:
@@ -59,8 +61,8 @@ def _verdict(facts: Facts) -> tuple[int, str]:
     if facts.failure:
         return FAILED, facts.failure
     ended_by = facts.ended_by or "every process has ended"
-    if facts.failed and facts.fail_on_any:
-        return FAILED, f"{ended_by}, and one failed" if len(
-            facts.failed
-        ) == 1 else f"{ended_by}, and some failed"
+    count = len(facts.failed) + len(facts.mishaps)
+    if count and facts.fail_on_any:
+        what = "something went wrong" if facts.mishaps else "one failed" if count == 1 else "some failed"
+        return FAILED, f"{ended_by}, and {what}"
     return OK, ended_by

@@ -17,6 +17,7 @@ from orchestra.supervise import fragment
 from orchestra.supervise.ending import Ending
 from orchestra.supervise.fragment import Failure
 from orchestra.supervise.kin import send_to_groups
+from orchestra.supervise.outbox import Outbox
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -55,10 +56,11 @@ class Questions:
         self._current: _Question | None = None
         self._abandoned = False
         self._received = bytearray()
-        self._sending = memoryview(b"")
+        self._outbox: Outbox | None = None
         self._timer: Timer | None = None
         self._gone: str | None = _GONE
         self._pid: int | None = None
+        self._reading = False
         if resolver:
             self._connect(resolver)
 
@@ -67,10 +69,12 @@ class Questions:
         self._pid = resolver.pid
         self._pidfd = os.pidfd_open(resolver.pid)
         self._reader = resolver.descriptor
-        self._writer = os.dup(resolver.descriptor)  # one descriptor cannot be waited for twice
+        # One descriptor cannot be waited for twice. That it takes nothing any more, its pidfd tells.
+        self._outbox = Outbox(self._loop, os.dup(resolver.descriptor), lambda _error: None)
         self._kin.add(resolver.pid, None)
         self._loop.on_readable(self._pidfd, self._ended)
         self._loop.on_readable(self._reader, self._read)
+        self._reading = True
 
     @property
     def pending(self) -> bool:
@@ -109,7 +113,7 @@ class Questions:
             self._abandoned = True
             self._set_timer()
         for question in abandoned:
-            question.answered(Failure("the run ended before the answer"))
+            question.answered(Failure("the run ended before the answer", abandoned=True))
 
     def leave(self) -> None:
         """Let the resolver end; it is killed where it does not."""
@@ -118,38 +122,32 @@ class Questions:
             self._loop.call_later(_LEAVE_WITHIN, self._kill)
 
     def _next(self) -> None:
-        if self._current or not self._waiting or self._gone is not None:
+        if self._current or not self._waiting or self._outbox is None:
             return
         self._current = self._waiting.popleft()
         self._abandoned = False
         self._size -= len(self._current.line)
-        self._sending = memoryview(self._current.line)
         self._set_timer()
-        self._loop.on_writable(self._writer, self._write)
+        self._outbox.send(self._current.line)
 
-    def _write(self) -> None:
-        try:
-            self._sending = self._sending[os.write(self._writer, self._sending) :]
-        except BlockingIOError:
-            return
-        except OSError:  # it is dead, which its pidfd tells
-            self._sending = memoryview(b"")
-        if not self._sending:
-            self._loop.forget(self._writer)
-
-    def _read(self) -> None:
+    def _read(self) -> bool:
+        """Read once; tell whether there was something. Its end of the connection closes with it: `_ended` tells."""
         try:
             data = os.read(self._reader, _READ_SIZE)
+        except BlockingIOError:
+            return False
         except ConnectionResetError:
             data = b""
         if not data:
-            self._disconnect(_GONE)
+            self._stop_reading()
             self._kill()
+            return False
         self._received += data
         while b"\n" in data and self._current:
-            line, _, rest = bytes(self._received).partition(b"\n")
-            self._received, data = bytearray(rest), rest
+            line, _, data = bytes(self._received).partition(b"\n")
+            self._received = bytearray(data)
             self._take(line)
+        return True
 
     def _take(self, line: bytes) -> None:
         question, abandoned = self._current, self._abandoned
@@ -171,8 +169,8 @@ class Questions:
         """Its last answer may still be on its way to us."""
         if self._pid is None:
             return
-        if self._gone is None:
-            self._read()
+        while self._reading and self._read():
+            pass
         ending = os.waitstatus_to_exitcode(os.waitpid(self._pid, 0)[1])
         self._loop.forget(self._pidfd)
         os.close(self._pidfd)
@@ -187,16 +185,21 @@ class Questions:
             return
         self._gone = reason
         self._cancel_timer()
-        self._loop.forget(self._reader)
-        if self._sending:
-            self._loop.forget(self._writer)
+        self._stop_reading()
         os.close(self._reader)
-        os.close(self._writer)
+        if self._outbox:
+            self._outbox.close()
+            self._outbox = None
         open_questions = [*([self._current] if self._current and not self._abandoned else []), *self._waiting]
         self._current = None
         self._waiting.clear()
         for question in open_questions:
             question.answered(Failure(reason))
+
+    def _stop_reading(self) -> None:
+        if self._reading:
+            self._reading = False
+            self._loop.forget(self._reader)
 
     def _set_timer(self) -> None:
         self._cancel_timer()

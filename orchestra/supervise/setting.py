@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.logs.files import LogFile
 from orchestra.logs.journal import Journal, Sheet, Sheets
+from orchestra.logs.outputs import OVERRIDE, forced_output
 from orchestra.logs.screen import Screen, same_file
 from orchestra.logs.terminal_text import wants_colour
 from orchestra.supervise.discovery import quick_discovery
@@ -15,6 +16,7 @@ from orchestra.supervise.environment import node_environment
 from orchestra.supervise.host import this_host
 from orchestra.supervise.kin import Kin
 from orchestra.supervise.observation import Observers
+from orchestra.supervise.questions import Questions
 from orchestra.supervise.recorder import Recorder
 from orchestra.supervise.surroundings import Surroundings
 
@@ -26,6 +28,7 @@ if TYPE_CHECKING:
     from orchestra.supervise.directory import RunDirectory
     from orchestra.supervise.loop import Loop
     from orchestra.supervise.options import RunOptions
+    from orchestra.supervise.resolver import Resolver
 
 _STDOUT, _STDERR = 1, 2
 # A screen that takes nothing for so long gets no more, in seconds.
@@ -40,19 +43,26 @@ def surroundings(
     options: RunOptions,
     *,
     run_id: str,
-    failed: Callable[[str], None],
+    resolver: Resolver | None,
 ) -> Iterator[Surroundings]:
-    """Open everything for a run. `failed` hears when the run cannot go on because a tool of ours died."""
+    """Open everything for a run; `resolver` is the one that stays for it."""
     with ExitStack() as opened:
         sheets = opened.enter_context(_screens(loop, options))
         warn = _Warning()
-        words = {process.id: process.output for process in plan.processes}
         recorder = Recorder(LogFile(run_directory.events, warn))
         opened.callback(recorder.close)
+        forced, complaint = _forced(options)
         journal = Journal(
-            run_directory.logs, words, sheets, warn, lambda text: recorder.record("message", text=text)
+            run_directory.logs,
+            {process.id: process.output for process in plan.processes},
+            sheets,
+            warn,
+            lambda text: recorder.record("message", text=text),
+            forced=forced,
         )
         warn.say = journal.say
+        if complaint:
+            journal.say(complaint)
         opened.callback(journal.close)
         kin = Kin(run_id)
         yield Surroundings(
@@ -60,9 +70,20 @@ def surroundings(
             kin=kin,
             journal=journal,
             recorder=recorder,
-            observers=Observers(loop, kin, lambda text: journal.say(f"observer: {text.rstrip()}"), failed),
+            observers=Observers(loop, kin, lambda text: journal.say(f"observer: {text.rstrip()}")),
+            questions=Questions(resolver, loop, kin, options.resolver_timeout),
             environment=_environment(run_directory, run_id, colour=sheets.output.colour),
+            folder=run_directory.path,
+            options=options,
         )
+
+
+def _forced(options: RunOptions) -> tuple[str | None, str | None]:
+    """Return the output that counts for every process, and what is wrong with the caller's wish for one."""
+    try:
+        return forced_output(os.environ, show_all=options.show_all_output), None
+    except ValueError as error:
+        return None, f"{OVERRIDE} is ignored: {error}"
 
 
 class _Warning:
@@ -79,13 +100,19 @@ class _Warning:
 
 def _environment(
     run_directory: RunDirectory, run_id: str, *, colour: bool
-) -> Callable[[Process], dict[str, str]]:
+) -> Callable[[Process | None], dict[str, str]]:
     host, ros_logs = this_host(), str(run_directory.logs / "ros")
     caller = {**os.environ, **quick_discovery(os.environ, run_directory.path)}
 
-    def environment(process: Process) -> dict[str, str]:
+    def environment(process: Process | None) -> dict[str, str]:
         return node_environment(
-            caller, host, process.environment, log_folder=ros_logs, colour=colour, marks=(run_id, process.id)
+            caller,
+            host,
+            process.environment if process else {},
+            log_folder=ros_logs,
+            colour=colour,
+            marks=(run_id, process.id if process else ""),
+            inherit=process is None or process.inherit_environment,
         )
 
     return environment

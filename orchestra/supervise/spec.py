@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
     from orchestra.plan.model import Process
     from orchestra.values import ParameterValue
@@ -40,8 +40,15 @@ def located(process: Process, folder: str) -> Process:
         },
         cwd=fill(process.cwd) if process.cwd is not None else None,
         arguments=tuple(fill(word) for word in process.arguments),
-        parameters={name: _filled(value, fill) for name, value in process.parameters.items()},
+        parameters=filled(process.parameters, folder),
     )
+
+
+def filled(values: Mapping[str, ParameterValue], folder: str) -> dict[str, ParameterValue]:
+    """Return parameter values with `${run}` replaced by the run directory."""
+    return {
+        name: _filled(value, lambda text: text.replace(RUN_FOLDER, folder)) for name, value in values.items()
+    }
 
 
 def _filled(value: ParameterValue, fill: Callable[[str], str]) -> ParameterValue:

@@ -31,7 +31,7 @@ class Stopping:
     def __init__(self, units: Mapping[str, Unit], surroundings: Surroundings) -> None:
         self._units = units
         self._around = surroundings
-        self._levels = order.stop_levels(unit.process for unit in units.values())
+        self._levels: dict[str, int] = {}
         self._interrupts = 0
         self.begun_at: float | None = None
         self.given_up = False
@@ -40,6 +40,11 @@ class Stopping:
     def begun(self) -> bool:
         """Whether the run is coming to its end."""
         return self.begun_at is not None
+
+    @property
+    def too_late(self) -> bool:
+        """Whether the deadline has passed: only what has been killed is waited for."""
+        return self.begun_at is not None and self._around.loop.clock() >= self.begun_at + DEADLINE
 
     @property
     def remaining(self) -> float | None:
@@ -56,6 +61,7 @@ class Stopping:
         """Begin to stop: each level is asked at the latest when its time has come."""
         loop = self._around.loop
         self.begun_at = loop.clock()
+        self._levels = order.stop_levels(unit.process for unit in self._units.values())
         self._around.recorder.record("run_stopping", cause=cause)
         for unit in self._units.values():
             unit.handle(life.StopAhead() if unit.state.phase in LIVE else life.StopRequested())

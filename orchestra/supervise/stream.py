@@ -20,12 +20,22 @@ _FLUSH_AFTER = 0.1
 
 
 class Stream:
-    """Reads a descriptor whenever it can be read and hands on text: whole lines, or what has stood for a while."""
+    """Reads a descriptor whenever it can be read and hands on text: whole lines, or what has stood for a while.
 
-    def __init__(self, loop: Loop, descriptor: int, deliver: Callable[[str], None]) -> None:
+    `tapped` gets the bytes as they come, after the text that they complete has been delivered.
+    """
+
+    def __init__(
+        self,
+        loop: Loop,
+        descriptor: int,
+        deliver: Callable[[str], None],
+        tapped: Callable[[bytes], None] | None = None,
+    ) -> None:
         self._loop = loop
         self._descriptor = descriptor
         self._deliver = deliver
+        self._tapped = tapped
         self._lines = Lines()
         self._timer: Timer | None = None
         self._open = True
@@ -45,6 +55,8 @@ class Stream:
         text = self._lines.feed(data)
         if text:
             self._deliver(text)
+        if self._tapped:
+            self._tapped(data)
         self._see_to_timer()
         return True
 

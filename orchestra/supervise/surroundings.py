@@ -4,13 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Protocol
 
 from orchestra.logs.journal import Journal
 from orchestra.plan.model import Process
+from orchestra.supervise.ending import Ending
 from orchestra.supervise.kin import Kin
 from orchestra.supervise.loop import Loop
 from orchestra.supervise.observation import Observers
+from orchestra.supervise.options import RunOptions
+from orchestra.supervise.questions import Questions
 from orchestra.supervise.recorder import Recorder
 
 
@@ -20,8 +24,20 @@ class Listener(Protocol):
     def changed(self) -> None:
         """A process is in another phase."""
 
-    def ended(self, process: str) -> None:
-        """One run of a process is over."""
+    def started(self, process: str, pid: int) -> None:
+        """The program of a process runs."""
+
+    def ended(self, process: str, pid: int | None, ending: Ending) -> None:
+        """One run of a process is over, or has not come about."""
+
+    def completed(self, process: str, ending: Ending) -> None:
+        """The last run of a process is over: it will not start again by itself."""
+
+    def skipped(self, process: str) -> None:
+        """A process will never begin."""
+
+    def wrote(self, process: str, pid: int, stream: str, data: bytes) -> None:
+        """A program has written something."""
 
     def failed(self, reason: str, about: str | None = None) -> None:
         """The run cannot go on; `about` names the process whose last lines belong to the message."""
@@ -32,11 +48,19 @@ class Listener(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Surroundings:
-    """The loop, who is whose child, where output and events go, and what looks into the ROS graph."""
+    """The loop, who is whose child, where output and events go, what looks into the ROS graph, who knows the
+    code of the description.
+
+    `environment` is that of a process; of None what every process has before its description adds to it. `folder` is
+    the run directory.
+    """
 
     loop: Loop
     kin: Kin
     journal: Journal
     recorder: Recorder
     observers: Observers
-    environment: Callable[[Process], dict[str, str]]
+    questions: Questions
+    environment: Callable[[Process | None], dict[str, str]]
+    folder: Path
+    options: RunOptions

@@ -2,61 +2,87 @@
 
 from __future__ import annotations
 
+import signal
 from typing import TYPE_CHECKING
 
-from orchestra.plan.reactions import LogAction, ShutdownAction, StartAction
+from orchestra.plan import codec
+from orchestra.supervise import happening as happenings
 from orchestra.supervise import life
+from orchestra.supervise.actions import Actions
 from orchestra.supervise.beginning import Beginning
 from orchestra.supervise.ending import Ending, signal_name
+from orchestra.supervise.fragment import merged
+from orchestra.supervise.furnishing import furnish
 from orchestra.supervise.life import FINAL, LIVE, Phase
+from orchestra.supervise.nodes import Nodes
 from orchestra.supervise.outcome import Facts
+from orchestra.supervise.performance import Performance
 from orchestra.supervise.stopping import Stopping
-from orchestra.supervise.triggers import Triggers, actions_while_stopping, held
+from orchestra.supervise.triggers import LONGEST_AT_THE_END, Triggers, held
 from orchestra.supervise.unit import Unit
 
 if TYPE_CHECKING:
-    from orchestra.plan.model import Plan
+    from collections.abc import Iterable
+
+    from orchestra.plan.model import Plan, Process
     from orchestra.plan.reactions import Trigger, TriggeredAction
-    from orchestra.supervise.options import RunOptions
+    from orchestra.supervise.fragment import Fragment
     from orchestra.supervise.surroundings import Surroundings
 
 
 class System:
     """The processes of a plan and what connects them."""
 
-    def __init__(self, plan: Plan, options: RunOptions, surroundings: Surroundings) -> None:
+    def __init__(self, plan: Plan, surroundings: Surroundings) -> None:
         self._around = surroundings
-        self._options = options
-        self._units = {process.id: Unit(process, surroundings, self) for process in plan.processes}
-        self._beginning = Beginning(self._units, held(plan.triggers), surroundings, self)
-        self._triggers = Triggers(plan.triggers, surroundings.loop, self._fire)
+        self._plan = plan
+        self._revision = 0
+        self._units: dict[str, Unit] = {}
+        self._beginning = Beginning(self._units, surroundings, self)
+        self._performance = Performance(self, surroundings.questions, surroundings)
+        self._triggers = Triggers(surroundings.loop, self._performance.begin)
+        self._nodes = Nodes(surroundings, self._triggers.happened, self.went_wrong, self.changed)
         self.stopping = Stopping(self._units, surroundings)
+        self._actions = Actions(self._units, self._beginning, self._triggers, self._nodes, self.end_with)
+        self._pids: dict[str, int] = {}
         self._dirty = False
         self._signal: int | None = None
         self._required: tuple[str, Ending] | None = None
         self._failure: str | None = None
         self._ended_by: str | None = None
+        self._mishaps: list[str] = []
+        surroundings.observers.on_death = self.failed
 
     @property
     def over(self) -> bool:
         """Whether nothing runs, and nothing that could still begin is left."""
         if self.stopping.given_up:
             return True
-        if self._dirty or self._triggers.pending:
+        if self._dirty or self._triggers.pending or self._nodes.pending:
+            return False
+        if self._around.questions.pending and not self.stopping.too_late:
             return False
         lively = {*LIVE, Phase.RESTARTING}
         return not any(unit.state.phase in lively for unit in self._units.values())
 
+    @property
+    def ending(self) -> bool:
+        """Whether the run is coming to its end."""
+        return self.stopping.begun
+
     def begin(self) -> None:
         """Begin what waits for nothing."""
-        self._beginning.prepare_observers()
-        for unit in self._units.values():
-            self._around.recorder.record("process_waiting", unit.id)
-        self._triggers.run_started()
+        self._add(self._plan.processes)
+        self._beginning.hold(held(self._plan.triggers))
+        self._nodes.add(self._plan.processes, self._plan.components, self._plan.triggers)
+        self._triggers.add(self._plan.triggers)
+        self._beginning.prepare_observers(self._needs_observer)
+        self._triggers.happened(happenings.run_started())
         self.changed()
 
     def finish(self) -> None:
         """Everything that has not begun by now never will."""
+        self._nodes.stop()
         for unit in self._units.values():
             if unit.state.phase not in FINAL and unit.state.phase not in LIVE:
                 unit.handle(life.StopRequested())
@@ -66,7 +92,11 @@ class System:
         self._signal = number if self._signal is None else self._signal
         self.stopping.interrupted(number)
         name = signal_name(number)
-        self._stop(name, f"{name}: stopping; once more for SIGTERM, twice more for SIGKILL")
+        self._stop(
+            name,
+            f"{name}: stopping; once more for SIGTERM, twice more for SIGKILL",
+            due_to_sigint=number == signal.SIGINT,
+        )
 
     def facts(self, left: dict[int, str]) -> Facts:
         """Return what counts for the outcome; `left` names by pid what is there although nothing should be."""
@@ -81,7 +111,8 @@ class System:
             signal=self._signal,
             failure=self._failure,
             failed=failed,
-            fail_on_any=self._options.fail_on_any,
+            mishaps=tuple(self._mishaps),
+            fail_on_any=self._around.options.fail_on_any,
             ended_by=self._ended_by,
         )
 
@@ -93,9 +124,31 @@ class System:
             self._dirty = True
             self._around.loop.call_later(0.0, self._evaluate)
 
-    def ended(self, process: str) -> None:
-        """One run of a process is over."""
-        self._triggers.process_ended(process)
+    def started(self, process: str, pid: int) -> None:
+        """The program of a process runs."""
+        self._pids[process] = pid
+        if not self.ending:
+            self._nodes.started(process, pid)
+        self._triggers.happened(happenings.started(process, pid))
+
+    def ended(self, process: str, pid: int | None, ending: Ending) -> None:
+        """One run of a process is over, or has not come about."""
+        self._nodes.ended(process, str(ending))
+        self._triggers.happened(happenings.ended(process, pid, ending, last=False))
+
+    def completed(self, process: str, ending: Ending) -> None:
+        """A process will not start again by itself."""
+        self._nodes.never(process, f"has ended ({ending})")
+        self._triggers.happened(happenings.ended(process, self._pids.get(process), ending, last=True))
+
+    def skipped(self, process: str) -> None:
+        """A process will never begin."""
+        self._nodes.never(process, "was skipped")
+
+    def wrote(self, process: str, pid: int, stream: str, data: bytes) -> None:
+        """A program has written something."""
+        if self._triggers.awaited("process_output"):
+            self._triggers.happened(happenings.wrote(process, pid, stream, data))
 
     def failed(self, reason: str, about: str | None = None) -> None:
         """End the run because of something that is nobody's exit code."""
@@ -106,6 +159,11 @@ class System:
             self._show_last_lines(self._units[about])
         self._failure = reason
         self._stop(reason)
+
+    def went_wrong(self, what: str) -> None:
+        """Take note of something that the plan says and that was not done; the run goes on."""
+        self._around.journal.say(f"error: {what}")
+        self._mishaps.append(what)
 
     def look(self) -> None:
         """Find out who became our child and whose child it was, and who of them has ended."""
@@ -119,7 +177,59 @@ class System:
             if unit and not self._around.kin.of(owner):
                 unit.nothing_left()
 
+    # What triggers do.
+
+    def carry_out(self, action: TriggeredAction) -> None:
+        """Do what a trigger says."""
+        self._actions.carry_out(action)
+        self.changed()
+
+    def trigger_failed(self, reason: str) -> None:
+        """A trigger could not do what it should: the run is not what was described."""
+        if self.ending:
+            self.went_wrong(reason)
+        else:
+            self.failed(reason)
+
+    def revise(self, fragment: Fragment, trigger: Trigger) -> str | None:
+        """Take up what a trigger adds to the plan; return why that is impossible, if it is."""
+        plan, fault = merged(self._plan, fragment)
+        if fault:
+            return f"what it adds does not fit into the plan: {fault}"
+        self._revision += 1
+        self._around.recorder.record(
+            "plan_revised", trigger=trigger.id, revision=self._revision, **codec.encode(fragment)
+        )
+        if self.ending:
+            return None
+        try:
+            fragment = furnish(fragment, str(self._around.folder))
+        except OSError as error:
+            return f"its parameter files cannot be written: {error}"
+        self._plan = plan
+        self._take_up(fragment)
+        return None
+
+    def end_with(self, reason: str) -> None:
+        """End the run because the plan says so."""
+        self._ended_by = reason if self._ended_by is None else self._ended_by
+        self._stop(reason, f"{reason}: stopping")
+
     # What follows from it.
+
+    def _take_up(self, fragment: Fragment) -> None:
+        self._around.journal.add({process.id: process.output for process in fragment.processes})
+        self._add(fragment.processes)
+        self._beginning.hold(held(fragment.triggers, fragment.do))
+        self._nodes.add(fragment.processes, fragment.components, fragment.triggers)
+        self._triggers.add(fragment.triggers)
+        self._nodes.watch()
+        self.changed()
+
+    def _add(self, processes: Iterable[Process]) -> None:
+        for process in processes:
+            self._units[process.id] = Unit(process, self._around, self)
+            self._around.recorder.record("process_waiting", process.id)
 
     def _evaluate(self) -> None:
         self._dirty = False
@@ -129,8 +239,14 @@ class System:
             self.stopping.go_on()
         else:
             self._beginning.begin_or_skip()
-        if not any(unit.awaits_message for unit in self._units.values()):
+        if not self._nodes.busy and not any(map(self._needs_observer, self._units.values())):
             self._around.observers.leave()
+
+    def _needs_observer(self, unit: Unit) -> bool:
+        """Tell whether the observer will be needed for a process that is about to start, or is for its readiness."""
+        waits = unit.state.phase in (Phase.WAITING, Phase.STARTING, Phase.RESTARTING)
+        soon = waits and not self._beginning.holds(unit.id)
+        return unit.awaits_message or (soon and self._nodes.concerns(unit.process))
 
     def _judge_ends(self) -> None:
         """A required process that is over for good takes the run with it."""
@@ -141,45 +257,26 @@ class System:
         if unit.state.phase is Phase.FAILED:
             self._required = (unit.name, unit.state.ending or Ending(code=1))
             self._show_last_lines(unit)
-        self._end_with(f"required process {unit.name} has ended")
+        self.end_with(f"required process {unit.name} has ended")
 
     def _show_last_lines(self, unit: Unit) -> None:
         if unit.tail.lines:
             lines = "\n".join(f"    {line}" for line in unit.tail.lines)
             self._around.journal.say(f"last lines of {unit.name}:\n{lines}")
 
-    def _fire(self, trigger: Trigger) -> None:
-        actions = actions_while_stopping(trigger.do) if self.stopping.begun else trigger.do
-        names = [action.action for action in actions]
-        self._around.recorder.record("trigger_fired", trigger.on.target, on=trigger.on.event, do=names)
-        for action in actions:
-            self._carry_out(action)
-        if trigger.deferred:
-            self.failed(
-                f"{trigger.location}: what a Python function decides at run time cannot be carried out"
-            )
-        self.changed()
-
-    def _carry_out(self, action: TriggeredAction) -> None:
-        match action:
-            case LogAction(message):
-                self._around.journal.say(message)
-            case StartAction(process):
-                self._beginning.release(self._units[process])
-            case ShutdownAction(reason):
-                self._end_with(f"shut down: {reason}")
-
-    def _end_with(self, reason: str) -> None:
-        self._ended_by = reason
-        self._stop(reason, f"{reason}: stopping")
-
-    def _stop(self, cause: str, announcement: str | None = None) -> None:
+    def _stop(self, cause: str, announcement: str | None = None, *, due_to_sigint: bool = False) -> None:
         if self.stopping.begun:
             return
         if announcement:
             self._around.journal.say(announcement)
-        self._triggers.stop()
+        self._around.questions.hurry()
+        for trigger in self._triggers.stop():
+            self._around.journal.say(
+                f"{trigger.location}: dropped: it would come later than {LONGEST_AT_THE_END:g} s after the end"
+            )
         self._beginning.stop()
+        self._nodes.stop()
         self._around.observers.leave()
         self.stopping.begin(cause)
+        self._triggers.happened(happenings.shutdown(cause, due_to_sigint=due_to_sigint))
         self.changed()

@@ -1,71 +1,103 @@
-"""Actions that follow events: the start of the run, or the end of a process."""
+"""Which triggers wait for what, and which are set off; what they do is the business of `performance`."""
 
 from __future__ import annotations
 
 from functools import partial
 from typing import TYPE_CHECKING
 
-from orchestra.plan.reactions import LogAction, StartAction
+from orchestra.plan.reactions import StartAction
+from orchestra.supervise.happening import in_order
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Iterable, Sequence
 
-    from orchestra.plan.reactions import Trigger, TriggeredAction
+    from orchestra.plan.reactions import EventName, Trigger, TriggeredAction
+    from orchestra.supervise.happening import Happening
     from orchestra.supervise.loop import Loop, Timer
 
+# While the run ends, a delay that is not dropped is awaited for so long, in seconds: everything is gone soon after.
+LONGEST_AT_THE_END = 3.0
 
-def held(triggers: Iterable[Trigger]) -> frozenset[str]:
-    """Return the processes that a trigger starts, which therefore do not start with the run."""
-    return frozenset(
-        action.process for trigger in triggers for action in trigger.do if isinstance(action, StartAction)
-    )
+
+def held(triggers: Iterable[Trigger], do: Iterable[TriggeredAction] = ()) -> frozenset[str]:
+    """Return the processes that an action starts, which therefore do not start with the run."""
+    actions = [*(action for trigger in triggers for action in trigger.do), *do]
+    return frozenset(action.process for action in actions if isinstance(action, StartAction))
 
 
 class Triggers:
-    """Waits for the events of triggers and hands their actions on when their delay is over."""
+    """Waits for the events of triggers and hands those that are set off on when their delay is over.
 
-    def __init__(
-        self,
-        triggers: Iterable[Trigger],
-        loop: Loop,
-        fire: Callable[[Trigger], None],
-    ) -> None:
-        self._triggers = tuple(triggers)
+    `fire` gets what happened and the triggers that belong together: those of one event without a delay.
+    """
+
+    def __init__(self, loop: Loop, fire: Callable[[Happening, Sequence[Trigger]], None]) -> None:
         self._loop = loop
         self._fire = fire
-        self._delayed: list[Timer] = []
+        self._known: dict[str, Trigger] = {}
+        self._waiting: dict[str, Trigger] = {}  # the one that began to wait last is the last
+        self._delayed: list[tuple[Timer, Trigger]] = []
         self._stopping = False
 
     @property
     def pending(self) -> bool:
         """Whether an event has happened whose actions are still to come."""
-        self._delayed = [timer for timer in self._delayed if not timer.cancelled]
+        self._delayed = [entry for entry in self._delayed if not entry[0].cancelled]
         return bool(self._delayed)
 
-    def run_started(self) -> None:
-        """The run has started."""
-        self._happened("run_started", None)
+    def add(self, triggers: Iterable[Trigger]) -> None:
+        """Take up more triggers; those that are armed wait from now on."""
+        for trigger in triggers:
+            self._known[trigger.id] = trigger
+            if trigger.armed:
+                self._waiting[trigger.id] = trigger
 
-    def process_ended(self, process: str) -> None:
-        """One run of a process is over."""
-        self._happened("process_exited", process)
+    def register(self, name: str) -> None:
+        """Let a trigger wait for its event; as the latest, whether or not it did before."""
+        self._waiting.pop(name, None)
+        self._waiting[name] = self._known[name]
 
-    def stop(self) -> None:
-        """The run is ending: drop what is still to come; from now on only what has no delay happens."""
+    def unregister(self, name: str) -> None:
+        """Let a trigger wait no more."""
+        self._waiting.pop(name, None)
+
+    def awaited(self, event: EventName) -> list[Trigger]:
+        """Return the triggers that wait for events of a kind."""
+        return [trigger for trigger in self._waiting.values() if trigger.on.event == event]
+
+    def may_wait(self, event: EventName) -> list[Trigger]:
+        """Return the triggers on events of a kind, also those that do not wait yet."""
+        return [trigger for trigger in self._known.values() if trigger.on.event == event]
+
+    def happened(self, happening: Happening) -> None:
+        """Set off what waits for this."""
+        at_once = []
+        for trigger in in_order(self._waiting.values(), happening):
+            if trigger.once:
+                self.unregister(trigger.id)
+            if not trigger.delay:
+                at_once.append(trigger)
+            elif not self._stopping or self._still_happens(trigger, trigger.delay):
+                self._later(trigger.delay, happening, [trigger])
+        if at_once:
+            self._later(0.0, happening, at_once)
+
+    def stop(self) -> list[Trigger]:
+        """The run is ending: drop what is delayed unless it says otherwise; return what says so, but is too late."""
         self._stopping = True
-        for timer in self._delayed:
-            timer.cancel()
-
-    def _happened(self, event: str, process: str | None) -> None:
-        for trigger in self._triggers:
-            if trigger.delay and self._stopping:
+        lost = []
+        for timer, trigger in self._delayed:
+            remaining = timer.due - self._loop.clock()
+            if timer.cancelled or not trigger.delay or self._still_happens(trigger, remaining):
                 continue
-            if trigger.on.event == event and trigger.on.target in (None, process):
-                self._delayed.append(
-                    self._loop.call_later(trigger.delay or 0.0, partial(self._fire, trigger))
-                )
+            timer.cancel()
+            if not trigger.cancel_on_shutdown:
+                lost.append(trigger)
+        return lost
 
+    def _still_happens(self, trigger: Trigger, remaining: float) -> bool:
+        return not trigger.cancel_on_shutdown and remaining <= LONGEST_AT_THE_END
 
-def actions_while_stopping(actions: Iterable[TriggeredAction]) -> tuple[TriggeredAction, ...]:
-    """Return what may still be done when the run is ending: nothing starts any more, and one end is enough."""
-    return tuple(action for action in actions if isinstance(action, LogAction))
+    def _later(self, delay: float, happening: Happening, triggers: Sequence[Trigger]) -> None:
+        timer = self._loop.call_later(delay, partial(self._fire, happening, triggers))
+        self._delayed.append((timer, triggers[0]))

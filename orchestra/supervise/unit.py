@@ -2,19 +2,20 @@
 
 from __future__ import annotations
 
+import os
 import signal
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from orchestra.logs.names import shown
 from orchestra.logs.tail import Tail
-from orchestra.probes.table import probe_for
 from orchestra.supervise import life
-from orchestra.supervise.ending import Ending, unstartable
+from orchestra.supervise.ending import Ending, signal_name, unstartable
 from orchestra.supervise.kin import send_to_groups
 from orchestra.supervise.life import LIVE, Phase, Rules, State
 from orchestra.supervise.machine import ladder, succeeded, transition
 from orchestra.supervise.order import Life
+from orchestra.supervise.readiness import Readiness
 from orchestra.supervise.spawn import spawn
 from orchestra.supervise.spec import Spec, argv
 from orchestra.supervise.stream import Stream
@@ -22,11 +23,12 @@ from orchestra.values import Stop
 
 if TYPE_CHECKING:
     from orchestra.plan.model import Process
-    from orchestra.probes.protocol import Probe
     from orchestra.supervise.kin import Adopted
     from orchestra.supervise.loop import Timer
     from orchestra.supervise.spawn import Child
     from orchestra.supervise.surroundings import Listener, Surroundings
+
+_FOR_ALL = frozenset(signal.Signals[f"SIG{name}"] for name in "INT TERM HUP QUIT KILL STOP CONT".split())
 
 
 def rules_of(process: Process) -> Rules:
@@ -54,7 +56,12 @@ class Unit:
         self._listener = listener
         self._child: Child | None = None
         self._streams: list[Stream] = []
-        self._probe: Probe | None = None
+        self._readiness = Readiness(
+            process,
+            surroundings,
+            self.handle,
+            lambda problem: listener.failed(f"cannot tell whether {self.name} is ready: {problem}"),
+        )
         self._timers: dict[str, Timer] = {}
         self._sending = False
 
@@ -77,13 +84,12 @@ class Unit:
     def awaits_message(self) -> bool:
         """Whether it needs the observer, now or at its next start."""
         settled = self.state.phase in life.FINAL or self.state.phase in (Phase.READY, Phase.STOPPING)
-        ready = self.process.ready
-        return not settled and ready is not None and probe_for(ready).request is not None
+        return not settled and self._readiness.looks_into_graph
 
     @property
     def awaited(self) -> str:
         """What its readiness waits for, in words."""
-        return probe_for(self.process.ready).words if self.process.ready else "its start"
+        return self._readiness.words
 
     def handle(self, event: life.Event) -> None:
         """Let something happen to it."""
@@ -94,7 +100,23 @@ class Unit:
         for effect in effects:
             self._perform(effect)
         if self.state.phase is not before.phase:
+            if self.over and self.state.ending:
+                self._listener.completed(self.id, self.state.ending)
             self._listener.changed()
+
+    def signal(self, number: int) -> None:
+        """Send a signal that somebody wants to be sent: to the program, or to all where a terminal does so.
+
+        A program often has a handler for a signal that would end its children and the shell around it.
+        """
+        if self._child is None:
+            return
+        name = signal_name(number)
+        self._around.recorder.record("signal_sent", self.id, pid=self.pid, signal=name)
+        if number in _FOR_ALL:
+            send_to_groups([self._child.pid], number)
+        else:
+            os.kill(self._child.pid, number)
 
     def adopted(self, adopted: Adopted) -> None:
         """Take note of a descendant that detached itself. While stopping, it gets the signal that the others had."""
@@ -120,7 +142,7 @@ class Unit:
             case life.Watch(timeout):
                 self._watch(timeout)
             case life.Unwatch():
-                self._unwatch()
+                self._readiness.end()
             case life.Send():
                 self._send(effect)
             case life.Pause(delay):
@@ -147,16 +169,22 @@ class Unit:
         self._child = child
         self._around.kin.add(child.pid, self.id)
         self._streams = [
-            Stream(self._around.loop, descriptor, partial(self._output, name))
+            Stream(
+                self._around.loop,
+                descriptor,
+                partial(self._output, name),
+                partial(self._listener.wrote, self.id, child.pid, name),
+            )
             for name, descriptor in child.outputs.items()
         ]
         self._around.loop.on_readable(child.pidfd, self._exited)
         self.handle(life.Started(self._around.loop.clock()))
+        self._listener.started(self.id, child.pid)
 
     def _not_started(self, ending: Ending) -> None:
         self._around.journal.say(f"{self.name} {ending}")
         self._around.recorder.record("process_ended", self.id, **_facts(ending), uptime=0.0)
-        self._listener.ended(self.id)
+        self._listener.ended(self.id, None, ending)
         self.handle(life.Unstartable(ending, self._around.loop.clock()))
 
     def _exited(self) -> None:
@@ -174,7 +202,7 @@ class Unit:
         self._tell(ending, remains=remains)
         if not remains:
             self._bury()
-        self._listener.ended(self.id)
+        self._listener.ended(self.id, child.pid, ending)
         self.handle(life.Ended(ending, remains, self._around.loop.clock()))
 
     def _bury(self) -> None:
@@ -191,30 +219,11 @@ class Unit:
     def _output(self, stream: str, text: str) -> None:
         self._around.journal.output(self.id, stream, text)
         self.tail.feed(text)
-        if self._probe and self._probe.read(stream, text):
-            self.handle(life.Satisfied())
+        self._readiness.read(stream, text)
 
     def _watch(self, timeout: float | None) -> None:
-        if self.process.ready is None:
-            return
-        self._probe = probe_for(self.process.ready)
-        self._around.journal.say(f"waiting for {self.name}: {self._probe.words}")
-        if timeout is not None:
-            self._set_timer("ready", timeout, life.ReadyExpired())
-        if self._probe.request:
-            environment = self._around.environment(self.process)
-            self._around.observers.watch(self.id, self._probe.request, environment, self._observed)
-
-    def _observed(self, problem: str | None) -> None:
-        if problem is None:
-            self.handle(life.Satisfied())
-        else:
-            self._listener.failed(f"cannot tell whether {self.name} is ready: {problem}")
-
-    def _unwatch(self) -> None:
-        self._probe = None
-        self._cancel("ready")
-        self._around.observers.forget(self.id)
+        self._around.journal.say(f"waiting for {self.name}: {self.awaited}")
+        self._readiness.begin(timeout)
 
     def _missed(self) -> None:
         timeout = self.rules.ready_timeout

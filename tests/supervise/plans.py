@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import itertools
 import os
 import signal
 import subprocess
@@ -14,8 +15,15 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra import events
 from orchestra.location import Location, point
-from orchestra.plan.model import VERSION, Dependency, Plan, Process, Provenance, Ready
-from orchestra.plan.reactions import LogAction, ShutdownAction, StartAction, Trigger, TriggerEvent
+from orchestra.plan.model import VERSION, Component, Dependency, Plan, Process, Provenance, Ready
+from orchestra.plan.reactions import (
+    DeferredAction,
+    LogAction,
+    ShutdownAction,
+    StartAction,
+    Trigger,
+    TriggerEvent,
+)
 from orchestra.supervise import document, proc
 from orchestra.supervise.options import RunOptions
 
@@ -30,6 +38,7 @@ PROCESSES = Path(__file__).parents[1] / "processes"
 # Generous: it only ends tests that would otherwise hang.
 PATIENCE = 40.0
 _PLAIN = RunOptions()
+_NUMBERS = itertools.count(1)
 
 
 def stand_in(*words: str) -> tuple[str, ...]:
@@ -87,16 +96,26 @@ def ready_when(log: str | None = None, message: str | None = None, timeout: floa
     return Ready(log, message, timeout)
 
 
+def when(on: TriggerEvent, *actions: Any, identity: str = "", **changes: Any) -> Trigger:
+    """Return a trigger with an id of its own."""
+    deferred = any(isinstance(action, DeferredAction) for action in actions)
+    fields: dict[str, Any] = {"delay": None, "deferred": deferred, "location": HERE, **changes}
+    return Trigger(identity or f"t{next(_NUMBERS)}", on, actions, **fields)
+
+
+def deferred(ref: int, line: int = 1) -> DeferredAction:
+    """Return the action that only the resolver knows, written in a line of `by_hand.yaml`."""
+    return DeferredAction(ref, Location(point("by_hand.yaml", line)))
+
+
 def when_ended(target: str, *actions: Any, delay: float | None = None) -> Trigger:
     """Return a trigger on the end of a process."""
-    return Trigger(
-        "exit", TriggerEvent("process_exited", target), actions, delay, deferred=False, location=HERE
-    )
+    return when(TriggerEvent("process_exited", target), *actions, delay=delay)
 
 
 def at_start(*actions: Any, delay: float | None = None) -> Trigger:
     """Return a trigger on the start of the run."""
-    return Trigger("start", TriggerEvent("run_started"), actions, delay, deferred=False, location=HERE)
+    return when(TriggerEvent("run_started"), *actions, delay=delay)
 
 
 def log(message: str) -> LogAction:
@@ -114,9 +133,11 @@ def shutdown(reason: str) -> ShutdownAction:
     return ShutdownAction(reason, HERE)
 
 
-def plan(*processes: Process, triggers: tuple[Trigger, ...] = ()) -> Plan:
+def plan(
+    *processes: Process, triggers: tuple[Trigger, ...] = (), components: tuple[Component, ...] = ()
+) -> Plan:
     """Return a plan."""
-    return Plan(VERSION, "by_hand.yaml", (), processes, (), triggers, (), ())
+    return Plan(VERSION, "by_hand.yaml", (), processes, components, triggers, (), ())
 
 
 def wait_for(condition: Callable[[], Any], what: str, seconds: float = PATIENCE) -> Any:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import signal
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
@@ -12,6 +11,7 @@ from orchestra.values import Restart
 from tests.supervise.plans import (
     after,
     at_start,
+    deferred,
     finished,
     launched,
     log,
@@ -179,10 +179,10 @@ def test_a_program_gets_default_signals_no_input_and_its_marks(tmp_path: Path) -
 
 
 def test_what_nobody_can_carry_out_ends_the_run(tmp_path: Path) -> None:
-    deferred = replace(at_start(), deferred=True)
-    run = finished(tmp_path, plan(process("a", "linger"), triggers=(deferred,)))
+    """The resolver has ended although a trigger needs it."""
+    run = finished(tmp_path, plan(process("a", "linger"), triggers=(at_start(deferred(1)),)))
     assert run.popen.returncode == 1
-    assert "by_hand.yaml:1:1: what a Python function decides at run time" in run.stderr
+    assert "by_hand.yaml:1:1: this trigger failed: the resolver" in run.stderr
 
 
 def test_what_the_user_was_told_is_in_the_events(tmp_path: Path) -> None:

@@ -1,0 +1,75 @@
+"""What the actions of triggers do to a running plan, besides telling something and asking the resolver."""
+
+from __future__ import annotations
+
+import signal
+from typing import TYPE_CHECKING
+
+from orchestra.plan.reactions import (
+    ChangeStateAction,
+    LoadAction,
+    RegisterAction,
+    ShutdownAction,
+    SignalAction,
+    StartAction,
+    StopAction,
+    UnregisterAction,
+)
+from orchestra.supervise import life
+from orchestra.supervise.life import LIVE, Phase
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+
+    from orchestra.plan.reactions import TriggeredAction
+    from orchestra.supervise.beginning import Beginning
+    from orchestra.supervise.nodes import Nodes
+    from orchestra.supervise.triggers import Triggers
+    from orchestra.supervise.unit import Unit
+
+
+class Actions:
+    """Carries out actions; `end` ends the run, for a reason."""
+
+    def __init__(
+        self,
+        units: Mapping[str, Unit],
+        beginning: Beginning,
+        triggers: Triggers,
+        nodes: Nodes,
+        end: Callable[[str], None],
+    ) -> None:
+        self._units = units
+        self._beginning = beginning
+        self._triggers = triggers
+        self._nodes = nodes
+        self._end = end
+
+    def carry_out(self, action: TriggeredAction) -> None:
+        """Do it."""
+        match action:
+            case StartAction(process):
+                self._beginning.release(self._units[process])
+            case StopAction(processes):
+                for process in processes:
+                    self._stop(self._units[process])
+            case SignalAction(processes, name):
+                for process in processes:
+                    self._units[process].signal(signal.Signals[name])
+            case LoadAction(component):
+                self._nodes.load(component)
+            case ChangeStateAction(processes, transitions):
+                self._nodes.change_state(processes, transitions)
+            case RegisterAction(trigger):
+                self._triggers.register(trigger)
+            case UnregisterAction(trigger):
+                self._triggers.unregister(trigger)
+            case ShutdownAction(reason):
+                self._end(f"shut down: {reason}")
+
+    def _stop(self, unit: Unit) -> None:
+        """End a process that runs, or is about to; one that only a trigger starts may still be started."""
+        phase = unit.state.phase
+        waits = phase is Phase.WAITING and not self._beginning.holds(unit.id)
+        if waits or phase is Phase.RESTARTING or phase in LIVE:
+            unit.handle(life.StopRequested())
