@@ -11,7 +11,9 @@ from typing import TYPE_CHECKING, Any, Protocol
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, MutableMapping, Sequence
 
+    from orchestra.compat.exposures import Exposures
     from orchestra.description.entity import Action
+    from orchestra.description.source import Written
     from orchestra.description.text import Template
 
 
@@ -76,8 +78,26 @@ class Engine(Protocol):
         """Take note that an action of Python has been executed."""
 
 
+class FrontEnd(Protocol):
+    """The languages of XML and YAML files, for those who parse them in Python."""
+
+    @property
+    def exposures(self) -> Exposures:
+        """What third parties have added to the language."""
+
+    def tree(self, text: str, name: str, language: str) -> Any:
+        """Return the tree of a file in `xml` or `yaml`. Raises `InvalidFrontendLaunchFileError`."""
+
+    def template(self, written: Written) -> Template:
+        """Return a text with its substitutions. Raises `ValueError` where it has faults."""
+
+
 class Connection(Protocol):
     """The stage above, for objects that are used without a context of a resolution."""
+
+    @property
+    def front_end(self) -> FrontEnd:
+        """The languages of XML and YAML files."""
 
     def engine(self, argv: Sequence[str]) -> Engine:
         """Return an engine with a state of its own."""
@@ -103,6 +123,11 @@ def connected(connection: Connection) -> Iterator[None]:
         yield
     finally:
         _connections.remove(connection)
+
+
+def is_connected() -> bool:
+    """Return whether launch files are being loaded."""
+    return bool(_connections)
 
 
 def connection() -> Connection:

@@ -12,6 +12,7 @@ from orchestra.description.launch import Description, Launch
 from orchestra.description.source import Keyed, Listed, Written, kind_of, texts_in
 from orchestra.errors import Code
 from orchestra.load.elements import emptied
+from orchestra.load.exposed import exposed_action, exposes_action
 from orchestra.load.keys import action_meant, spelled
 from orchestra.load.reader import Reader
 
@@ -96,6 +97,8 @@ class _Builder:
         if name is None:
             return None
         at = item.keys_at[name]
+        if model_of(spelled(name)) is None and exposes_action(name):
+            return exposed_action(name, content, at, self.reader)
         model, certain = self._model(name, at)
         if model is None:
             return None

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING, Final
 from orchestra.description.substitutions import SIGNATURES
 from orchestra.description.text import Call, Template, Words
 from orchestra.errors import Code, Problems
+from orchestra.load.exposed import exposed_part
 from orchestra.load.signatures import excess, lack, meant, usage
 from orchestra.location import Span
 
@@ -98,6 +99,8 @@ class _Reader:
         elif not self.lost:
             self.fault(start, start + 2, "this substitution is not closed: a ')' is missing")
         call = Call(name, tuple(arguments), self.spans(start, self.at))
+        if name not in SIGNATURES and self.faults == before and (made := self.exposed(call)) is not None:
+            return made
         if name_span and self.known(name, name_span) and self.faults == before:
             self.count(call, start, first, last)
         if self.faults == before:
@@ -190,6 +193,12 @@ class _Reader:
     ) -> Template:
         """Return the template of a stretch of text; `before` is the number of faults found ahead of it."""
         return Template(parts, self.text[start:end], self.spans(start, end), quoted, self.faults > before)
+
+    def exposed(self, call: Call) -> tuple[Part, ...] | None:
+        """Return what the code of a third party makes of a substitution that is not one of the language."""
+        made = exposed_part(call, self.problems)
+        self.faults += made == ()
+        return made
 
     def known(self, name: str, span: Span) -> bool:
         """Tell whether a substitution has this name, and report it where none has."""

@@ -14,9 +14,11 @@ from orchestra.description.launch import Launch
 from orchestra.description.source import Keyed, Listed
 from orchestra.errors import Code
 from orchestra.load.elements import Element, Tagged
+from orchestra.load.exposed import exposes_action
 from orchestra.load.forms import Form, Kind, forms_of
 from orchestra.load.keys import action_meant, key_meant, spelled
 from orchestra.load.offsets import Source, source
+from orchestra.load.placed import placed
 from orchestra.load.reader import Reader
 from orchestra.load.xml_attributes import listed, separated
 from orchestra.load.xml_parser import NotXmlError, parse
@@ -85,6 +87,9 @@ class _Shaper:
         at = element.span(self.whole)
         action = Keyed(at, at)
         model = model_of(spelled(element.name))
+        if model is None and exposes_action(element.name):
+            action.put(element.name, placed(element, self.whole), at)
+            return action
         if model is None:
             near, slip = action_meant(element.name)
             model = model_of(near) if near is not None and slip else None
@@ -142,7 +147,7 @@ class _Shaper:
     def _form(self, name: str, forms: Mapping[str, Form], *, actions: bool = False) -> Form | None:
         """Return the form of a key, or of the one that it is a slip of unless it may as well be an action."""
         form = forms.get(spelled(name))
-        if form is not None or not forms or (actions and spelled(name) in ACTIONS):
+        if form is not None or not forms or (actions and (spelled(name) in ACTIONS or exposes_action(name))):
             return form
         near, slip = key_meant(name, {*forms, *(ACTIONS if actions else ())})
         return forms.get(near) if near is not None and slip else None

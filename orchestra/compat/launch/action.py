@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
@@ -24,6 +25,17 @@ class Action(LaunchDescriptionEntity):
     def __init__(self, *, condition: Condition | None = None) -> None:
         self.__condition = condition
         self._place = here(self)
+
+    @classmethod
+    def parse(
+        cls, entity: Any, parser: Any, ignore: Iterable[str] | None = None
+    ) -> tuple[type[Any], dict[str, Any]]:
+        """Return the class and the keywords with which an entity of a launch file in XML or YAML constructs it.
+
+        Attributes in `ignore` are left for the caller. Raises what reading them raises.
+        """
+        read = import_module("orchestra.compat.launch.frontend.reading")  # which few launch files need
+        return cls, read.keywords(cls, entity, parser, ignore or ())
 
     @property
     def condition(self) -> Condition | None:

@@ -10,7 +10,11 @@ from orchestra.compat.launch.frontend.invalid_frontend_launch_file_error import 
 from orchestra.errors import Problems
 from orchestra.load import yaml_file
 from orchestra.load.grammar import parse_template
+from orchestra.load.offsets import source
+from orchestra.load.placed import placed
 from orchestra.load.reader import Reader
+from orchestra.load.xml_parser import NotXmlError, parse
+from orchestra.location import displayed
 
 if TYPE_CHECKING:
     from orchestra.compat.launch_xml.element import PlacedElement
@@ -44,14 +48,10 @@ class LoadingFrontEnd:
     def tree(self, text: str, name: str, language: str) -> Any:
         """Return the tree of a file. Raises `InvalidFrontendLaunchFileError`; its `problems` say why."""
         problems = Problems()
-        reader = Reader(problems)
-        tree = (_xml if language == "xml" else yaml_file.read)(text, name, reader)
+        read = _xml if language == "xml" else yaml_file.read
+        tree = read(text, displayed(name) if name else "<string>", Reader(problems))
         if problems.errors:
-            error: Any = InvalidFrontendLaunchFileError(
-                language, likely_errors=[ValueError(problems.errors[0].message)]
-            )
-            error.problems = problems.errors
-            raise error
+            raise FaultyFileError(language, problems.errors)
         return tree
 
     def template(self, written: Written) -> Template:

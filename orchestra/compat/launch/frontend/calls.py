@@ -1,0 +1,46 @@
+"""Which substitution a name in `$(name argument ...)` stands for."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from types import MappingProxyType
+from typing import Any, Final
+
+_PACKAGES: Final = {
+    "launch": "orchestra.compat.launch.substitutions",
+    "launch_ros": "orchestra.compat.launch_ros.substitutions",
+}
+
+CALLS: Final = MappingProxyType({
+    "all": "launch:AllSubstitution",
+    "and": "launch:AndSubstitution",
+    "anon": "launch:AnonName",
+    "any": "launch:AnySubstitution",
+    "command": "launch:Command",
+    "dirname": "launch:ThisLaunchFileDir",
+    "env": "launch:EnvironmentVariable",
+    "equals": "launch:EqualsSubstitution",
+    "eval": "launch:PythonExpression",
+    "exec-in-pkg": "launch_ros:ExecutableInPackage",
+    "file-content": "launch:FileContent",
+    "filename": "launch:ThisLaunchFile",
+    "find-exec": "launch:FindExecutable",
+    "find-pkg-prefix": "launch_ros:FindPackagePrefix",
+    "find-pkg-share": "launch_ros:FindPackageShare",
+    "if": "launch:IfElseSubstitution",
+    "launch_log_dir": "launch:LaunchLogDir",
+    "log_dir": "launch:LaunchLogDir",
+    "not": "launch:NotSubstitution",
+    "not-equals": "launch:NotEqualsSubstitution",
+    "or": "launch:OrSubstitution",
+    "param": "launch_ros:Parameter",
+    "path-join": "launch:PathJoinSubstitution",
+    "string-join": "launch:StringJoinSubstitution",
+    "var": "launch:LaunchConfiguration",
+})  # fmt: skip
+
+
+def class_of_call(name: str) -> Any:
+    """Return the class that a name of the launch language stands for."""
+    package, _, attribute = CALLS[name].partition(":")
+    return getattr(import_module(_PACKAGES[package]), attribute)

@@ -1,0 +1,77 @@
+"""Nodes, containers and components."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.launch.frontend.reading.attributes import ENTITIES, condition, pairs, texts, values
+from orchestra.compat.launch.frontend.reading.parameters import parameters
+from orchestra.compat.launch.frontend.reading.processes import execute_process
+from orchestra.compat.launch.frontend.reading.words import parse_cmdline
+from orchestra.compat.launch_ros.descriptions import ComposableNode
+
+if TYPE_CHECKING:
+    from orchestra.compat.launch.frontend.entity import Entity
+
+_OPTIONAL = {"pkg": "package", "name": "name", "namespace": "namespace", "exec_name": "exec_name"}
+_WORDS = {"args": "arguments", "ros_args": "ros_arguments"}
+_REQUIRED_OF_COMPONENT = {"pkg": "package", "plugin": "plugin", "name": "name"}
+
+
+def node(entity: Entity, parser: Any, ignored: frozenset[str]) -> dict[str, Any]:
+    """Return a node and how it is run."""
+    found = execute_process(entity, parser, ignored | {"cmd", "name"})
+    found |= texts(entity, parser, {"exec": "executable"})
+    found |= texts(entity, parser, _OPTIONAL, optional=True)
+    for name, keyword in _WORDS.items():
+        text = entity.get_attr(name, optional=True)
+        if text is not None:
+            found[keyword] = parse_cmdline(text, parser)
+    return found | _settings(entity, parser)
+
+
+def lifecycle_node(entity: Entity, parser: Any, ignored: frozenset[str]) -> dict[str, Any]:
+    """Return a lifecycle node, which newer releases may start by itself."""
+    return {**node(entity, parser, ignored), **values(entity, {"autostart": bool})}
+
+
+def container(entity: Entity, parser: Any, ignored: frozenset[str]) -> dict[str, Any]:
+    """Return a container with its components."""
+    found = node(entity, parser, ignored)
+    components = _components(entity, parser, optional=True)
+    return {**found, "composable_node_descriptions": components} if components else found
+
+
+def load_composable_nodes(entity: Entity, parser: Any, _ignored: frozenset[str]) -> dict[str, Any]:
+    """Return a container's name and the components for it."""
+    found = texts(entity, parser, {"target": "target_container"})
+    return {**found, "composable_node_descriptions": _components(entity, parser, optional=False)}
+
+
+def composable_node(entity: Entity, parser: Any) -> dict[str, Any]:
+    """Return a component."""
+    found = condition(entity, parser) | texts(entity, parser, _REQUIRED_OF_COMPONENT)
+    found |= texts(entity, parser, {"namespace": "namespace"}, optional=True)
+    found |= _settings(entity, parser)
+    extra = pairs(entity, parser, "extra_arg")
+    if extra:
+        found["extra_arguments"] = [{tuple(name): value} for name, value in extra]
+    entity.assert_entity_completely_parsed()
+    return found
+
+
+def _settings(entity: Entity, parser: Any) -> dict[str, Any]:
+    """Return remappings and parameters."""
+    found: dict[str, Any] = {}
+    rules = pairs(entity, parser, "remap", "from", "to")
+    if rules:
+        found["remappings"] = rules
+    params = entity.get_attr("param", data_type=ENTITIES, optional=True)
+    if params:
+        found["parameters"] = parameters(params, parser)
+    return found
+
+
+def _components(entity: Entity, parser: Any, *, optional: bool) -> list[ComposableNode]:
+    found = entity.get_attr("composable_node", data_type=ENTITIES, optional=optional)
+    return [ComposableNode(**composable_node(item, parser)) for item in found or ()]

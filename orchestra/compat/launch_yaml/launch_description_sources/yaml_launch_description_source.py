@@ -1,0 +1,20 @@
+"""`YAMLLaunchDescriptionSource`: a launch file in YAML."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.compat.launch.launch_description_source import LaunchDescriptionSource
+
+if TYPE_CHECKING:
+    from orchestra.compat.text import Sub
+
+
+class YAMLLaunchDescriptionSource(LaunchDescriptionSource):
+    """A launch file in YAML, whatever its name."""
+
+    _is_file = True
+    _language = "yaml"
+
+    def __init__(self, launch_file_path: Sub) -> None:
+        super().__init__(None, launch_file_path, "interpreted YAML launch file")

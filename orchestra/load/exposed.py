@@ -1,0 +1,63 @@
+"""Actions and substitutions that third parties have added to the language: consulted before a name is unknown.
+
+What parses them is code of theirs, which hands back objects; these stand in the description as opaque.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.seam import is_connected
+
+if TYPE_CHECKING:
+    from orchestra.description.entity import Action
+    from orchestra.description.text import Call, Part
+    from orchestra.errors import Problems
+    from orchestra.load.reader import Reader
+    from orchestra.location import Span
+
+# All imports inside functions: they bring in what Python launch files import, which few files need.
+
+
+def exposes_action(name: str) -> bool:
+    """Return whether somebody has added an action of this name."""
+    if not is_connected():
+        return False
+    from orchestra.compat.launch.frontend import parser  # noqa: PLC0415
+
+    return parser.exposed_action(name) is not None
+
+
+def exposed_action(name: str, content: Any, at: Span, reader: Reader) -> Action | None:  # noqa: ANN401 - a tree
+    """Return the action that its own code makes of what stands in a file; None where that fails, which is reported."""
+    from orchestra.compat import faults  # noqa: PLC0415
+    from orchestra.compat.building import model_of  # noqa: PLC0415
+    from orchestra.compat.launch.frontend.parser import Parser  # noqa: PLC0415
+    from orchestra.load.trees import entity_of  # noqa: PLC0415
+
+    try:
+        return model_of(Parser.parse_action(entity_of(name, content, at)))
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - the boundary of user code
+        faults.report(error, reader.problems, reader.included_from, at)
+        return None
+
+
+def exposed_part(call: Call, problems: Problems) -> tuple[Part, ...] | None:
+    """Return what a substitution's own code makes of it; None where nobody has added one of this name.
+
+    Where that code fails, which is reported, there are no parts.
+    """
+    if not is_connected():
+        return None
+    from orchestra.compat import faults  # noqa: PLC0415
+    from orchestra.compat.launch.frontend import parse_substitution, parser  # noqa: PLC0415
+
+    parse = parser.exposed_substitution(call.name)
+    if parse is None:
+        return None
+    try:
+        arguments = [parse_substitution.substitutions_of(argument) for argument in call.arguments]
+        return tuple(parse_substitution.called(parse, arguments, call.span)._parts(call.span))  # noqa: SLF001 - compat's own
+    except (Exception, SystemExit) as error:  # noqa: BLE001 - the boundary of user code
+        faults.report(error, problems, (), call.span)
+        return ()
