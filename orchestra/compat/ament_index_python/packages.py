@@ -1,0 +1,79 @@
+"""Where packages are installed. Python packages without ament are found by their names, as everywhere in Orchestra."""
+
+from __future__ import annotations
+
+import re
+import warnings
+from pathlib import Path
+
+from orchestra.compat.seam import connection
+from orchestra.nearest import nearest
+
+_NAME = re.compile(r"[a-zA-Z0-9][a-zA-Z0-9_-]+")
+
+
+class PackageNotFoundError(KeyError):
+    """There is no such package here."""
+
+    def __str__(self) -> str:
+        """Return the message without the quotes that a `KeyError` puts around it."""
+        return str(self.args[0]) if self.args else ""
+
+
+def get_packages_with_prefixes() -> dict[str, str]:
+    """Return the install prefix of every package by its name."""
+    return connection().package_prefixes()
+
+
+def get_package_prefix(package_name: str) -> str:
+    """Return the install prefix of a package.
+
+    Raises `ValueError` for what cannot be a name (REP 127), `PackageNotFoundError` for a package that is not here.
+    """
+    _check(package_name)
+    prefix = connection().package_prefix(package_name)
+    if prefix is None:
+        raise _missing(package_name)
+    return prefix
+
+
+def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
+    """Return the share folder of a package; warns (`UserWarning`) where it does not exist.
+
+    Raises `ValueError` and `PackageNotFoundError` as `get_package_prefix` does.
+    """
+    share = _share(package_name)
+    if print_warning and not Path(share).exists():
+        warnings.warn(_no_folder(package_name, share), stacklevel=2)
+    return share
+
+
+def get_package_share_path(package_name: str, print_warning: bool = True) -> Path:
+    """Return the share folder of a package as a path, else as `get_package_share_directory`."""
+    share = _share(package_name)
+    if print_warning and not Path(share).exists():
+        warnings.warn(_no_folder(package_name, share), stacklevel=2)
+    return Path(share)
+
+
+def _share(package_name: str) -> str:
+    _check(package_name)
+    share = connection().package_share(package_name)
+    if share is None:
+        raise _missing(package_name)
+    return share
+
+
+def _check(package_name: str) -> None:
+    if _NAME.fullmatch(package_name) is None:
+        raise ValueError(f"{package_name!r} cannot be the name of a package")
+
+
+def _missing(package_name: str) -> PackageNotFoundError:
+    meant = nearest(package_name, connection().package_prefixes())
+    hint = f", did you mean {meant!r}?" if meant is not None else ""
+    return PackageNotFoundError(f"there is no package {package_name!r} here{hint}")
+
+
+def _no_folder(package_name: str, share: str) -> str:
+    return f"the share folder of {package_name!r} does not exist: {share}"

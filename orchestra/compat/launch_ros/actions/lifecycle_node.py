@@ -1,0 +1,46 @@
+"""`LifecycleNode`: starts a ROS node with a managed life cycle."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.launch_ros.actions.node import Node
+from orchestra.compat.values import scalar
+from orchestra.description.actions.lifecycle_node import LifecycleNode as LifecycleNodeModel
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from orchestra.compat.text import Sub
+    from orchestra.description.entity import Action as Model
+
+
+class LifecycleNode(Node):
+    """Start a node whose states are followed. With `autostart` (newer ROS releases) it is configured and activated.
+
+    Raises `RuntimeError` without a name.
+    """
+
+    def __init__(
+        self, *, name: Sub, namespace: Sub | None, autostart: bool | Sub = False, **kwargs: Any
+    ) -> None:
+        if name is None:
+            raise RuntimeError("a LifecycleNode needs a name, for its services are asked by it")
+        super().__init__(name=name, namespace=namespace, **kwargs)
+        self.__autostart = autostart
+
+    @property
+    def node_autostart(self) -> bool | Sub:
+        """Whether it is configured and activated when it has started."""
+        return self.__autostart
+
+    @property
+    def is_lifecycle_node(self) -> bool:
+        """True."""
+        return True
+
+    def _process_model(self, common: Mapping[str, Any]) -> Model:
+        span = self._place.span
+        autostart = None if self.__autostart is False else scalar(self.__autostart, span)
+        fields = self._node_fields() | self._running_fields()
+        return LifecycleNodeModel.at(span, autostart=autostart, **fields, **common)

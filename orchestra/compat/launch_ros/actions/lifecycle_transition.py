@@ -1,0 +1,44 @@
+"""`LifecycleTransition`: takes lifecycle nodes through transitions."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.launch.action import ModelledAction
+from orchestra.compat.text import normalized, template
+from orchestra.compat.values import written
+from orchestra.description.actions.lifecycle_transition import LifecycleTransition as LifecycleTransitionModel
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+    from orchestra.compat.text import Sub
+    from orchestra.description.entity import Action as Model
+
+
+class LifecycleTransition(ModelledAction):
+    """Take each of the nodes through the transitions, in order, each when the one before has reached its goal.
+
+    Names are full names, the slash in front may be left out; ids are those of lifecycle_msgs. Raises `ValueError`
+    where either list is empty.
+    """
+
+    def __init__(
+        self, *, lifecycle_node_names: Sequence[Sub], transition_ids: Sequence[int | Sub], **kwargs: Any
+    ) -> None:
+        super().__init__(**kwargs)
+        if not lifecycle_node_names:
+            raise ValueError("LifecycleTransition names no node in lifecycle_node_names")
+        if not transition_ids:
+            raise ValueError("LifecycleTransition names no transition in transition_ids")
+        self.__lifecycle_node_names = [normalized(name) for name in lifecycle_node_names]
+        self.__transition_ids = [normalized(written(transition)) for transition in transition_ids]
+
+    def _to_model(self, common: Mapping[str, Any]) -> Model:
+        span = self._place.span
+        return LifecycleTransitionModel.at(
+            span,
+            node=tuple(template(name, span) for name in self.__lifecycle_node_names),
+            transition=tuple(template(transition, span) for transition in self.__transition_ids),
+            **common,
+        )

@@ -1,0 +1,57 @@
+"""`LoadComposableNodes`: loads components into a container that runs already."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.launch.action import ModelledAction
+from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.launch_ros.actions.composable_node_container import ComposableNodeContainer
+from orchestra.compat.text import template
+from orchestra.description.actions.group import Group
+from orchestra.description.actions.load_composable_node import LoadComposableNode
+from orchestra.description.text import Opaque, Template
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from orchestra.compat.launch_ros.descriptions.composable_node import ComposableNode
+    from orchestra.compat.text import Sub
+    from orchestra.description.entity import Action as Model
+
+
+class LoadComposableNodes(ModelledAction):
+    """Load components, in order, into the container of an action or of a full name.
+
+    Raises `TypeError` for a target that is neither.
+    """
+
+    def __init__(
+        self,
+        *,
+        composable_node_descriptions: Iterable[ComposableNode],
+        target_container: Sub | ComposableNodeContainer,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        if not isinstance(target_container, ComposableNodeContainer | str | Substitution | Iterable):
+            raise TypeError(
+                f"components are loaded into a container or the name of one, not {target_container!r}"
+            )
+        self.__composable_node_descriptions = composable_node_descriptions
+        self.__target_container = target_container
+
+    def _to_model(self, common: Mapping[str, Any]) -> Model:
+        span = self._place.span
+        components = tuple(item._to_model() for item in self.__composable_node_descriptions)
+        if not components:
+            return Group.at(span, children=(), **common)
+        return LoadComposableNode.at(span, target=self.__target(), composable_node=components, **common)
+
+    def __target(self) -> Template:
+        span = self._place.span
+        target = self.__target_container
+        if isinstance(target, ComposableNodeContainer):
+            return Template((Opaque(target, span),), target.describe(), span)
+        return template(target, span)

@@ -1,0 +1,185 @@
+"""`Node`: starts a ROS node."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.compat.launch.actions.execute_process import ExecuteProcess
+from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.launch_ros.models import params, remaps
+from orchestra.compat.launch_ros.substitutions.executable_in_package import ExecutableInPackage
+from orchestra.compat.launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
+from orchestra.compat.launch_ros.utilities.normalize_parameters import normalize_parameters
+from orchestra.compat.launch_ros.utilities.normalize_remap_rule import normalize_remap_rules
+from orchestra.compat.text import normalized, template
+from orchestra.compat.values import optional
+from orchestra.description.actions.node import Node as NodeModel
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Mapping
+
+    from orchestra.compat.launch.launch_context import LaunchContext
+    from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
+    from orchestra.compat.text import Sub
+    from orchestra.description.entity import Action as Model
+    from orchestra.description.text import Template
+
+_FORMER: Final = {"node_executable": "executable", "node_name": "name", "node_namespace": "namespace"}
+_ROS_ARGUMENTS: Final = "--ros-args"
+
+
+class Node(ExecuteProcess):
+    """Start a node: an executable of a package, without `package` any program.
+
+    `name` and `namespace` are the node's, `exec_name` labels the process. `arguments` are the program's own,
+    `ros_arguments` follow `--ros-args`. All keywords of `ExecuteProcess` are taken but `cmd` and `name`. Raises
+    `TypeError` for `parameters` and `ros_arguments` that are no list, for remappings that are not pairs in tuples, and
+    for values that no parameter can have.
+    """
+
+    UNSPECIFIED_NODE_NAME = "<node_name_unspecified>"
+    UNSPECIFIED_NODE_NAMESPACE = "<node_namespace_unspecified>"
+
+    def __init__(  # noqa: PLR0913 - upstream's signature
+        self,
+        *,
+        executable: Sub,
+        package: Sub | None = None,
+        name: Sub | None = None,
+        namespace: Sub | None = None,
+        exec_name: Sub | None = None,
+        parameters: Any = None,
+        remappings: Any = None,
+        ros_arguments: Iterable[Sub] | None = None,
+        arguments: Iterable[Sub] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        _refuse_former(kwargs)
+        self.__package = package
+        self.__node_executable = executable
+        self.__node_name = name
+        self.__node_namespace = namespace
+        self.__arguments = _listed(arguments)
+        self.__ros_arguments = _checked(ros_arguments, "ros_arguments")
+        self.__parameters = normalize_parameters(_checked(parameters, "parameters") or [])
+        self.__remappings = normalize_remap_rules(() if remappings is None else remappings)
+        self.__names = [None if item is None else normalized(item) for item in (package, name, namespace)]
+        self.__expanded_node_name = self.UNSPECIFIED_NODE_NAME
+        self.__expanded_node_namespace = self.UNSPECIFIED_NODE_NAMESPACE
+        self.__expanded_remappings: list[tuple[str, str]] | None = None
+        self.__final_node_name: str | None = None
+        super().__init__(cmd=self.__words(), name=exec_name, **kwargs)
+
+    @property
+    def node_package(self) -> Sub | None:
+        """The package, as it was given."""
+        return self.__package
+
+    @property
+    def node_executable(self) -> Sub:
+        """The executable, as it was given."""
+        return self.__node_executable
+
+    @property
+    def node_name(self) -> str:
+        """The full name; what nobody said stands in it as a marker. Raises `RuntimeError` before the visit."""
+        if self.__final_node_name is None:
+            raise RuntimeError("the name of a node is not known before the node has been visited")
+        return self.__final_node_name
+
+    @property
+    def expanded_node_namespace(self) -> str:
+        """The absolute namespace; a marker where nobody said one, and before the visit."""
+        return self.__expanded_node_namespace
+
+    @property
+    def expanded_remapping_rules(self) -> list[tuple[str, str]] | None:
+        """The node's own rules; None before the visit, and without any."""
+        return self.__expanded_remappings
+
+    def is_node_name_fully_specified(self) -> bool:
+        """Return whether both name and namespace are said. Raises `RuntimeError` before the visit."""
+        markers = (self.UNSPECIFIED_NODE_NAME, self.UNSPECIFIED_NODE_NAMESPACE)
+        return not any(marker in self.node_name for marker in markers)
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Start the node."""
+        self._perform_substitutions(context)
+        return super().execute(context)
+
+    def _perform_substitutions(self, context: LaunchContext) -> None:
+        """Find the names out."""
+        name, namespace = (None if item is None else _performed(item, context) for item in self.__names[1:])
+        base = context.launch_configurations.get("ros_namespace", None)
+        absolute = make_namespace_absolute(prefix_namespace(base, namespace))
+        rules = [(_performed(left, context), _performed(right, context)) for left, right in self.__remappings]
+        self._resolved_as(name, absolute, rules)
+
+    def _resolved_as(self, name: str | None, namespace: str | None, rules: list[tuple[str, str]]) -> None:
+        """Take note of what a visit has come to. `rules` are the node's own remappings."""
+        if name is not None:
+            self.__expanded_node_name = name.removeprefix("/")
+        if namespace is not None:
+            self.__expanded_node_namespace = namespace
+        self.__expanded_remappings = rules or None
+        self.__final_node_name = f"{self.__expanded_node_namespace.rstrip('/')}/{self.__expanded_node_name}"
+
+    def _process_model(self, common: Mapping[str, Any]) -> Model:
+        return NodeModel.at(self._place.span, **self._node_fields(), **self._running_fields(), **common)
+
+    def _node_fields(self) -> dict[str, Any]:
+        """Return the fields that the models of all kinds of nodes share."""
+        span = self._place.span
+        package, name, namespace = (optional(item, span) for item in self.__names)
+        arguments, ros_arguments = self.__argument_fields()
+        return {
+            "pkg": package,
+            "exec": template(self.__node_executable, span),
+            "name": name,
+            "namespace": namespace,
+            "exec_name": optional(self.process_description.name, span),
+            "args": arguments or None,
+            "ros_args": ros_arguments,
+            "param": params(self.__parameters, span),
+            "remap": remaps(self.__remappings, span),
+        }
+
+    def __words(self) -> list[Sub]:
+        """Return the words of the command line that are known without a visit."""
+        program: Sub = self.__node_executable
+        if self.__package is not None:
+            program = ExecutableInPackage(package=self.__package, executable=self.__node_executable)
+        ros_arguments = () if self.__ros_arguments is None else (_ROS_ARGUMENTS, *self.__ros_arguments)
+        return [program, *self.__arguments, *ros_arguments]
+
+    def __argument_fields(self) -> tuple[tuple[Template, ...], tuple[Template, ...] | None]:
+        """Return arguments and ROS arguments, with what users have appended to `cmd` since."""
+        span = self._place.span
+        words = tuple(template(word, span) for word in self.process_description.cmd[1:])
+        if self.__ros_arguments is None:
+            return words, None
+        count = len(self.__arguments)
+        return words[:count], words[count + 1 :]
+
+
+def _refuse_former(kwargs: Mapping[str, Any]) -> None:
+    for former, now in _FORMER.items():
+        if former in kwargs:
+            raise TypeError(f"Node has no argument '{former}' any more: it is called '{now}'")
+
+
+def _checked(value: Any, name: str) -> Any:
+    """Return a list, None for None. Raises `TypeError` for anything else, as upstream."""
+    if value is not None and not isinstance(value, list):
+        raise TypeError(f"'{name}' of a Node is a list, not {type(value).__name__}: {value!r}")
+    return value
+
+
+def _listed(arguments: Iterable[Sub] | None) -> list[Sub]:
+    if isinstance(arguments, str | Substitution):
+        raise TypeError(f"'arguments' of a Node are a list of words, not {arguments!r}")
+    return [] if arguments is None else list(arguments)
+
+
+def _performed(subs: Iterable[Substitution], context: LaunchContext) -> str:
+    return "".join(context.perform_substitution(sub) for sub in subs)

@@ -1,0 +1,49 @@
+"""`SetParameter`: sets a parameter of every node."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.launch.action import ModelledAction
+from orchestra.compat.launch_ros.models import params_of, value_fields
+from orchestra.compat.launch_ros.utilities.normalize_parameters import normalize_parameter_dict
+from orchestra.compat.text import normalized, template
+from orchestra.description.actions.set_parameter import SetParameter as SetParameterModel
+
+if TYPE_CHECKING:
+    from orchestra.compat.launch.substitution import Substitution
+    from orchestra.compat.text import Sub
+    from orchestra.description.entity import Action as Model
+
+
+class SetParameter(ModelledAction):
+    """Set a parameter of every node that follows in this scope; a dictionary sets several.
+
+    Raises `TypeError` for a value that no parameter can have.
+    """
+
+    def __init__(self, name: Sub, value: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__name = normalized(name)
+        self.__value = value
+        self.__param_dict = normalize_parameter_dict({tuple(self.__name): value})
+
+    @property
+    def name(self) -> list[Substitution]:
+        """The name."""
+        return self.__name
+
+    @property
+    def value(self) -> Any:
+        """The value, as it was given."""
+        return self.__value
+
+    def _to_model(self, common: Mapping[str, Any]) -> Model:
+        span = self._place.span
+        name = template(self.name, span)
+        if isinstance(self.__value, Mapping):
+            nested = params_of(normalize_parameter_dict(self.__value), span)
+            return SetParameterModel.at(span, name=name, param=nested, **common)
+        (value,) = self.__param_dict.values()
+        return SetParameterModel.at(span, name=name, **value_fields(value, span), **common)

@@ -1,0 +1,39 @@
+"""`SetRemap`: adds a remapping rule to every node."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.launch.action import ModelledAction
+from orchestra.compat.text import normalized, template
+from orchestra.description.actions.set_remap import SetRemap as SetRemapModel
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from orchestra.compat.launch.substitution import Substitution
+    from orchestra.compat.text import Sub
+    from orchestra.description.entity import Action as Model
+
+
+class SetRemap(ModelledAction):
+    """Let every node that follows in this scope use the name `dst` instead of `src`."""
+
+    def __init__(self, src: Sub, dst: Sub, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.__src = normalized(src)
+        self.__dst = normalized(dst)
+
+    @property
+    def src(self) -> list[Substitution]:
+        """The name that nodes use."""
+        return self.__src
+
+    @property
+    def dst(self) -> list[Substitution]:
+        """The name that they shall use instead."""
+        return self.__dst
+
+    def _to_model(self, common: Mapping[str, Any]) -> Model:
+        span = self._place.span
+        return SetRemapModel.at(span, from_=template(self.src, span), to=template(self.dst, span), **common)

@@ -1,0 +1,21 @@
+"""What launch files import as `launch_ros.events.lifecycle`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from orchestra.compat.lazy import exported
+
+_NAMES = {
+    "ChangeState": "change_state",
+    "StateTransition": "state_transition",
+    "matches_node_name": "lifecycle_node_matchers",
+}
+
+__all__ = sorted(_NAMES)  # noqa: PLE0605 - the names are those of the table
+
+_attribute = exported(__name__, _NAMES)
+
+
+def __getattr__(name: str) -> Any:
+    return _attribute(name)

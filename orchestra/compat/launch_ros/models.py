@@ -1,0 +1,113 @@
+"""Parameters and remappings as parts of models."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, get_args, get_origin
+
+from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
+from orchestra.compat.launch_ros.utilities.exact import Exact
+from orchestra.compat.text import template
+from orchestra.description.parts import Override, Param, Remap
+from orchestra.description.text import Constant, Template
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from orchestra.description.fields import Value
+    from orchestra.location import Span
+
+
+def params(parameters: Iterable[Any], span: Span) -> tuple[Param, ...]:
+    """Return the parts for normalised parameters; what has no place of its own is at `span`."""
+    found: list[Param] = []
+    for item in parameters:
+        if isinstance(item, Mapping):
+            found += params_of(item, span)
+        elif isinstance(item, Parameter):
+            found.append(_override(item))
+        elif isinstance(item, ParameterFile):
+            found.append(_file(item))
+    return tuple(found)
+
+
+def params_of(parameters: Mapping[Any, Any], span: Span) -> tuple[Param, ...]:
+    """Return the parts for a normalised dictionary."""
+    return tuple(
+        Param.at(span, name=template(name, span), **value_fields(value, span))
+        for name, value in parameters.items()
+    )
+
+
+def value_fields(value: Any, span: Span) -> dict[str, Any]:
+    """Return `value` and, where it has one, `type` of a normalised value."""
+    if isinstance(value, ParameterValue):
+        return _typed(value)
+    return {"value": _value(value, span)}
+
+
+def remaps(rules: Iterable[tuple[Any, Any]], span: Span) -> tuple[Remap, ...]:
+    """Return the parts for remapping rules."""
+    return tuple(
+        Remap.at(span, from_=template(source, span), to=template(target, span)) for source, target in rules
+    )
+
+
+def _override(parameter: Parameter) -> Override:
+    name, value = parameter._written
+    span = parameter._place.span
+    return Override.at(span, name=template(name, span), **_typed(value))
+
+
+def _file(file: ParameterFile) -> Param:
+    span = file._place.span
+    allowed = {"allow_substs": template("true", span)} if file.allow_substs else {}
+    return Param.at(span, from_=template(file._written, span), **allowed)
+
+
+def _typed(value: ParameterValue) -> dict[str, Any]:
+    span = value._place.span
+    word = _word(value.value_type)
+    written = value._written
+    if isinstance(written, list) and not _is_text(written):
+        read: Any = tuple(
+            _text(item, span) if isinstance(item, list) else Constant(item, span) for item in written
+        )
+        if not any(isinstance(item, Template) for item in read):
+            read = Constant(tuple(written), span)
+    else:
+        read = _text(written, span) if isinstance(written, list) else Constant(written, span)
+    return {"value": read, **({} if word is None else {"type": template(word, span)})}
+
+
+def _value(value: Any, span: Span) -> Value | tuple[Value, ...]:
+    if not isinstance(value, tuple):
+        return Constant(value, span)
+    if _is_text(value):
+        return _text(value, span)
+    if not any(isinstance(item, tuple) for item in value):
+        return Constant(value, span)
+    read = tuple(_text(item, span) for item in value)
+    exact = [item.value for item in read if isinstance(item, Constant)]
+    return Constant(tuple(exact), span) if len(exact) == len(read) else read  # type: ignore[arg-type]  # the visit checks that they are of one type
+
+
+def _is_text(items: Any) -> bool:
+    """Return whether these are substitutions that are concatenated."""
+    return bool(items) and all(isinstance(item, Substitution) for item in items)
+
+
+def _text(items: Any, span: Span) -> Value:
+    if len(items) == 1 and isinstance(items[0], Exact):
+        return Constant(items[0].value, span)
+    return template(items, span)
+
+
+def _word(kind: Any) -> str | None:
+    """Return how the launch language spells a type. Raises `TypeError` for one that it has no word for."""
+    if kind is None:
+        return None
+    items = get_args(kind) if get_origin(kind) is list else ()
+    word = f"list_of_{items[0].__name__}" if items else getattr(kind, "__name__", str(kind))
+    return word

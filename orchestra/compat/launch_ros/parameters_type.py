@@ -1,0 +1,41 @@
+"""The types of parameters, for annotations."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any, Union
+
+from orchestra.compat.launch.some_substitutions_type import SomeSubstitutionsType
+from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
+
+SomeParameterFile = Union[SomeSubstitutionsType, "os.PathLike[str]", ParameterFile]  # noqa: UP007 - evaluated by users' own annotations
+SomeParameterName = Sequence[Union[Substitution, str]]  # noqa: UP007
+SomeParameterValue = Any
+SomeParametersDict = Mapping[Any, Any]
+SomeParameters = Sequence[Union[SomeParameterFile, Parameter, Mapping[Any, Any]]]  # noqa: UP007
+
+ParameterName = Sequence[Substitution]
+ParametersDict = Mapping[ParameterName, Any]
+Parameters = Sequence[Union[ParameterFile, Parameter, ParametersDict]]  # noqa: UP007
+
+EvaluatedParameterValue = Any
+EvaluatedParameters = Sequence[Union[Path, Parameter, Mapping[str, Any]]]  # noqa: UP007
+
+__all__ = [
+    "EvaluatedParameterValue",
+    "EvaluatedParameters",
+    "Parameter",
+    "ParameterFile",
+    "ParameterName",
+    "ParameterValue",
+    "Parameters",
+    "ParametersDict",
+    "SomeParameterFile",
+    "SomeParameterName",
+    "SomeParameterValue",
+    "SomeParameters",
+    "SomeParametersDict",
+]

@@ -1,0 +1,28 @@
+"""Remapping rules with both sides as substitutions."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from typing import Any
+
+from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.text import normalized
+
+_SIDES = 2
+
+
+def normalize_remap_rule(remap_rule: Any) -> tuple[tuple[Substitution, ...], tuple[Substitution, ...]]:  # noqa: ANN401 - whatever a user put there
+    """Return the two sides of a rule. Raises `TypeError` for anything but a pair in a tuple, as upstream."""
+    if not isinstance(remap_rule, tuple) or len(remap_rule) != _SIDES:
+        raise TypeError(f"a remapping is a tuple of two names, not {remap_rule!r}")
+    source, target = remap_rule
+    return tuple(normalized(source)), tuple(normalized(target))
+
+
+def normalize_remap_rules(
+    remap_rules: Any,  # noqa: ANN401 - whatever a user put there
+) -> tuple[tuple[tuple[Substitution, ...], tuple[Substitution, ...]], ...]:
+    """Return the two sides of several rules. Raises `TypeError` for anything but pairs in tuples."""
+    if not isinstance(remap_rules, Iterable):
+        raise TypeError(f"remappings are a list of tuples of two names, not {remap_rules!r}")
+    return tuple(normalize_remap_rule(rule) for rule in remap_rules)
