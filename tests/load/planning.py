@@ -60,6 +60,17 @@ def planned(
     return Planned(content, tuple((found.code.value, found.severity.value) for found in problems.ordered))
 
 
+def installed(folder: Path) -> dict[str, str]:
+    """Install the package `demo` with the executable `tool` below a folder; return the environment to find it in."""
+    prefix = folder / "prefix"
+    tool, marker = prefix / "lib/demo/tool", prefix / "share/ament_index/resource_index/packages/demo"
+    for path in (tool, marker, prefix / "share/demo/package.xml"):
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.touch()
+    tool.chmod(0o755)
+    return {"PATH": "/usr/bin:/bin", "AMENT_PREFIX_PATH": str(prefix)}
+
+
 def _without_places(value: Any) -> Any:
     if isinstance(value, dict):
         return {key: _without_places(item) for key, item in value.items() if key not in _PLACES}
