@@ -6,7 +6,7 @@ import gc
 import os
 from contextlib import contextmanager
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.seam import connected
 from orchestra.errors import DescriptionError, Problem, Problems
@@ -18,7 +18,7 @@ from orchestra.resolve.commands import run_command
 from orchestra.resolve.packages import InstalledPackages
 from orchestra.resolve.python.connection import LoadingConnection
 from orchestra.resolve.python.isolation import isolated
-from orchestra.resolve.resolve import begin, resolve
+from orchestra.resolve.resolve import begin, carry_through, outcome
 from orchestra.resolve.single import single_node
 
 if TYPE_CHECKING:
@@ -29,7 +29,16 @@ if TYPE_CHECKING:
     from orchestra.resolve.resolution import LoadFile, Resolution
 
 
-__all__ = ["check", "collect", "find_launch_file", "inputs_from", "make_plan", "plan_of_node"]
+__all__ = [
+    "Launch",
+    "check",
+    "collect",
+    "find_launch_file",
+    "inputs_from",
+    "make_plan",
+    "opened",
+    "plan_of_node",
+]
 
 
 def make_plan(path: str, inputs: Inputs) -> Plan:
@@ -70,15 +79,55 @@ def collect(path: str, inputs: Inputs, problems: Problems, *, load: LoadFile = l
 
     `load` reads the files. None where the file itself cannot be read as a launch file.
     """
+    with opened(path, inputs, problems, load=load) as launch:
+        return None if launch is None else launch.plan
+
+
+@contextmanager
+def opened(
+    path: str, inputs: Inputs, problems: Problems, *, load: LoadFile = load
+) -> Iterator[Launch | None]:
+    """Resolve and plan a launch file, whose code can be called as long as the context lasts.
+
+    What is wrong is in `problems`. None where the file itself cannot be read as a launch file.
+    """
     packages = InstalledPackages(inputs.environment)
-    with _collector_paused(), _loading(path, inputs, load, packages):
-        description = load(path, problems, ())
-        if description is None:
-            return None
-        resolved = resolve(
-            description, inputs, problems, load=load, packages=packages, run_command=run_command
-        )
-        return build(resolved, problems)
+    with _loading(path, inputs, load, packages):
+        with _collector_paused():
+            description = load(path, problems, ())
+            launch = None
+            if description is not None:
+                run = begin(inputs, problems, load=load, packages=packages, run_command=run_command)
+                resolved = carry_through(description, run)
+                launch = Launch(build(resolved, problems), run)
+        yield launch
+
+
+class Launch:
+    """A plan, and the state of the resolution that it is from: code of the launch files may be left in it."""
+
+    def __init__(self, plan: Plan, run: Resolution) -> None:
+        self.plan = plan
+        self._run = run
+
+    @property
+    def deferred(self) -> bool:
+        """Whether code of the launch files decides about triggers while the plan runs."""
+        return any(trigger.deferred for trigger in self.plan.triggers)
+
+    def answer(self, question: dict[str, Any]) -> dict[str, Any]:
+        """Return what that code decides, as JSON data: see `orchestra.supervise.run.run`."""
+        # Here, because few launches need it, and what it imports.
+        from orchestra.plan.fragment import fragment  # noqa: PLC0415
+        from orchestra.resolve.python.deciding import decide  # noqa: PLC0415
+
+        problems, event = Problems(), question["event"]
+        ids = [process.id for process in self.plan.processes]
+        target = event.get("process")
+        do = decide(question["ref"], event, ids.index(target) if target in ids else None, self._run, problems)
+        resolved = outcome(self.plan.file, self._run)
+        self.plan, answer = fragment(self.plan, resolved, do, problems)
+        return answer
 
 
 @contextmanager

@@ -6,12 +6,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.plan.command import command
+from orchestra.plan.components import components
 from orchestra.plan.digest import digest
 from orchestra.plan.edges import Targets, check_cycles, dependencies
 from orchestra.plan.ids import check_names, identities
 from orchestra.plan.model import VERSION, Argument, Plan, Process, Skipped
 from orchestra.plan.parameter_file import file_name
-from orchestra.plan.parameters import Parameters, check_given, parameters_of
+from orchestra.plan.parameters import Parameters, check_for_all, check_given, parameters_of
 from orchestra.plan.provenance import environment_of, provenance
 from orchestra.plan.remappings import check_remaps, readiness
 from orchestra.plan.triggers import triggers
@@ -22,10 +23,14 @@ if TYPE_CHECKING:
     from orchestra.resolve.model import Resolved, ResolvedProcess
 
 
-def build(resolved: Resolved, problems: Problems) -> Plan:
-    """Return the plan. What cannot work is reported; the problems found so far become part of the plan."""
+def build(resolved: Resolved, problems: Problems, *, triggers_before: int = 0) -> Plan:
+    """Return the plan. What cannot work is reported; the problems found so far become part of the plan.
+
+    `triggers_before` counts the triggers of a plan that is added to.
+    """
     ids = identities(resolved.processes)
-    check_names(resolved.processes, problems)
+    loaded = identities(resolved.components, ids)
+    check_names((*resolved.processes, *resolved.components), problems)
     targets = Targets(resolved, ids)
     edges = {
         identity: dependencies(process, identity, targets, problems)
@@ -33,6 +38,7 @@ def build(resolved: Resolved, problems: Problems) -> Plan:
     }
     check_cycles(edges, problems)
     check_given(resolved, problems)
+    check_for_all(resolved, problems)
     processes = tuple(
         _process(process, identity, edges[identity], resolved, problems)
         for identity, process in targets.process.items()
@@ -45,8 +51,8 @@ def build(resolved: Resolved, problems: Problems) -> Plan:
             for item in resolved.arguments
         ),
         processes,
-        (),
-        triggers(resolved, ids, ()),
+        components(resolved, ids, loaded, problems),
+        triggers(resolved, ids, loaded, triggers_before),
         tuple(
             Skipped(item.action, item.name, item.condition, item.expression, item.value, item.location)
             for item in resolved.skipped
@@ -89,7 +95,7 @@ def _process(
         success_exit_codes=process.success_exit_codes,
         ready=readiness(process, problems),
         alive=None,
-        lifecycle=None,
+        lifecycle="active" if process.autostart else None,
         depends_on=edges,
         stop=process.stop,
         limits=None,

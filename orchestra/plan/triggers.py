@@ -23,14 +23,17 @@ from orchestra.resolve import reactions
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from orchestra.plan.model import Plan
     from orchestra.plan.reactions import TriggeredAction
     from orchestra.resolve.model import Resolved
 
 
-def triggers(resolved: Resolved, ids: Sequence[str], components: Sequence[str]) -> tuple[Trigger, ...]:
+def triggers(
+    resolved: Resolved, ids: Sequence[str], components: Sequence[str], before: int
+) -> tuple[Trigger, ...]:
     """Return the triggers of `on_exit`, then the others in the order in which they were written.
 
-    `ids` are those of the processes.
+    `ids` are those of the processes; `before` counts the triggers that a plan has already.
     """
     return tuple(
         Trigger(
@@ -44,8 +47,16 @@ def triggers(resolved: Resolved, ids: Sequence[str], components: Sequence[str]) 
         for process, identity in zip(resolved.processes, ids, strict=True)
         if process.shutdown_on_exit
     ) + tuple(
-        _trigger(f"t{number}", item, ids, components) for number, item in enumerate(resolved.triggers, 1)
+        _trigger(f"t{number}", item, ids, components)
+        for number, item in enumerate(resolved.triggers, before + 1)
     )
+
+
+def actions(do: Sequence[reactions.TriggeredAction], plan: Plan) -> tuple[TriggeredAction, ...]:
+    """Return actions that are carried out on the processes and components of a plan."""
+    ids = [process.id for process in plan.processes]
+    components = [component.id for component in plan.components]
+    return tuple(_action(action, ids, components) for action in do)
 
 
 def _trigger(

@@ -56,7 +56,7 @@ class Occasion:
     """Something that is waited for, and what has been collected to be done then.
 
     `delay` is in seconds. `handler` is the object that stands for the handler, to be found when it is unregistered.
-    `begins` is false where another event has to come first.
+    `armed` is false where another event has to come first. `now`: it is happening, so that code can be called.
     """
 
     on: OpenEvent
@@ -66,4 +66,5 @@ class Occasion:
     armed: bool = True
     once: bool = False
     cancel_on_shutdown: bool = True
+    now: bool = False
     do: list[Action] = field(default_factory=list)

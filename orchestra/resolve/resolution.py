@@ -44,7 +44,8 @@ class Found:
     `lost` has the words of what has been left out for its faults: what depends on it is not reported. `endless` are
     the files that include themselves without end, which are not gone into again. `simulated_time` is where timers on
     ROS time were told to go by simulated time. `carried_out` are the objects of Python launch files that were visited,
-    `kept` is the code of theirs that is called during the run.
+    `kept` is the code of theirs that is called during the run. `triggers` have been settled so far, `positions` are
+    those of each event handler among them.
     """
 
     processes: list[ResolvedProcess] = field(default_factory=list)
@@ -57,6 +58,8 @@ class Found:
     simulated_time: Location | None = None
     carried_out: dict[int, Any] = field(default_factory=dict)
     kept: list[Any] = field(default_factory=list)
+    triggers: int = 0
+    positions: dict[int, list[int]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
@@ -107,6 +110,16 @@ class Resolution:
         if self._engine is None and self.make_engine is not None:
             self._engine = self.make_engine(self)
         return self._engine
+
+    @property
+    def conditional(self) -> bool:
+        """Whether what is visited need not come about: a condition or an event is around it."""
+        return self.conditions > 0 or self.occasion is not None
+
+    @property
+    def later(self) -> bool:
+        """Whether what is visited is carried out when something happens, not now."""
+        return self.occasion is not None and not self.occasion.now
 
     def handle_events(self) -> None:
         """Hand events of the users' own, if any have happened, to the handlers that want them."""

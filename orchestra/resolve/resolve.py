@@ -32,20 +32,30 @@ def resolve(
 ) -> Resolved:
     """Visit a description depth-first. What is wrong is reported; what is faulty is left out or marked."""
     run = begin(inputs, problems, load=load, packages=packages, run_command=run_command)
+    return carry_through(description, run)
+
+
+def carry_through(description: Description, run: Resolution) -> Resolved:
+    """Visit a description in a resolution that has just begun."""
     run.descriptions[description.path] = description
-    for given in inputs.arguments:
+    for given in run.inputs.arguments:
         location = Location(given.span)
         run.scope.set(given.name, Value(given.value, location), location)
     with run.inside(Frame(description.path, run.scope)) as ledger:
         visit_file(description, run)
         run.handle_events()
-        names = [Given(item.name, Location(item.span)) for item in inputs.arguments]
+        names = [Given(item.name, Location(item.span)) for item in run.inputs.arguments]
         settle(names, description, ledger, run)
+    return outcome(description.file, run)
+
+
+def outcome(file: str, run: Resolution) -> Resolved:
+    """Return what has been found so far; triggers only those since the last time."""
     return Resolved(
-        description.file,
+        file,
         tuple(run.found.arguments.values()),
         tuple(run.found.processes),
-        settled(run.found.occasions, run),
+        settled(run),
         tuple(run.found.skipped),
         given_sections(run),
         frozenset(run.found.lost),

@@ -79,7 +79,8 @@ def add_process(action: Running, program: Program, run: Resolution) -> int:
         depends_on=run.frame.depends_on + (sound(dependencies(action.depends_on, run)) or ()),
         labels=run.frame.labels,
         location=location,
-        conditional=run.conditions > 0,
+        conditional=run.conditional
+        or action.origin is not None,  # what a condition in Python said is not known
         faulty=sound.faulty
         or program.faulty
         or action.faulty,  # the last one: all others have been looked at
@@ -87,8 +88,8 @@ def add_process(action: Running, program: Program, run: Resolution) -> int:
         autostart=program.autostart,
         origin=action.origin,
     )
-    if run.delayed is not None:
-        run.delayed.append(ResolvedStart(len(run.found.processes), location))
+    if run.occasion is not None:
+        run.occasion.do.append(ResolvedStart(len(run.found.processes), location))
     run.found.processes.append(process)
     return len(run.found.processes) - 1
 

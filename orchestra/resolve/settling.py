@@ -13,24 +13,25 @@ from orchestra.resolve.reactions import (
 )
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable
 
     from orchestra.resolve.occasions import Action, Occasion, OpenEvent
     from orchestra.resolve.reactions import TriggeredAction
     from orchestra.resolve.resolution import Resolution
 
 
-def settled(occasions: Sequence[Occasion], run: Resolution) -> tuple[ResolvedTrigger, ...]:
-    """Return the triggers, one for each process that an occasion is about."""
-    events = [(occasion, event) for occasion in occasions for event in _events(occasion, run)]
-    positions: dict[int, list[int]] = {}
-    for position, (occasion, _) in enumerate(events):
+def settled(run: Resolution) -> tuple[ResolvedTrigger, ...]:
+    """Return the triggers of what has been collected since the last time, one for each process that each is about."""
+    events = [(occasion, event) for occasion in run.found.occasions for event in _events(occasion, run)]
+    for position, (occasion, _) in enumerate(events, run.found.triggers):
         if occasion.handler is not None:
-            positions.setdefault(id(occasion.handler), []).append(position)
+            run.found.positions.setdefault(id(occasion.handler), []).append(position)
+    run.found.triggers += len(events)
+    run.found.occasions = []
     return tuple(
         ResolvedTrigger(
             event,
-            tuple(done for action in occasion.do for done in _actions(action, positions, run)),
+            settled_actions(occasion, run),
             occasion.delay,
             occasion.location,
             occasion.armed,
@@ -39,6 +40,11 @@ def settled(occasions: Sequence[Occasion], run: Resolution) -> tuple[ResolvedTri
         )
         for occasion, event in events
     )
+
+
+def settled_actions(occasion: Occasion, run: Resolution) -> tuple[TriggeredAction, ...]:
+    """Return what is done on an occasion."""
+    return tuple(done for action in occasion.do for done in _actions(action, run))
 
 
 def processes_of(target: Any, run: Resolution) -> tuple[int, ...]:  # noqa: ANN401 - an object or a predicate
@@ -70,11 +76,12 @@ def _completions(on: OpenEvent, run: Resolution) -> Iterable[ResolvedEvent]:
         yield ResolvedEvent("run_started")
 
 
-def _actions(action: Action, positions: dict[int, list[int]], run: Resolution) -> Iterable[TriggeredAction]:
+def _actions(action: Action, run: Resolution) -> Iterable[TriggeredAction]:
     if isinstance(action, OpenAction):
         yield action.make(processes_of(action.target, run))
     elif isinstance(action, Registration):
         kind = ResolvedRegister if action.armed else ResolvedUnregister
-        yield from (kind(index, action.location) for index in positions.get(id(action.handler), ()))
+        positions = run.found.positions.get(id(action.handler), ())
+        yield from (kind(position, action.location) for position in positions)
     else:
         yield action

@@ -31,7 +31,7 @@ def visit(action: RegisterEventHandler, run: Resolution) -> None:
                 deferred = Deferred("handler", handler.origin, handler.callback)
                 occasion.do.append(ResolvedDeferred(defer(deferred, location, run), location))
                 run.found.occasions.append(occasion)
-        if run.occasion is not None:
+        if run.later and run.occasion is not None:
             run.occasion.do.append(Registration(handler.origin, location, armed=True))
 
 
@@ -50,7 +50,7 @@ def _occasions(handler: Handler, location: Location, run: Resolution) -> list[Oc
         )
         for name in names
     ]
-    armed = run.occasion is None
+    armed = not run.later
     return [
         Occasion(event, location, handler=handler.origin, armed=armed, once=handler.once) for event in events
     ]

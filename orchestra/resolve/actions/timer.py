@@ -26,6 +26,7 @@ def visit(action: Timer, run: Resolution) -> None:
             location=run.at(action.span),
             delay=(outer.delay or 0.0) + seconds,
             cancel_on_shutdown=cancelled is not False,
+            now=False,
             do=[],
         ),
         action.children,

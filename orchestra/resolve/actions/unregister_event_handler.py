@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def visit(action: UnregisterEventHandler, run: Resolution) -> None:
-    """Let a handler wait no more: from now on, or from the moment when what is around this is carried out."""
+    """Let a handler wait no more: during the run, or from the moment when what is around this is carried out."""
     location = run.at(action.span)
     if run.occasion is not None:
         run.occasion.do.append(Registration(action.handler, location, armed=False))

@@ -44,7 +44,7 @@ def emit(event: Any, location: Location, run: Resolution) -> None:
             trigger(OpenAction(event.lifecycle_node_matcher, location, change), run)
         case IncludeLaunchDescription():
             visit_entities([event.launch_description], run)
-        case _ if run.occasion is not None:
+        case _ if run.later and run.occasion is not None:
             run.occasion.do.append(ResolvedDeferred(defer(Deferred("event", event), location, run), location))
         case _:
             run.engine.happening.append((event, location))

@@ -49,7 +49,7 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
     if type(entity).visit is LaunchDescription.visit:
         visit_entities(entity.entities, run)
         return
-    if run.occasion is not None:
+    if run.later and run.occasion is not None:
         location = run.at(action.span)
         kept = defer(Deferred("entity", entity), location, run)
         run.occasion.do.append(ResolvedDeferred(kept, location))
