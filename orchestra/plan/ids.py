@@ -6,20 +6,25 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
+from orchestra.resolve.model import ResolvedComponent, ResolvedProcess
 from orchestra.resolve.names import full_name
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable, Sequence
 
     from orchestra.errors import Problems
     from orchestra.location import Location, Span
-    from orchestra.resolve.model import ResolvedProcess
 
 
-def identities(processes: Sequence[ResolvedProcess]) -> tuple[str, ...]:
-    """Return an id per process: the full node name, else namespace and label, with `#2` for repeats."""
+def identities(
+    processes: Sequence[ResolvedProcess | ResolvedComponent], others: Iterable[str] = ()
+) -> tuple[str, ...]:
+    """Return an id per process: the full node name, else namespace and label, with `#2` for repeats.
+
+    Components have ids as nodes have; `others` are ids that are given already.
+    """
     numbers: dict[str, int] = {}
-    taken: set[str] = set()
+    taken = set(others)
     ids = []
     for process in processes:
         base = identity = base_identity(process)
@@ -31,25 +36,31 @@ def identities(processes: Sequence[ResolvedProcess]) -> tuple[str, ...]:
     return tuple(ids)
 
 
-def base_identity(process: ResolvedProcess) -> str:
+def base_identity(process: ResolvedProcess | ResolvedComponent) -> str:
     """Return the name of a process before repeats are told apart."""
     namespace = process.namespace.text if process.namespace is not None else "/"
-    if process.kind == "process":
+    if isinstance(process, ResolvedComponent):
+        unnamed = process.plugin.rpartition("::")[2]
+    elif process.kind == "process":
         return process.label or process.executable
-    name = process.name.text if process.name is not None else process.label or Path(process.executable).name
-    return full_name(namespace, name)
+    else:
+        unnamed = process.label or Path(process.executable).name
+    return full_name(namespace, process.name.text if process.name is not None else unnamed)
 
 
-def node_name(process: ResolvedProcess) -> str | None:
+def node_name(process: ResolvedProcess | ResolvedComponent) -> str | None:
     """Return the full name of a node where it is known."""
-    if process.kind == "process" or process.name is None:
+    if process.name is None or (isinstance(process, ResolvedProcess) and process.kind == "process"):
         return None
     return full_name(process.namespace.text if process.namespace is not None else "/", process.name.text)
 
 
-def check_names(processes: Sequence[ResolvedProcess], problems: Problems) -> None:
-    """Report nodes that were given the same full name; only a warning where a condition stands on one of them."""
-    first: dict[str, ResolvedProcess] = {}
+def check_names(processes: Sequence[ResolvedProcess | ResolvedComponent], problems: Problems) -> None:
+    """Report nodes that were given the same full name.
+
+    It is only a warning where a condition stands on one of them, or one is a component, which its container may refuse.
+    """
+    first: dict[str, ResolvedProcess | ResolvedComponent] = {}
     told: set[tuple[Location | Span, Location | Span]] = set()
     for process in processes:
         name = node_name(process)
@@ -60,7 +71,10 @@ def check_names(processes: Sequence[ResolvedProcess], problems: Problems) -> Non
         if earlier is process or mistake in told:
             continue
         told.add(mistake)
-        report = problems.warning if earlier.conditional or process.conditional else problems.error
+        certain = all(
+            isinstance(item, ResolvedProcess) and not item.conditional for item in (earlier, process)
+        )
+        report = problems.error if certain else problems.warning
         report(
             Code.DUPLICATE_NODE,
             f"two nodes are called '{name}'",
@@ -69,7 +83,9 @@ def check_names(processes: Sequence[ResolvedProcess], problems: Problems) -> Non
         )
 
 
-def _mistake(one: ResolvedProcess, other: ResolvedProcess) -> tuple[Location | Span, Location | Span]:
+def _mistake(
+    one: ResolvedProcess | ResolvedComponent, other: ResolvedProcess | ResolvedComponent
+) -> tuple[Location | Span, Location | Span]:
     """Return what makes two nodes of one name one mistake: within a file it is one, however often it is included."""
     if one.location.included_from == other.location.included_from:
         return one.location.span, other.location.span

@@ -21,12 +21,18 @@ from orchestra.values import ParameterValue
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
-    from orchestra.resolve.model import GivenSections, Resolved, ResolvedProcess
+    from orchestra.resolve.model import (
+        GivenSections,
+        ParameterSource,
+        Resolved,
+        ResolvedComponent,
+        ResolvedProcess,
+    )
     from orchestra.resolve.rcl.effective import Setting
 
 
 _EVERY_NODE = "/**"
-_FROM_COMMAND_LINE = "the command line wins"
+FROM_COMMAND_LINE = "the command line wins"
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,11 +54,11 @@ def parameters_of(process: ResolvedProcess, given: Sequence[GivenSections], prob
     full = node_name(process)
     own = full if full is not None and process.namespace is not None else _EVERY_NODE
     sections = _sections(process, own)
-    settings = _settings(sections, full)
-    overrides = _settings([section for item in given for section in item.sections], full)
+    settings = settings_of(sections, full)
+    overrides = settings_of([section for item in given for section in item.sections], full)
     _report(settings, overrides, problems)
     if full is not None:
-        _check_files(process, full, problems)
+        check_files(process.parameters, full, problems)
     every = [*sections, *(section for item in given for section in item.sections)]
     return Parameters(
         {
@@ -67,8 +73,8 @@ def parameters_of(process: ResolvedProcess, given: Sequence[GivenSections], prob
 
 def check_given(resolved: Resolved, problems: Problems) -> None:
     """Report parameters of the command line that are for no node of the description."""
-    names = [name for process in resolved.processes if (name := node_name(process)) is not None]
-    anonymous = any(process.kind == "node" and process.name is None for process in resolved.processes)
+    names = _names(resolved)
+    anonymous = any(process.kind != "process" and process.name is None for process in resolved.processes)
     for given in resolved.given:
         for section in given.sections:
             if any(matches(section.pattern, name) for name in names) or (anonymous and not given.strict):
@@ -79,6 +85,32 @@ def check_given(resolved: Resolved, problems: Problems) -> None:
             message = f"there is no node '{section.pattern}' to give parameters to"
             suggestion = nearest(section.pattern, names)
             report(Code.UNMATCHED_SECTION, message, section.location, suggestion=suggestion)
+
+
+def check_for_all(resolved: Resolved, problems: Problems) -> None:
+    """Report parameter files for all nodes of a scope that have nothing for any node."""
+    nodes = _nodes(resolved)
+    names = _names(resolved)
+    files = {
+        source.location: source
+        for node in nodes
+        for source in node.parameters
+        if isinstance(source, FileParameters) and source.everywhere
+    }
+    for file in files.values():
+        matched = any(matches(section.pattern, name) for section in file.sections for name in names)
+        if not matched and len(names) == len(nodes):
+            message = "the parameter file has no section for any node"
+            problems.warning(Code.UNMATCHED_SECTION, message, file.location)
+
+
+def _nodes(resolved: Resolved) -> list[ResolvedProcess | ResolvedComponent]:
+    nodes = (process for process in resolved.processes if process.kind != "process")
+    return [*nodes, *resolved.components]
+
+
+def _names(resolved: Resolved) -> list[str]:
+    return [name for node in _nodes(resolved) if (name := node_name(node)) is not None]
 
 
 def _sections(process: ResolvedProcess, own: str) -> list[Section]:
@@ -94,8 +126,8 @@ def _sections(process: ResolvedProcess, own: str) -> list[Section]:
     return sections
 
 
-def _settings(sections: Sequence[Section], full: str | None) -> dict[str, Setting]:
-    """Return what counts; for a node whose name is not known only what is for every node."""
+def settings_of(sections: Sequence[Section], full: str | None) -> dict[str, Setting]:
+    """Return what counts in a node of this full name; where that is not known, only what is for every node."""
     if full is not None:
         return effective(sections, full)
     return effective([section for section in sections if section.pattern.lstrip("/") == "**"], "/_")
@@ -112,7 +144,7 @@ def _candidates(
     ]
     if above is not None:
         written += [
-            Candidate(item.value, item.location, item.won, _FROM_COMMAND_LINE) for item in above.written
+            Candidate(item.value, item.location, item.won, FROM_COMMAND_LINE) for item in above.written
         ]
     return tuple(written)
 
@@ -132,10 +164,10 @@ def _report(settings: dict[str, Setting], overrides: dict[str, Setting], problem
             )
 
 
-def _check_files(process: ResolvedProcess, full: str, problems: Problems) -> None:
+def check_files(sources: Iterable[ParameterSource], full: str, problems: Problems) -> None:
     """Report a file of the node's own that has nothing for it."""
-    for source in process.parameters:
-        if not isinstance(source, FileParameters) or not source.sections:
+    for source in sources:
+        if not isinstance(source, FileParameters) or source.everywhere or not source.sections:
             continue
         if any(matches(section.pattern, full) for section in source.sections):
             continue

@@ -11,10 +11,10 @@ from orchestra.resolve.remaps import dead_rules, read_rule, remapped
 
 if TYPE_CHECKING:
     from orchestra.errors import Problems
-    from orchestra.resolve.model import ResolvedProcess
+    from orchestra.resolve.model import ResolvedComponent, ResolvedProcess
 
 
-def check_remaps(process: ResolvedProcess, problems: Problems) -> None:
+def check_remaps(process: ResolvedProcess | ResolvedComponent, problems: Problems) -> None:
     """Report rules that an earlier one, often of an outer scope, keeps from acting: the first that matches counts."""
     rules = [read_rule(rule.source.text, rule.target.text) for rule in process.remaps]
     namespace = process.namespace.text if process.namespace is not None else None

@@ -42,8 +42,8 @@ def add_components(
         if not wanted(item, "composable_node", run):
             continue
         component = _component(item, container, run, delayed=delayed)
-        if delayed and run.delayed is not None:
-            run.delayed.append(ResolvedLoad(len(run.found.components), component.location))
+        if delayed and run.occasion is not None:
+            run.occasion.do.append(ResolvedLoad(len(run.found.components), component.location))
         run.found.components.append(component)
 
 
@@ -53,7 +53,7 @@ def _component(
     package, plugin = run.text(written.pkg), run.text(written.plugin)
     name, namespace = named(written.name, run), namespace_at(written.namespace, written.span, run)
     own, whole = parameters(written.param, run, component=True)
-    extra, told = parameters(written.extra_arg, run, component=True)
+    extra, told = parameters(written.extra_arg, run, component=True, quotes=False)
     rules, regular = remaps(written.remap, run)
     autostart = run.flag(written.autostart, default=False)
     values = (package, plugin, name, namespace, autostart)

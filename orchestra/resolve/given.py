@@ -9,7 +9,7 @@ from orchestra.errors import Code
 from orchestra.location import Location
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import GivenSections
-from orchestra.resolve.parameters import read_file
+from orchestra.resolve.parameter_files import read_file
 from orchestra.resolve.paths import file_below
 from orchestra.resolve.rcl.overrides import override_value
 from orchestra.resolve.rcl.patterns import pattern_fault

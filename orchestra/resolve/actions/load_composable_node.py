@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 def visit(action: LoadComposableNode, run: Resolution) -> None:
     """Load components into a container: with its start, or when the timer around them goes off."""
-    add_components(action.composable_node, _container(action, run), run, delayed=run.delayed is not None)
+    add_components(action.composable_node, _container(action, run), run, delayed=run.occasion is not None)
 
 
 def _container(action: LoadComposableNode, run: Resolution) -> Container:

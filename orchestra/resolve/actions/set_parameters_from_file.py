@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.resolve.parameters import file_parameters
+from orchestra.resolve.parameter_files import file_parameters
 
 if TYPE_CHECKING:
     from orchestra.description.actions.set_parameters_from_file import SetParametersFromFile

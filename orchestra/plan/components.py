@@ -1,0 +1,147 @@
+"""Components of a plan: which process takes them in, and the parameters that it is told to give them.
+
+A container gets the parameters of a component as one list, of which the last of a name counts. So, other than on a
+node's command line, each file counts where it stands (launch_ros, `get_composable_node_load_request`); within a file
+rcl's rules hold, all wildcards included, of which upstream knows but one.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code
+from orchestra.nearest import nearest
+from orchestra.plan.absent import is_mistake
+from orchestra.plan.ids import base_identity, node_name
+from orchestra.plan.model import Candidate, Component, Provenance
+from orchestra.plan.parameters import FROM_COMMAND_LINE, check_files, settings_of
+from orchestra.plan.remappings import check_remaps
+from orchestra.resolve.model import InlineParameter
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from orchestra.errors import Problems
+    from orchestra.location import Location
+    from orchestra.resolve.model import ParameterSource, Resolved, ResolvedComponent
+    from orchestra.values import ParameterValue
+
+
+def components(
+    resolved: Resolved, ids: Sequence[str], own: Sequence[str], problems: Problems
+) -> tuple[Component, ...]:
+    """Return the components in order; `ids` are those of the processes, `own` those of the components."""
+    return tuple(
+        _component(component, identity, resolved, ids, problems)
+        for component, identity in zip(resolved.components, own, strict=True)
+    )
+
+
+def _component(
+    component: ResolvedComponent, identity: str, resolved: Resolved, ids: Sequence[str], problems: Problems
+) -> Component:
+    full = node_name(component)
+    index = _process(component, resolved)
+    if index is None:
+        _report_missing(component, resolved, problems)
+    if full is not None:
+        check_files(component.parameters, full, problems)
+    check_remaps(component, problems)
+    candidates = _candidates(component.parameters, full, resolved)
+    return Component(
+        id=identity,
+        name=component.name.text if component.name is not None else None,
+        namespace=component.namespace.text if component.namespace is not None else None,
+        package=component.package,
+        plugin=component.plugin,
+        container=_container(component, index, resolved),
+        process=ids[index] if index is not None else None,
+        condition="event" if component.delayed else "started",
+        parameters=_values(candidates),
+        remappings=tuple((rule.source.text, rule.target.text) for rule in component.remaps),
+        extra_arguments=_values(_candidates(component.extra_arguments, full, None)),
+        lifecycle="active" if component.autostart else None,
+        location=component.location,
+        provenance=Provenance(
+            name=component.name.location if component.name is not None else None,
+            namespace=component.namespace.location if component.namespace is not None else None,
+            parameters=candidates,
+            remappings=tuple(rule.source.location for rule in component.remaps),
+        ),
+    )
+
+
+def _process(component: ResolvedComponent, resolved: Resolved) -> int | None:
+    """Return the index of the process that is the container, None where none of the plan is."""
+    if component.container_process is not None:
+        return component.container_process
+    origin, name = component.container_origin, component.container
+    for index, process in enumerate(resolved.processes):
+        if origin is not None and process.origin is origin:
+            return index
+        if name is not None and node_name(process) == name.text:
+            return index
+    return None
+
+
+def _container(component: ResolvedComponent, index: int | None, resolved: Resolved) -> str:
+    if index is not None:
+        process = resolved.processes[index]
+        return node_name(process) or base_identity(process)
+    return component.container.text if component.container is not None else ""
+
+
+def _report_missing(component: ResolvedComponent, resolved: Resolved, problems: Problems) -> None:
+    """Report a container that is not of this plan. By its name alone it may be of another launch."""
+    if component.faulty:
+        return
+    if component.container is None:
+        message = "the container that this component is loaded into is not started"
+        problems.error(Code.UNKNOWN_DEPENDENCY, message, component.location)
+        return
+    known = [name for process in resolved.processes if (name := node_name(process)) is not None]
+    if is_mistake(component.container.text, known, resolved):
+        message = f"no process of this plan is the container '{component.container.text}'"
+        suggestion = nearest(component.container.text, known)
+        at = component.container.location
+        problems.warning(Code.UNKNOWN_DEPENDENCY, message, at, suggestion=suggestion)
+
+
+def _candidates(
+    sources: Sequence[ParameterSource], full: str | None, resolved: Resolved | None
+) -> dict[str, tuple[Candidate, ...]]:
+    """Return all that is written for each parameter; the last one counts, the command line's over all others."""
+    found: dict[str, list[tuple[ParameterValue | None, Location, str]]] = {}
+    for source in sources:
+        for name, value, location in _entries(source, full):
+            found.setdefault(name, []).append((value, location, "the last one counts"))
+    given = resolved.given if resolved is not None else ()
+    overrides = settings_of([section for item in given for section in item.sections], full)
+    for name, setting in overrides.items():
+        for item in sorted(setting.written, key=lambda item: item.won):
+            found.setdefault(name, []).append((item.value, item.location, FROM_COMMAND_LINE))
+    return {
+        name: tuple(
+            Candidate(value, location, item is written[-1], rule)
+            for item in written
+            for value, location, rule in (item,)
+        )
+        for name, written in found.items()
+    }
+
+
+def _entries(
+    source: ParameterSource, full: str | None
+) -> Iterator[tuple[str, ParameterValue | None, Location]]:
+    if isinstance(source, InlineParameter):
+        yield source.name, source.value, source.location
+        return
+    for entry in source.plain:
+        yield entry.name, entry.value, entry.location
+    for name, setting in settings_of(source.sections, full).items():
+        for item in sorted(setting.written, key=lambda item: item.won):
+            yield name, item.value, item.location
+
+
+def _values(candidates: dict[str, tuple[Candidate, ...]]) -> dict[str, ParameterValue]:
+    return {name: written[-1].value for name, written in candidates.items() if written[-1].value is not None}
