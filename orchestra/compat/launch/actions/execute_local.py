@@ -5,27 +5,30 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
-from orchestra.compat.building import models_of
 from orchestra.compat.launch.action import Action, ModelledAction
 from orchestra.compat.launch.actions.shutdown_action import Shutdown
-from orchestra.compat.launch.event_handler import entities_of
+from orchestra.compat.launch.event_handlers.on_action_event_base import OnActionEventBase
+from orchestra.compat.launch.events.process.process_exited import ProcessExited
+from orchestra.compat.launch.events.process.process_io import ProcessIO
 from orchestra.compat.launch.substitutions.launch_configuration import LaunchConfiguration
 from orchestra.compat.text import normalized, template
 from orchestra.compat.values import optional, scalar, written
 from orchestra.description.actions.executable import Executable as ExecutableModel
 from orchestra.description.actions.group import Group
 from orchestra.description.actions.register_event_handler import RegisterEventHandler
-from orchestra.description.handlers import Handler
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from orchestra.compat.launch.descriptions.executable import Executable
+    from orchestra.compat.launch.event import Event
+    from orchestra.compat.launch.events.process.running_process_event import RunningProcessEvent
     from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
     from orchestra.compat.launch.substitution import Substitution
     from orchestra.compat.text import Sub
     from orchestra.description.entity import Action as Model
+    from orchestra.description.handlers import Handler
     from orchestra.location import Span
 
 _OVERRIDE = "OVERRIDE_LAUNCH_PROCESS_OUTPUT"
@@ -71,10 +74,9 @@ class ExecuteLocal(ModelledAction):
         self.__respawn = respawn if isinstance(respawn, bool) else normalized(respawn)
         self.__respawn_delay = respawn_delay
         self.__respawn_max_retries = respawn_max_retries
-        # What is known of the process while it runs is put here by whoever delivers its events.
         self._details: dict[str, Any] | None = None
         self._return_code: int | None = None
-        self._cached = {"stdout": bytearray(), "stderr": bytearray()}
+        self.__written = {"stdout": bytearray(), "stderr": bytearray()}
 
     @property
     def process_description(self) -> Executable:
@@ -179,36 +181,40 @@ class ExecuteLocal(ModelledAction):
 
     def _handlers(self) -> list[Handler]:
         """Return what is done about the events of this process."""
-        span = self._place.span
-        found = []
-        if callable(self.__on_exit):
-            found.append(self.__handler("process_exited", callback=self.__called_on_exit))
-        elif self.__on_exit is not None and not self.__ends_run():
-            children = models_of(entities_of(self.__on_exit))
-            found.append(
-                Handler.at(span, origin=self, event="process_exited", target=self, children=children)
-            )
+        handlers = []
+        if self.__on_exit is not None and not self.__ends_run():
+            handlers.append(self.__handler(ProcessExited, self.__on_exit))
         if self.__cached_output:
-            found += [
-                self.__handler("process_output", stream=stream, callback=self.__cache)
-                for stream in self._cached
-            ]
-        return found
+            handlers.append(self.__handler(ProcessIO, self.__cache))
+        return [model for handler in handlers for model in handler._to_models()]
 
-    def __handler(self, event: str, **values: Any) -> Handler:
-        return Handler.at(self._place.span, origin=self, event=event, target=self, **values)
-
-    def __called_on_exit(self, event: Any, context: LaunchContext) -> Any:
-        context.extend_locals({"event": event})
-        return self.__on_exit(event, context)
+    def __handler(self, event: type[Event], done: Any) -> OnActionEventBase:
+        handler = OnActionEventBase(
+            action_matcher=self, on_event=done, target_event_cls=event, target_action_cls=ExecuteLocal
+        )
+        handler._place = self._place
+        return handler
 
     def __cache(self, event: Any, _: LaunchContext) -> None:
-        self._cached["stdout" if event.from_stdout else "stderr"] += event.text
+        """Keep what the process has written."""
+        self.__written["stdout" if event.from_stdout else "stderr"] += event.text
+
+    def _observe(self, event: RunningProcessEvent) -> None:
+        """Take note of what has happened to the process; whoever delivers events calls this before."""
+        self._details = {
+            "action": self,
+            "name": event.process_name,
+            "cmd": event.cmd,
+            "cwd": event.cwd,
+            "env": event.env,
+            "pid": event.pid,
+        }
+        self._return_code = event.returncode if isinstance(event, ProcessExited) else None
 
     def __cached(self, stream: str) -> str:
         if not self.__cached_output:
             raise RuntimeError(f"the {stream} of a process is only kept with cached_output=True")
-        return self._cached[stream].decode(errors="replace")
+        return self.__written[stream].decode(errors="replace")
 
     def __ends_run(self) -> bool:
         """Return whether `on_exit` is nothing but the action that ends the run."""

@@ -6,9 +6,11 @@ import asyncio
 from inspect import iscoroutinefunction
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.building import model_of
 from orchestra.compat.launch.action import ModelledAction
-from orchestra.description.actions.register_event_handler import RegisterEventHandler
-from orchestra.description.handlers import Handler
+from orchestra.compat.launch.actions.opaque_function import OpaqueFunction
+from orchestra.compat.values import scalar
+from orchestra.description.actions.timer import Timer
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Coroutine, Iterable, Mapping
@@ -45,10 +47,11 @@ class OpaqueCoroutine(ModelledAction):
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
-        handler = Handler.at(span, origin=self, event="run_started", callback=self.__run, once=True)
-        return RegisterEventHandler.at(span, handlers=(handler,), **common)
+        during_the_run = OpaqueFunction(function=self.__run)
+        during_the_run._place = self._place
+        return Timer.at(span, period=scalar(0, span), children=(model_of(during_the_run),), **common)
 
-    def __run(self, _: Any, context: LaunchContext) -> None:
+    def __run(self, context: LaunchContext) -> None:
         """Run the coroutine to its end."""
         first = () if self.__ignore_context else (context,)
         asyncio.run(self.__coroutine(*first, *self.__args, **self.__kwargs))

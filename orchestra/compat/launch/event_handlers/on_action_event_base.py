@@ -9,7 +9,10 @@ from orchestra.compat.launch.event import Event
 from orchestra.compat.launch.event_handler import BaseEventHandler, entities_of, is_of_ours
 from orchestra.compat.launch.events.execution_complete import ExecutionComplete
 from orchestra.compat.launch.events.process.process_exited import ProcessExited
+from orchestra.compat.launch.events.process.process_io import ProcessIO
 from orchestra.compat.launch.events.process.process_started import ProcessStarted
+from orchestra.compat.launch.events.process.process_stderr import ProcessStderr
+from orchestra.compat.launch.events.process.process_stdout import ProcessStdout
 
 if TYPE_CHECKING:
     from orchestra.compat.launch.action import Action
@@ -17,12 +20,16 @@ if TYPE_CHECKING:
     from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
     from orchestra.description.handlers import Handler
 
-# What each event is in a plan.
-_EVENTS: Final[dict[type[Event], str]] = {
-    ExecutionComplete: "process_completed",
-    ProcessExited: "process_exited",
-    ProcessStarted: "process_started",
+# What each event is in a plan: names, and fields of the model.
+_EVENTS: Final[dict[type[Event], tuple[tuple[str, dict[str, str]], ...]]] = {
+    ExecutionComplete: (("process_completed", {}),),
+    ProcessExited: (("process_exited", {}),),
+    ProcessIO: (("process_output", {"stream": "stdout"}), ("process_output", {"stream": "stderr"})),
+    ProcessStarted: (("process_started", {}),),
+    ProcessStderr: (("process_output", {"stream": "stderr"}),),
+    ProcessStdout: (("process_output", {"stream": "stdout"}),),
 }
+_CUSTOM: Final[tuple[tuple[str, dict[str, str]], ...]] = (("custom", {}),)
 
 
 class OnActionEventBase(BaseEventHandler):
@@ -83,11 +90,13 @@ class OnActionEventBase(BaseEventHandler):
 
     def _to_models(self) -> tuple[Handler, ...]:
         known = is_of_ours(self, "matches")
-        event = _EVENTS.get(self.__target_event_cls, "custom") if known else "custom"
+        events = _EVENTS.get(self.__target_event_cls, _CUSTOM) if known else _CUSTOM
         done: dict[str, Any] = {"callback": self.handle}
         if self.__function is None and is_of_ours(self, "handle"):
             done = {"children": models_of(self.__entities)}
-        return (self._model(event, target=self.__action_matcher, **done),)
+        return tuple(
+            self._model(event, target=self.__action_matcher, **fields, **done) for event, fields in events
+        )
 
 
 def _check_target(target: Any, kind: type[Action]) -> None:
