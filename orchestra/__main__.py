@@ -8,6 +8,8 @@ TYPE_CHECKING = False  # `typing` itself costs more than this module
 if TYPE_CHECKING:
     from typing import BinaryIO
 
+    from orchestra.supervise.resolver import Answer
+
 _ONLY_SHOWING = {"--help", "--show-args", "--show-arguments", "--print", "--print-description"}
 _WITH_A_VALUE = {"--prefix", "--name"}  # of `run`
 
@@ -52,7 +54,7 @@ def _flags_of_run(words: list[str]) -> list[str]:
     return flags
 
 
-def _prepare(words: list[str], stream: BinaryIO) -> int:
+def _prepare(words: list[str], stream: BinaryIO) -> int | Answer:
     """Make the plan and write it to the stream. This is the resolver process, where heavy imports belong."""
     from orchestra.cli.main import prepare
 

@@ -14,7 +14,7 @@ from __future__ import annotations
 import os
 import sys
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from orchestra.cli import colour, launch_prefix
 from orchestra.errors import DescriptionError, RunError, UsageError
@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 OK, FAILED, MISTAKE, BUG = 0, 1, 2, 3
 INTERRUPTED, BROKEN_PIPE = 130, 141
+
+_ResultT = TypeVar("_ResultT")
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,11 +53,11 @@ class Telling:
         return cls(command, getattr(options, "format", "text"), given, getattr(options, "debug", False))
 
 
-def guarded(work: Callable[[], int], telling: Telling) -> int:
+def guarded(work: Callable[[], _ResultT], telling: Telling) -> _ResultT | int:
     """Do the work of one command and return its exit status, or that of the error it ended with."""
     _open_closed_streams()
     try:
-        status = work()
+        result = work()
         sys.stdout.flush()
     except DescriptionError as error:
         show_problems(error.problems, telling.problem_format, sys.stderr, command_line=telling.command_line)
@@ -81,7 +83,7 @@ def guarded(work: Callable[[], int], telling: Telling) -> int:
     except Exception as error:  # noqa: BLE001 - whatever else ends a command is a bug, and this is where it is shown
         _show_bug(error, debug=telling.debug)
         return BUG
-    return status
+    return result
 
 
 def show_problems(

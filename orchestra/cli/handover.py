@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import dataclasses
-import os
 from typing import TYPE_CHECKING
 
 from orchestra.cli.boundary import Telling, guarded
-from orchestra.cli.run_options import output_override, run_options
+from orchestra.cli.run_options import run_options
 from orchestra.supervise import document
 from orchestra.supervise.run import run as run_supervised
 
@@ -17,18 +15,17 @@ if TYPE_CHECKING:
     from typing import BinaryIO
 
     from orchestra.plan.model import Plan
+    from orchestra.supervise.resolver import Answer
 
 
 def hand_over(plan: Plan, options: Namespace, default_name: str, stream: BinaryIO) -> None:
     """Write the plan and how to run it to the supervisor's stream. Raises `UsageError`."""
-    output = output_override(options, os.environ)
-    if output is not None:
-        processes = tuple(dataclasses.replace(process, output=output) for process in plan.processes)
-        plan = dataclasses.replace(plan, processes=processes)
     stream.write(document.dumps(plan, run_options(options, default_name)))
 
 
-def supervised(command: str, prepare: Callable[[Namespace, BinaryIO], int], options: Namespace) -> int:
+def supervised(
+    command: str, prepare: Callable[[Namespace, BinaryIO], int | Answer], options: Namespace
+) -> int:
     """Run what `prepare` hands over: for a command line that `orchestra.__main__` did not know for a run."""
     return run_supervised(
         lambda stream: guarded(lambda: prepare(options, stream), Telling.of(command, options))

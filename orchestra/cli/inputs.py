@@ -8,12 +8,14 @@ import sys
 from typing import TYPE_CHECKING
 
 from orchestra.cli import boundary, launch_prefix
-from orchestra.errors import DescriptionError, Severity, UsageError
+from orchestra.errors import DescriptionError, Problems, Severity, UsageError
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from contextlib import ExitStack
 
     from orchestra.errors import Problem
+    from orchestra.pipeline import Launch
     from orchestra.plan.model import Plan
     from orchestra.resolve.inputs import Inputs
 
@@ -65,6 +67,23 @@ def plan_from(options: Namespace, *, launching: bool) -> Plan:
     if options.strict and plan.problems:
         raise DescriptionError(as_errors(plan.problems))
     return plan
+
+
+def launch_from(options: Namespace, lasting: ExitStack) -> Launch:
+    """Make the plan that is to be run; code of its launch files can be called until `lasting` closes.
+
+    Raises `UsageError` and `DescriptionError`, as `plan_from`.
+    """
+    from orchestra import pipeline  # noqa: PLC0415 - heavy, and `--help` does not need it
+
+    file, given = file_and_inputs(options)
+    problems = Problems()
+    launch = lasting.enter_context(pipeline.opened(file, given, problems))
+    if launch is None or problems.errors:
+        raise DescriptionError(problems.ordered)
+    if options.strict and launch.plan.problems:
+        raise DescriptionError(as_errors(launch.plan.problems))
+    return launch
 
 
 def warn(plan: Plan, options: Namespace) -> None:

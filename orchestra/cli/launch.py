@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -13,6 +14,8 @@ from orchestra.cli.problems.formats import FORMATS
 if TYPE_CHECKING:
     from argparse import Namespace
     from typing import BinaryIO
+
+    from orchestra.supervise.resolver import Answer
 
 
 def parser() -> CommandParser:
@@ -61,11 +64,18 @@ def run(options: Namespace) -> int:
     return supervised("launch", prepare, options)
 
 
-def prepare(options: Namespace, stream: BinaryIO) -> int:
-    """Make the plan and hand it to the supervisor; its warnings go to standard error."""
+def prepare(options: Namespace, stream: BinaryIO) -> int | Answer:
+    """Make the plan and hand it to the supervisor; its warnings go to standard error.
+
+    Where code of the launch files decides about something in the run, what is returned asks it.
+    """
     from orchestra.cli.handover import hand_over  # noqa: PLC0415 - heavy, and only a run needs it
 
-    plan = inputs.plan_from(options, launching=True)
-    inputs.warn(plan, options)
-    hand_over(plan, options, Path(plan.file).name.partition(".")[0], stream)
+    with ExitStack() as lasting:
+        launch = inputs.launch_from(options, lasting)
+        inputs.warn(launch.plan, options)
+        hand_over(launch.plan, options, Path(launch.plan.file).name.partition(".")[0], stream)
+        if launch.deferred:
+            lasting.pop_all()  # for as long as this process lives
+            return launch.answer
     return boundary.OK

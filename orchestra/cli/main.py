@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 from importlib import import_module
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 from orchestra.cli.boundary import Telling, guarded
 from orchestra.cli.commands import COMMANDS, overview
@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from typing import Any, BinaryIO
 
+    from orchestra.supervise.resolver import Answer
+
+_ResultT = TypeVar("_ResultT")
+
 
 def main(words: Sequence[str]) -> int:
     """Carry out the command line, without the program's name, and return the exit status."""
@@ -23,19 +27,20 @@ def main(words: Sequence[str]) -> int:
     return guarded(lambda: _dispatch(words), Telling(name if name in COMMANDS else ""))
 
 
-def prepare(words: Sequence[str], stream: BinaryIO) -> int:
+def prepare(words: Sequence[str], stream: BinaryIO) -> int | Answer:
     """Write the plan of `launch` or `run` to the stream; return 0, or the status of the error that was shown.
 
     This is what the resolver process of a run does.
     """
 
-    def act(module: Any, options: Namespace) -> int:  # noqa: ANN401 - the module of a command
-        return int(module.prepare(options, stream))
+    def act(module: Any, options: Namespace) -> int | Answer:  # noqa: ANN401 - the module of a command
+        prepared: int | Answer = module.prepare(options, stream)
+        return prepared
 
     return guarded(lambda: _carry_out(words[0], words[1:], act), Telling(words[0]))
 
 
-def _carry_out(name: str, words: Sequence[str], act: Callable[[Any, Namespace], int]) -> int:
+def _carry_out(name: str, words: Sequence[str], act: Callable[[Any, Namespace], _ResultT]) -> _ResultT | int:
     """Read the options of a command and act on them with its module, the only one of a command that is imported."""
     module = import_module(COMMANDS[name].module)
     try:
