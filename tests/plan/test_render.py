@@ -22,7 +22,21 @@ from orchestra.plan.model import (
     Ready,
     Skipped,
 )
-from orchestra.plan.reactions import LogAction, ShutdownAction, StartAction, Trigger, TriggerEvent
+from orchestra.plan.reactions import (
+    ChangeStateAction,
+    DeferredAction,
+    LoadAction,
+    LogAction,
+    RegisterAction,
+    ShutdownAction,
+    SignalAction,
+    StartAction,
+    StopAction,
+    Trigger,
+    TriggeredAction,
+    TriggerEvent,
+    UnregisterAction,
+)
 from orchestra.plan.render.formats import FORMATS
 from orchestra.values import Restart, Stop
 
@@ -48,7 +62,7 @@ _TALKER = Process(
     parameter_files=(ParameterFile("${run}/params/x.yaml", "/**: {}"),),
     remappings=(("chatter", "/chatter"), ("a", "b")),
     arguments=(),
-    output="screen",
+    output={"stdout": ("screen", "log"), "both": ("own_log",)},
     emulate_tty=None,
     stdin=None,
     restart=Restart("on-failure", 1.0, 30.0, 10.0, 3),
@@ -119,7 +133,7 @@ def test_a_process_in_full() -> None:
         "        files       ${run}/params/x.yaml\n"
         "        remaps      chatter -> /chatter\n"
         "                    a -> b\n"
-        "        output      screen\n"
+        "        output      stdout to screen and log, both to own_log\n"
         "        after       /clock is ready, within 20 s\n"
         "                    /other has exited\n"
         "        ready       at the first message on /robot1/chatter, within 5 s\n"
@@ -159,6 +173,20 @@ def test_a_node_more_changes_no_other_line() -> None:
     assert changed[2:] == ["+    /b  (process, two.yaml:3:5)", "+      command     echo '$HOME'"]
 
 
+_REACTIONS: tuple[tuple[TriggerEvent, TriggeredAction], ...] = (
+    (TriggerEvent("process_started"), LoadAction("/c", _at(7))),
+    (TriggerEvent("process_completed", "/a"), StopAction(("/a", "/b"), _at(7))),
+    (TriggerEvent("process_output", "/a", "stderr"), SignalAction(("/a",), "SIGUSR1", _at(7))),
+    (TriggerEvent("process_output", "/a"), RegisterAction("t1", _at(7))),
+    (
+        TriggerEvent("state_changed", "/a", transition="configure", goal_state="inactive"),
+        ChangeStateAction(("/a",), (1, 3), _at(7)),
+    ),
+    (TriggerEvent("shutdown"), UnregisterAction("t1", _at(7))),
+    (TriggerEvent("run_started"), DeferredAction(1, _at(7))),
+)
+
+
 def test_arguments_components_triggers_and_what_was_left_out() -> None:
     start, ended = TriggerEvent("run_started"), TriggerEvent("process_exited", "/a")
     plan = replace(
@@ -171,7 +199,20 @@ def test_arguments_components_triggers_and_what_was_left_out() -> None:
         ),
         components=(
             Component(
-                "camera", "/r", "image", "image::Camera", "/r/box", {"hz": 3}, (), _at(4), Provenance()
+                id="/r/camera",
+                name="camera",
+                namespace="/r",
+                package="image",
+                plugin="image::Camera",
+                container="/r/box",
+                process=None,
+                condition="started",
+                parameters={"hz": 3},
+                remappings=(("a", "b"),),
+                extra_arguments={"use_intra_process_comms": True},
+                lifecycle=None,
+                location=_at(4),
+                provenance=Provenance(),
             ),
         ),
         triggers=(
@@ -179,12 +220,16 @@ def test_arguments_components_triggers_and_what_was_left_out() -> None:
                 "t1", start, (LogAction("it's up", _at(5)), StartAction("/b", _at(5))), 2.5, False, _at(5)
             ),
             Trigger("t2", ended, (ShutdownAction("/a ended", _at(6)),), None, False, _at(6)),
-            Trigger("t3", ended, (), None, True, _at(6)),
+            Trigger("t3", ended, (DeferredAction(0, _at(6)),), None, True, _at(6)),
+            *(
+                Trigger(f"t{number}", event, (action,), None, False, _at(7), armed=False, once=True)
+                for number, (event, action) in enumerate(_REACTIONS, 4)
+            ),
         ),
         skipped=(Skipped("node", "gui", "if", "$(var gui)", "false", _at(8)),),
     )
     assert _text(plan) == (
-        "two.yaml: 1 component, 3 triggers\n"
+        "two.yaml: 1 component, 10 triggers\n"
         "\n"
         "arguments\n"
         "  world := 'big maze'  (default arena)\n"
@@ -193,12 +238,22 @@ def test_arguments_components_triggers_and_what_was_left_out() -> None:
         "  log   := /x/log\n"
         "\n"
         "components\n"
-        "  /r/camera: image/image::Camera in /r/box hz=3\n"
+        "  /r/camera: image/image::Camera in /r/box (not of this plan)"
+        " hz=3 use_intra_process_comms=true a->b\n"
         "\n"
         "triggers\n"
         '  2.5 s after the start of the run: log "it\'s up"; start /b  (two.yaml:5:5)\n'
         "  the end of /a: shut down, /a ended  (two.yaml:6:5)\n"
         "  the end of /a: decided when it happens  (two.yaml:6:5)\n"
+        "  the start of any process, once t4 is registered: the first time, load /c  (two.yaml:7:5)\n"
+        "  the last end of /a, once t5 is registered: the first time, stop /a /b  (two.yaml:7:5)\n"
+        "  output of /a on stderr, once t6 is registered: the first time, send SIGUSR1 to /a  (two.yaml:7:5)\n"
+        "  output of /a, once t7 is registered: the first time, register t1  (two.yaml:7:5)\n"
+        "  a change of state of /a by configure to inactive, once t8 is registered: the first time,"
+        " configure, activate /a  (two.yaml:7:5)\n"
+        "  the beginning of the end, once t9 is registered: the first time, unregister t1  (two.yaml:7:5)\n"
+        "  the start of the run, once t10 is registered: the first time, decided when it happens"
+        "  (two.yaml:7:5)\n"
         "\n"
         "skipped\n"
         "  node gui: if $(var gui), which is false  (two.yaml:8:5)\n"

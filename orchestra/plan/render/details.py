@@ -31,11 +31,12 @@ def process_details(process: Process) -> Iterator[str]:
     )
     yield from _labelled("files", [file.path for file in process.parameter_files])
     yield from _labelled("remaps", [f"{old} -> {new}" for old, new in process.remappings])
-    yield from _labelled("output", [process.output] if process.output else [])
+    yield from _labelled("output", [_output(process.output)] if process.output else [])
     yield from _labelled("after", map(_dependency, process.depends_on))
     yield from _labelled("ready", [_ready(process.ready)] if process.ready else [])
     yield from _labelled("restart", [_restart(process.restart)] if process.restart else [])
     yield from _labelled("stop", [_stop(process.stop)] if process.stop else [])
+    yield from _labelled("lifecycle", [process.lifecycle] if process.lifecycle else [])
     yield from _labelled("required", ["the run ends with it"] if process.required else [])
 
 
@@ -54,7 +55,15 @@ def _command(process: Process) -> str:
     return f"sh: {' '.join(process.command)}" if process.shell else shlex.join(process.command)
 
 
+def _output(output: str | dict[str, tuple[str, ...]]) -> str:
+    if isinstance(output, str):
+        return output
+    return ", ".join(f"{stream} to {' and '.join(places)}" for stream, places in output.items())
+
+
 def _environment(process: Process) -> Iterator[str]:
+    if not process.inherit_environment:
+        yield "nothing but"
     for name, value in process.environment.items():
         yield f"{name} unset" if value is None else f"{name}={shlex.quote(value)}"
 

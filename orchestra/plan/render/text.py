@@ -110,9 +110,12 @@ def _process(process: Process) -> Iterator[str]:
 
 
 def _component(component: Component) -> str:
-    name = "/".join(part for part in (component.namespace, component.name) if part) or component.plugin
-    parameters = "".join(f" {key}={scalar(value)}" for key, value in component.parameters.items())
-    return f"{name}: {component.package}/{component.plugin} in {component.container}{parameters}"
+    told = {**component.parameters, **component.extra_arguments}
+    values = "".join(f" {key}={scalar(value)}" for key, value in told.items())
+    remaps = "".join(f" {old}->{new}" for old, new in component.remappings)
+    elsewhere = "" if component.process is not None else " (not of this plan)"
+    place = f"in {component.container}{elsewhere}"
+    return f"{component.id}: {component.package}/{component.plugin} {place}{values}{remaps}"
 
 
 def _skipped(skipped: Skipped) -> str:

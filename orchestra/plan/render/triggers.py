@@ -4,26 +4,78 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.plan.reactions import LogAction, StartAction
+from orchestra.plan.reactions import (
+    ChangeStateAction,
+    DeferredAction,
+    LoadAction,
+    LogAction,
+    RegisterAction,
+    ShutdownAction,
+    SignalAction,
+    StartAction,
+    StopAction,
+    UnregisterAction,
+)
 
 if TYPE_CHECKING:
     from orchestra.plan.reactions import Trigger, TriggeredAction, TriggerEvent
+
+_TRANSITIONS = {1: "configure", 2: "clean up", 3: "activate", 4: "deactivate", 5: "shut down", 6: "shut down"}
 
 
 def trigger_line(trigger: Trigger) -> str:
     """Return the line."""
     delay = "" if trigger.delay is None else f"{trigger.delay:g} s after "
-    done = "decided when it happens" if trigger.deferred else "; ".join(map(_action, trigger.do))
-    return f"{delay}{_event(trigger.on)}: {done}  ({trigger.location})"
+    once = "the first time, " if trigger.once else ""
+    armed = "" if trigger.armed else f", once {trigger.id} is registered"
+    done = "; ".join(map(_action, trigger.do)) or "nothing"
+    return f"{delay}{_event(trigger.on)}{armed}: {once}{done}  ({trigger.location})"
 
 
 def _event(event: TriggerEvent) -> str:
-    return "the start of the run" if event.event == "run_started" else f"the end of {event.target}"
+    target = event.target or "any process"
+    match event.event:
+        case "run_started":
+            return "the start of the run"
+        case "shutdown":
+            return "the beginning of the end"
+        case "process_started":
+            return f"the start of {target}"
+        case "process_exited":
+            return f"the end of {target}"
+        case "process_completed":
+            return f"the last end of {target}"
+        case "process_output":
+            return f"output of {target}{f' on {event.stream}' if event.stream else ''}"
+        case "state_changed":
+            return f"a change of state of {target}{_narrowed(event)}"
 
 
-def _action(action: TriggeredAction) -> str:
-    if isinstance(action, LogAction):
-        return f"log {action.message!r}"
-    if isinstance(action, StartAction):
-        return f"start {action.process}"
-    return f"shut down, {action.reason}"
+def _narrowed(event: TriggerEvent) -> str:
+    parts = {"by": event.transition, "from": event.start_state, "to": event.goal_state}
+    return "".join(f" {word} {value}" for word, value in parts.items() if value is not None)
+
+
+def _action(action: TriggeredAction) -> str:  # noqa: C901, PLR0911 - one line per action
+    match action:
+        case LogAction(message):
+            return f"log {message!r}"
+        case StartAction(process):
+            return f"start {process}"
+        case LoadAction(component):
+            return f"load {component}"
+        case StopAction(processes):
+            return f"stop {' '.join(processes)}"
+        case SignalAction(processes, signal):
+            return f"send {signal} to {' '.join(processes)}"
+        case ChangeStateAction(processes, transitions):
+            steps = ", ".join(_TRANSITIONS.get(step, str(step)) for step in transitions)
+            return f"{steps} {' '.join(processes)}"
+        case RegisterAction(trigger):
+            return f"register {trigger}"
+        case UnregisterAction(trigger):
+            return f"unregister {trigger}"
+        case ShutdownAction(reason):
+            return f"shut down, {reason}"
+        case DeferredAction():
+            return "decided when it happens"
