@@ -98,7 +98,7 @@ class _Builder:
             return None
         at = item.keys_at[name]
         if model_of(spelled(name)) is None and exposes_action(name):
-            return exposed_action(name, content, at, self.reader)
+            return exposed_action(name, content, at, self.reader.problems, self.reader.included_from)
         model, certain = self._model(name, at)
         if model is None:
             return None

@@ -13,7 +13,6 @@ if TYPE_CHECKING:
     from orchestra.description.entity import Action
     from orchestra.description.text import Call, Part
     from orchestra.errors import Problems
-    from orchestra.load.reader import Reader
     from orchestra.location import Span
 
 # All imports inside functions: they bring in what Python launch files import, which few files need.
@@ -28,7 +27,13 @@ def exposes_action(name: str) -> bool:
     return parser.exposed_action(name) is not None
 
 
-def exposed_action(name: str, content: Any, at: Span, reader: Reader) -> Action | None:  # noqa: ANN401 - a tree
+def exposed_action(
+    name: str,
+    content: Any,  # noqa: ANN401 - a tree
+    at: Span,
+    problems: Problems,
+    included_from: tuple[Span, ...],
+) -> Action | None:
     """Return the action that its own code makes of what stands in a file; None where that fails, which is reported."""
     from orchestra.compat import faults  # noqa: PLC0415
     from orchestra.compat.building import model_of  # noqa: PLC0415
@@ -38,7 +43,7 @@ def exposed_action(name: str, content: Any, at: Span, reader: Reader) -> Action 
     try:
         return model_of(Parser.parse_action(entity_of(name, content, at)))
     except (Exception, SystemExit) as error:  # noqa: BLE001 - the boundary of user code
-        faults.report(error, reader.problems, reader.included_from, at)
+        faults.report(error, problems, included_from, at)
         return None
 
 

@@ -99,7 +99,10 @@ class _Reader:
         elif not self.lost:
             self.fault(start, start + 2, "this substitution is not closed: a ')' is missing")
         call = Call(name, tuple(arguments), self.spans(start, self.at))
-        if name not in SIGNATURES and self.faults == before and (made := self.exposed(call)) is not None:
+        known = len(self.problems)
+        made = exposed_part(call, self.problems) if name not in SIGNATURES and self.faults == before else None
+        if made is not None:
+            self.faults += len(self.problems) > known
             return made
         if name_span and self.known(name, name_span) and self.faults == before:
             self.count(call, start, first, last)
@@ -193,12 +196,6 @@ class _Reader:
     ) -> Template:
         """Return the template of a stretch of text; `before` is the number of faults found ahead of it."""
         return Template(parts, self.text[start:end], self.spans(start, end), quoted, self.faults > before)
-
-    def exposed(self, call: Call) -> tuple[Part, ...] | None:
-        """Return what the code of a third party makes of a substitution that is not one of the language."""
-        made = exposed_part(call, self.problems)
-        self.faults += made == ()
-        return made
 
     def known(self, name: str, span: Span) -> bool:
         """Tell whether a substitution has this name, and report it where none has."""
