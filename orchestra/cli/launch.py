@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import sys
 from contextlib import ExitStack
+from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from orchestra.cli import boundary, inputs, run_options
 from orchestra.cli.parser import CommandParser
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from argparse import Namespace
     from typing import BinaryIO
 
+    from orchestra.pipeline import Launch
     from orchestra.supervise.resolver import Answer
 
 
@@ -76,6 +78,11 @@ def prepare(options: Namespace, stream: BinaryIO) -> int | Answer:
         inputs.warn(launch.plan, options)
         hand_over(launch.plan, options, Path(launch.plan.file).name.partition(".")[0], stream)
         if launch.deferred:
-            lasting.pop_all()  # for as long as this process lives
-            return launch.answer
+            return partial(_answer, lasting.pop_all(), launch)
     return boundary.OK
+
+
+def _answer(lasting: ExitStack, launch: Launch, question: dict[str, Any]) -> dict[str, Any]:
+    """Ask code of the launch files, which can be called as long as somebody holds `lasting`."""
+    del lasting
+    return launch.answer(question)
