@@ -19,7 +19,12 @@ if TYPE_CHECKING:
 
 
 class PerformedSubstitution(Substitution):
-    """A substitution with a place of its own; it is known what it is made of."""
+    """A substitution with a place of its own; it is known what it is made of.
+
+    One `_of_the_moment` reads what only the event knows that is being handled.
+    """
+
+    _of_the_moment = False
 
     def __init__(self) -> None:
         self._place = here(self)

@@ -29,7 +29,6 @@ class Command(ParsedSubstitution):
         super().__init__()
         self.__command = normalized(command)
         self.__on_stderr = normalized(on_stderr)
-        self.__is_default = on_stderr == "fail"
 
     @property
     def command(self) -> list[Substitution]:
@@ -46,4 +45,4 @@ class Command(ParsedSubstitution):
         return f"Command({described(self.command)})"
 
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
-        return (self.command,) if self.__is_default else (self.command, self.on_stderr)
+        return (self.command,) if described(self.on_stderr) == "'fail'" else (self.command, self.on_stderr)

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 class LocalSubstitution(PerformedSubstitution):
     """A Python expression below `context.locals`, as `event.reason`. Raises `TypeError` for anything but a text."""
 
+    _of_the_moment = True
+
     def __init__(self, expression: str, description: str | None = None) -> None:
         super().__init__()
         ensure_argument_type(expression, str, "expression", "LocalSubstitution")
