@@ -1,94 +1,88 @@
-"""Waits for first messages on topics. The graph is looked at ten times a second, and only while something is awaited.
+"""Carries out orders. The graph is looked at ten times a second, and only while an order needs it.
 
-rclpy shows no graph event, so polling it is; one look costs some microseconds. A subscription must offer no more than a
-publisher does to be matched (REP 2004's QoS compatibility rules), so there is one for every combination of reliability
-and durability that some publisher offers: whichever publishes first is heard.
+rclpy shows no graph event, so polling it is; one look costs some microseconds. Orders are read by a thread of their
+own, which hands them to the executor, so that none waits for the next look.
 """
 
 from __future__ import annotations
 
 import json
 import os
-import select
-from typing import TYPE_CHECKING
+import threading
+from functools import partial
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
 
 import rclpy
 from rclpy.executors import SingleThreadedExecutor
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rclpy.signals import SignalHandlerOptions
 
-from orchestra.ros.interfaces import UnknownMessageTypeError, message_type
-
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Iterator
 
     from rclpy.node import Node
-    from rclpy.subscription import Subscription
+
+    from orchestra.ros.observer.order import Order
 
 _LOOK_EVERY = 0.1
+# What `do` says, the module and its class: who only waits for a message need not load the others.
+_KINDS = {
+    "watch": ("first_message", "FirstMessage"),
+    "transitions": ("transitions", "Transitions"),
+    "change_state": ("state_change", "StateChange"),
+    "load": ("component", "ComponentLoad"),
+}
 
 
-class Wait:
-    """Waits for the first message on one topic; `answer` is called with None when it came, else with what is wrong."""
+class Desk:
+    """The orders at work. `answers` is the descriptor that what is said to them is written to."""
 
-    def __init__(self, node: Node, topic: str, answer: Callable[[str | None], None]) -> None:
+    def __init__(self, node: Node, answers: int) -> None:
         self._node = node
-        self._topic = topic
-        self._answer = answer
-        self._subscriptions: dict[tuple[str, ReliabilityPolicy, DurabilityPolicy], Subscription] = {}
-        self.over = False
+        self._answers = answers
+        self._orders: dict[str, Order] = {}
+        self._over: set[str] = set()
+        self.closed = False
+
+    @property
+    def looks(self) -> bool:
+        """Whether an order needs the graph to be looked at."""
+        return any(order.looks for order in self._orders.values())
+
+    def take(self, request: dict[str, Any]) -> None:
+        """Begin with an order, or forget one."""
+        if "forget" in request:
+            self._drop(request["forget"])
+            return
+        name = request["id"]
+        module, kind = _KINDS[request["do"]]
+        make = getattr(import_module(f"orchestra.ros.observer.{module}"), kind)
+        self._over.discard(name)
+        self._drop(name)
+        self._orders[name] = make(self._node, request, partial(self._say, name))
+        self.look()
 
     def look(self) -> None:
-        """Subscribe to what publishers offer by now."""
-        for publisher in self._node.get_publishers_info_by_topic(self._topic):
-            profile = publisher.qos_profile
-            key = (publisher.topic_type, profile.reliability, profile.durability)
-            if key not in self._subscriptions and not self.over:
-                self._subscribe(key)
+        """Look at the graph for all who need it, and clear away what is over."""
+        for order in [*self._orders.values()]:
+            if order.looks:
+                order.look()
+        while self._over:
+            self._drop(self._over.pop())
 
     def close(self) -> None:
-        """Give the subscriptions back."""
-        self.over = True
-        for subscription in self._subscriptions.values():
-            self._node.destroy_subscription(subscription)
-        self._subscriptions.clear()
+        """There will be no more orders."""
+        self.closed = True
 
-    def _subscribe(self, key: tuple[str, ReliabilityPolicy, DurabilityPolicy]) -> None:
-        name, reliability, durability = key
-        try:
-            kind = message_type(name)
-        except (UnknownMessageTypeError, ImportError) as error:
-            self._finish(f"{self._topic} carries {name}, which cannot be loaded: {error}")
-            return
-        profile = QoSProfile(
-            history=HistoryPolicy.KEEP_LAST, depth=1, reliability=reliability, durability=durability
-        )
-        self._subscriptions[key] = self._node.create_subscription(
-            kind, self._topic, lambda _data: self._finish(None), profile, raw=True
-        )
+    def _drop(self, name: str) -> None:
+        order = self._orders.pop(name, None)
+        if order:
+            order.close()
 
-    def _finish(self, problem: str | None) -> None:
-        if not self.over:
-            self.over = True
-            self._answer(problem)
-
-
-class Requests:
-    """Reads requests, one JSON object per line."""
-
-    def __init__(self, descriptor: int) -> None:
-        self._descriptor = descriptor
-        self._partial = b""
-        self.ended = False
-
-    def read(self, timeout: float | None) -> list[dict[str, str]]:
-        """Return what has come; wait at most `timeout` seconds for something, None for as long as it takes."""
-        if not select.select([self._descriptor], [], [], timeout)[0]:
-            return []
-        data = os.read(self._descriptor, 65536)
-        self.ended = not data
-        *lines, self._partial = (self._partial + data).split(b"\n")
-        return [json.loads(line) for line in lines]
+    def _say(self, name: str, word: str, **facts: Any) -> None:  # noqa: ANN401 - JSON
+        if word in ("done", "impossible"):
+            self._over.add(name)
+        os.write(self._answers, (json.dumps({"id": name, "say": word, **facts}) + "\n").encode())
 
 
 def observe(requests: int, answers: int) -> None:
@@ -104,34 +98,27 @@ def observe(requests: int, answers: int) -> None:
         )
         executor = SingleThreadedExecutor()
         executor.add_node(node)
-        _serve(Requests(requests), answers, node, executor)
+        _serve(requests, Desk(node, answers), executor)
         executor.shutdown()
         node.destroy_node()
     finally:
         rclpy.try_shutdown()
 
 
-def _serve(requests: Requests, answers: int, node: Node, executor: SingleThreadedExecutor) -> None:
-    waits: dict[str, Wait] = {}
-    while not requests.ended:
-        for request in requests.read(0.0 if waits else None):
-            _take(request, waits, node, answers)
-        for wait in waits.values():
-            wait.look()
-        if waits:
-            executor.spin_once(timeout_sec=_LOOK_EVERY)
-        for name in [name for name, wait in waits.items() if wait.over]:
-            waits.pop(name).close()
+def _serve(requests: int, desk: Desk, executor: SingleThreadedExecutor) -> None:
+    threading.Thread(target=_read, args=(requests, desk, executor), daemon=True).start()
+    while not desk.closed:
+        executor.spin_once(timeout_sec=_LOOK_EVERY if desk.looks else None)
+        desk.look()
 
 
-def _take(request: dict[str, str], waits: dict[str, Wait], node: Node, answers: int) -> None:
-    if "watch" in request:
-        name = request["watch"]
-        waits[name] = Wait(node, request["topic"], lambda problem: _tell(answers, name, problem))
-    elif request["forget"] in waits:
-        waits.pop(request["forget"]).close()
+def _read(requests: int, desk: Desk, executor: SingleThreadedExecutor) -> None:
+    """Hand each order to the executor's thread."""
+    for line in _lines(requests):
+        executor.create_task(desk.take, json.loads(line))
+    executor.create_task(desk.close)
 
 
-def _tell(answers: int, name: str, problem: str | None) -> None:
-    message = {"seen": name} if problem is None else {"impossible": name, "reason": problem}
-    os.write(answers, (json.dumps(message) + "\n").encode())
+def _lines(descriptor: int) -> Iterator[bytes]:
+    with os.fdopen(descriptor, "rb", closefd=False) as stream:
+        yield from stream

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from orchestra.plan.model import Process
 
-DOMAIN = {"ROS_DOMAIN_ID": "62"}
+DOMAIN = {"ROS_DOMAIN_ID": "30"}
 
 
 def publisher(*words: str, **changes: object) -> Process:
@@ -52,7 +52,7 @@ def test_a_publisher_that_is_silent_is_not_ready(tmp_path: Path) -> None:
 
 
 def test_a_node_in_another_domain_is_seen_there(tmp_path: Path) -> None:
-    there: dict[str, str | None] = {"ROS_DOMAIN_ID": "63"}
+    there: dict[str, str | None] = {"ROS_DOMAIN_ID": "31"}
     node = publisher(
         "/chat,RELIABLE,VOLATILE,0", ready=ready_when(message="/chat", timeout=60.0), environment=there
     )
@@ -84,7 +84,7 @@ def observer() -> Iterator[subprocess.Popen[str]]:
 
 
 def test_it_ends_with_its_input(observer: subprocess.Popen[str]) -> None:
-    ask(observer, {"watch": "a", "topic": "/never"})
+    ask(observer, {"id": "a", "do": "watch", "topic": "/never"})
     assert observer.stdin
     observer.stdin.close()
     assert observer.wait(30) == 0
@@ -96,16 +96,17 @@ def test_it_answers_each_wait_once_and_forgets_what_it_is_told_to(observer: subp
     command = [sys.executable, str(PROCESSES / "publisher.py"), *offered]
     ask(
         observer,
-        {"watch": "no", "topic": "/a"},
+        {"id": "no", "do": "watch", "topic": "/a"},
         {"forget": "no"},
-        {"watch": "a", "topic": "/a"},
-        {"watch": "b", "topic": "/b"},
+        {"id": "a", "do": "watch", "topic": "/a"},
+        {"id": "b", "do": "watch", "topic": "/b"},
     )
     with subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL) as node:
         assert observer.stdout
         answers = [json.loads(observer.stdout.readline()) for _ in range(2)]
         node.terminate()
-    assert sorted(answer["seen"] for answer in answers) == ["a", "b"]
+    assert sorted(answer["id"] for answer in answers) == ["a", "b"]
+    assert {answer["say"] for answer in answers} == {"done"}
 
 
 def ask(observer: subprocess.Popen[str], *requests: dict[str, str]) -> None:

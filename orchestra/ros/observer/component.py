@@ -1,0 +1,107 @@
+"""Loads a component into a container."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any
+
+from rcl_interfaces.msg import ParameterType, ParameterValue
+from rcl_interfaces.msg import Parameter as ParameterMessage
+from rcl_interfaces.srv import ListParameters
+from rclpy.parameter import Parameter
+
+from orchestra.ros.interfaces import UnavailableServiceTypeError, load_node_type
+from orchestra.ros.observer.service import Service
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from rclpy.node import Node
+
+    from orchestra.ros.observer.order import Request, Say
+
+# A container without parameter services is not asked for its parameters first; found out after this time, in seconds.
+_INTRODUCED_WITHIN = 2.0
+
+
+class ComponentLoad:
+    """`container` is the full name of the container's node, `component` the fields of the request.
+
+    A response that comes before the container has discovered our reader is lost, and a component must not be loaded
+    twice. So the container is asked something harmless first: its answer shows that it knows our readers, which
+    discovery tells of in the order in which they were made.
+    """
+
+    looks = True
+
+    def __init__(self, node: Node, request: Request, say: Say) -> None:
+        self._say = say
+        self._fields: Mapping[str, Any] = request["component"]
+        self._services: list[Service] = []
+        self._there_since: float | None = None
+        self._introduced = False
+        self._begun = False
+        container = request["container"]
+        try:
+            self._kind = load_node_type()
+        except UnavailableServiceTypeError as error:
+            self.looks = False
+            say("impossible", reason=str(error))
+            return
+        self._load = Service(node, self._kind, f"{container}/_container/load_node")
+        self._parameters = Service(node, ListParameters, f"{container}/list_parameters")
+        self._services = [self._load, self._parameters]
+
+    def look(self) -> None:
+        """Begin as soon as the container takes orders."""
+        if self._begun:
+            return
+        if self._introduced:
+            self._begin()
+        elif self._there_since is None:
+            self._greet()
+        elif not self._parameters.ready and time.monotonic() > self._there_since + _INTRODUCED_WITHIN:
+            self._introduced = True
+        else:
+            self._parameters.look()
+            self._greet()
+
+    def close(self) -> None:
+        """Give the clients back."""
+        for service in self._services:
+            service.close()
+
+    def _greet(self) -> None:
+        if self._there_since is None and self._load.ready:
+            self._there_since = time.monotonic()
+            self._say("asking")
+        if self._there_since is not None and self._parameters.ready and not self._parameters.asked:
+            self._parameters.ask(ListParameters.Request(), self._greeted, repeat=True)
+
+    def _greeted(self, _response: object) -> None:
+        self._introduced = True
+        self._begin()
+
+    def _begin(self) -> None:
+        if self._begun:
+            return
+        self._begun = True
+        request = self._kind.Request()
+        for name, value in self._fields.items():
+            listed = name in ("parameters", "extra_arguments")
+            setattr(request, name, [_parameter(*item) for item in value.items()] if listed else value)
+        self._load.ask(request, self._answered)
+
+    def _answered(self, response: Any) -> None:  # noqa: ANN401 - of an untyped package
+        if response.success:
+            self._say("done", node=response.full_node_name, unique_id=response.unique_id)
+        else:
+            self._say("impossible", reason=response.error_message or "the container gives no reason")
+
+
+def _parameter(name: str, value: Any) -> ParameterMessage:  # noqa: ANN401 - a value of any of ROS's types
+    if value == []:  # of no type that anybody could tell: as texts, since most lists are
+        return ParameterMessage(
+            name=name, value=ParameterValue(type=ParameterType.PARAMETER_STRING_ARRAY, string_array_value=[])
+        )
+    return Parameter(name, value=value).to_parameter_msg()

@@ -1,0 +1,66 @@
+"""Takes a lifecycle node through one transition.
+
+Its state is asked for first. When that answer has come, the node has discovered every reader that we made before, the
+one for its transition events included: discovery tells of readers in the order in which they were made. So no event of
+the transition is lost. At the end the state is asked for again, since a response says no more than yes or no.
+"""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TYPE_CHECKING, Any
+
+from lifecycle_msgs.srv import ChangeState, GetState
+
+from orchestra.ros.observer.service import Service
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+    from orchestra.ros.observer.order import Request, Say
+
+
+class StateChange:
+    """`node` is the full name of the node, `transition` an id of lifecycle_msgs/msg/Transition."""
+
+    looks = True
+
+    def __init__(self, node: Node, request: Request, say: Say) -> None:
+        self._say = say
+        self._transition: int = request["transition"]
+        self._change = Service(node, ChangeState, f"{request['node']}/change_state")
+        self._state = Service(node, GetState, f"{request['node']}/get_state")
+        self._begun = False
+
+    def look(self) -> None:
+        """Begin as soon as the node is there."""
+        self._state.look()
+        if not self._begun and self._change.ready and self._state.ready:
+            self._begun = True
+            self._say("asking")
+            self._ask_state(self._move)
+
+    def close(self) -> None:
+        """Give the clients back."""
+        self._change.close()
+        self._state.close()
+
+    def _ask_state(self, answered: Any) -> None:  # noqa: ANN401 - takes a response of an untyped package
+        self._state.ask(GetState.Request(), answered, repeat=True)
+
+    def _move(self, before: Any) -> None:  # noqa: ANN401 - as above
+        request = ChangeState.Request()
+        request.transition.id = self._transition
+        self._change.ask(request, partial(self._moved, before.current_state.label))
+
+    def _moved(self, before: str, response: Any) -> None:  # noqa: ANN401 - as above
+        self._ask_state(partial(self._finish, before, success=response.success))
+
+    def _finish(self, before: str, after: Any, *, success: bool) -> None:  # noqa: ANN401 - as above
+        state = after.current_state.label
+        if success:
+            self._say("done", state=state)
+        elif state == before:
+            self._say("impossible", reason=f"the node refused it, or failed, and is still {state}")
+        else:
+            self._say("impossible", reason=f"it failed; the node was {before} and is {state}")

@@ -1,0 +1,69 @@
+"""A lifecycle node: lifecycle_node.py NAME [WORD ...]
+
+fail=TRANSITION     this transition (configure, activate, ...) fails
+error=TRANSITION    ... raises, so that the node goes through error processing
+die=TRANSITION      ... ends the process with 7
+hang=TRANSITION     ... never comes to an end
+silent              no lifecycle node at all, only a process that runs
+"""
+
+import os
+import signal
+import sys
+
+import rclpy
+from lifecycle_msgs.msg import State as StateMessage
+from rclpy.lifecycle import LifecycleNode, State, TransitionCallbackReturn
+from rclpy.signals import SignalHandlerOptions
+
+GOOD, BAD = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE
+
+
+class Node(LifecycleNode):
+    def __init__(self, name: str, manners: dict[str, str]) -> None:
+        self.manners = manners
+        super().__init__(name)
+
+    def pass_through(self, transition: str) -> TransitionCallbackReturn:
+        print(transition, flush=True)
+        match self.manners.get(transition):
+            case "fail":
+                return BAD
+            case "error":
+                raise RuntimeError(f"no way to {transition}")
+            case "die":
+                os._exit(7)
+            case "hang":
+                signal.pause()
+        return GOOD
+
+    def on_configure(self, state: State) -> TransitionCallbackReturn:
+        assert state.state_id == StateMessage.PRIMARY_STATE_UNCONFIGURED
+        return self.pass_through("configure")
+
+    def on_activate(self, state: State) -> TransitionCallbackReturn:
+        super().on_activate(state)
+        return self.pass_through("activate")
+
+    def on_deactivate(self, state: State) -> TransitionCallbackReturn:
+        super().on_deactivate(state)
+        return self.pass_through("deactivate")
+
+    def on_cleanup(self, _state: State) -> TransitionCallbackReturn:
+        return self.pass_through("cleanup")
+
+
+def main() -> None:
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    name, *words = sys.argv[1:]
+    if words == ["silent"]:
+        print("up", flush=True)
+        signal.pause()
+    rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
+    node = Node(name, {transition: manner for manner, _, transition in (word.partition("=") for word in words)})
+    print("up", flush=True)
+    rclpy.spin(node)
+
+
+main()

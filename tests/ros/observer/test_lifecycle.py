@@ -1,0 +1,161 @@
+"""Lifecycle nodes of a run, with real ones."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from typing import TYPE_CHECKING, Any
+
+from orchestra.plan.reactions import ChangeStateAction, TriggerEvent
+from orchestra.supervise.options import RunOptions
+from orchestra.values import Restart
+from tests.supervise.plans import (
+    HERE,
+    PROCESSES,
+    finished,
+    launched,
+    log,
+    plan,
+    process,
+    shutdown,
+    when,
+    when_ended,
+)
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from orchestra.plan.model import Process
+    from orchestra.plan.reactions import Trigger
+
+DOMAIN = {"ROS_DOMAIN_ID": "32", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+CONFIGURE, ACTIVATE, DEACTIVATE = 1, 3, 4
+
+
+def node(*words: str, name: str = "managed", **changes: Any) -> Process:
+    command = (sys.executable, str(PROCESSES / "lifecycle_node.py"), name, *words)
+    fields = {"kind": "lifecycle_node", "name": name, "namespace": "/", "command": command, **changes}
+    return process(f"/{name}", **fields)
+
+
+def change(*transitions: int, target: str = "/managed") -> ChangeStateAction:
+    return ChangeStateAction((target,), transitions, HERE)
+
+
+def when_state(goal: str, *actions: Any, **changes: Any) -> Trigger:
+    return when(TriggerEvent("state_changed", "/managed", goal_state=goal), *actions, **changes)
+
+
+def at_start(*actions: Any) -> Trigger:
+    return when(TriggerEvent("run_started"), *actions)
+
+
+def test_a_node_is_brought_to_active(tmp_path: Path) -> None:
+    triggers = (when_state("active", shutdown("it is active")),)
+    run = finished(tmp_path, plan(node(lifecycle="active"), triggers=triggers), environment=DOMAIN)
+    assert run.popen.returncode == 0, run.stderr
+    assert run.log("managed").splitlines()[:3] == ["up", "configure", "activate"]
+    moves = [
+        (e.data["start_state"], e.data["goal_state"], e.data["transition"]) for e in run.of_kind("state_changed")
+    ]
+    assert moves == [
+        ("unconfigured", "configuring", "configure"),
+        ("configuring", "inactive", "transition_success"),
+        ("inactive", "activating", "activate"),
+        ("activating", "active", "transition_success"),
+    ]
+    assert "shut down: it is active" in run.stderr
+
+
+def test_the_usual_pattern_configure_then_activate_on_inactive(tmp_path: Path) -> None:
+    """The order to configure stands before the process that it is for has been started."""
+    triggers = (
+        at_start(change(CONFIGURE)),
+        when(
+            TriggerEvent("state_changed", "/managed", start_state="configuring", goal_state="inactive"),
+            change(ACTIVATE),
+        ),
+        when_state("active", change(DEACTIVATE), once=True),
+        when(
+            TriggerEvent("state_changed", None, start_state="deactivating", goal_state="inactive"),
+            shutdown("done"),
+        ),
+    )
+    run = finished(tmp_path, plan(node(), triggers=triggers), environment=DOMAIN)
+    assert run.popen.returncode == 0, run.stderr
+    assert [e.data["state"] for e in run.of_kind("transition_done")][:2] == ["inactive", "active"]
+
+
+def test_transitions_of_one_order_follow_each_other(tmp_path: Path) -> None:
+    triggers = (at_start(change(CONFIGURE, ACTIVATE, DEACTIVATE)),)
+    with launched(tmp_path, plan(node(), triggers=triggers), environment=DOMAIN) as run:
+        run.await_event("transition_done", "/managed", count=3)
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+        assert [e.data["state"] for e in run.of_kind("transition_done")] == ["inactive", "active", "inactive"]
+
+
+def test_a_transition_that_fails_ends_its_order_and_is_told(tmp_path: Path) -> None:
+    with launched(tmp_path, plan(node("fail=configure", lifecycle="active")), environment=DOMAIN) as run:
+        event = run.await_event("transition_failed", "/managed")
+        assert event.data["reason"] == "the node refused it, or failed, and is still unconfigured"
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+        assert "activate" not in run.log("managed")
+        assert "error: managed did not configure: the node refused it" in run.stderr
+        assert run.stderr.splitlines()[-1].endswith(
+            "managed did not configure: the node refused it, or failed, and is still unconfigured"
+        )
+
+
+def test_a_transition_that_makes_no_sense_is_told(tmp_path: Path) -> None:
+    triggers = (at_start(change(ACTIVATE)),)
+    with launched(tmp_path, plan(node(), triggers=triggers), environment=DOMAIN) as run:
+        event = run.await_event("transition_failed", "/managed")
+        assert event.data["transition"] == "activate"
+        run.send(signal.SIGINT)
+        run.wait()
+
+
+def test_a_node_that_dies_meanwhile_ends_the_order(tmp_path: Path) -> None:
+    run = finished(tmp_path, plan(node("die=configure", lifecycle="active")), environment=DOMAIN)
+    (event,) = run.of_kind("transition_failed")
+    assert event.data["reason"] == "managed has ended (exit code 7)"
+    assert "managed did not configure: managed has ended (exit code 7)" in run.stderr.splitlines()[-1]
+
+
+def test_a_node_that_starts_again_is_brought_to_active_again(tmp_path: Path) -> None:
+    again = node("die=activate", lifecycle="active", restart=Restart("always", budget=1))
+    run = finished(tmp_path, plan(again), environment=DOMAIN)
+    assert [e.data["state"] for e in run.of_kind("transition_done")] == ["inactive", "inactive"]
+    assert len(run.of_kind("transition_failed")) == 2
+
+
+def test_a_service_that_never_appears_is_an_error_with_a_cause(tmp_path: Path) -> None:
+    options = RunOptions(service_timeout=2.0, fail_on_any=True)
+    silent = node("silent", lifecycle="active")
+    with launched(tmp_path, plan(silent), options, environment=DOMAIN) as run:
+        event = run.await_event("transition_failed", "/managed")
+        assert event.data["reason"] == "there was no service /managed/change_state within 2 s"
+        run.send(signal.SIGTERM)
+        assert run.wait() == 143
+
+
+def test_a_node_that_hangs_is_an_error_and_holds_up_nobody(tmp_path: Path) -> None:
+    options = RunOptions(answer_timeout=4.0)
+    both = (node("hang=configure", lifecycle="active"), node(name="other", lifecycle="active"))
+    with launched(tmp_path, plan(*both), options, environment=DOMAIN) as run:
+        run.await_event("transition_done", "/other", count=2)
+        event = run.await_event("transition_failed", "/managed")
+        assert event.data["reason"] == "/managed/change_state did not answer within 4 s"
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+
+
+def test_an_order_for_a_node_that_will_not_come_fails(tmp_path: Path) -> None:
+    nobody = node(command=("/no/such/program",))
+    triggers = (at_start(change(CONFIGURE)), when_ended("/managed", log("it is over")))
+    run = finished(tmp_path, plan(nobody, triggers=triggers), environment=DOMAIN)
+    (event,) = run.of_kind("transition_failed")
+    assert "could not be started" in event.data["reason"]
+    assert "it is over" in run.stderr
