@@ -2,18 +2,17 @@
 
 from __future__ import annotations
 
+import os
 import re
+import sys
 from typing import TYPE_CHECKING
 
 from orchestra.errors import UsageError
+from orchestra.logs.outputs import OVERRIDE, forced_output
 from orchestra.supervise.options import RunOptions
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
-    from collections.abc import Mapping
-
-OVERRIDE_OUTPUT = "OVERRIDE_LAUNCH_PROCESS_OUTPUT"
-_OUTPUTS = ("log", "screen", "both", "own_log", "full")
 
 
 def add_to(parser: ArgumentParser) -> None:
@@ -29,9 +28,13 @@ def add_to(parser: ArgumentParser) -> None:
         *("-a", "--show-all-subprocesses-output"),
         dest="show_all",
         action="store_true",
-        help=f"show the output of every process, as {OVERRIDE_OUTPUT}=both",
+        help=f"show the output of every process, as {OVERRIDE}=both",
     )
-    parser.add_argument("-d", "--debug", action="store_true", help="show the traceback of a bug in Orchestra")
+    parser.add_argument(
+        *("-d", "--debug"),
+        action="store_true",
+        help="show messages of level debug too, and the traceback of a bug in Orchestra",
+    )
     parser.add_argument(
         *("-n", "--noninteractive"),
         action="store_true",
@@ -40,19 +43,23 @@ def add_to(parser: ArgumentParser) -> None:
 
 
 def run_options(options: Namespace, default_name: str) -> RunOptions:
-    """Return how to run; a name becomes one that any file system takes."""
-    name = re.sub(r"[^\w.-]+", "_", options.name or default_name).strip("._")
-    return RunOptions(name=name or "run", fail_on_any=options.fail_on == "any")
+    """Return how to run; a name becomes one that any file system takes.
 
-
-def output_override(options: Namespace, environment: Mapping[str, str]) -> str | None:
-    """Return the `output` that every process has instead of its own (upstream: `ExecuteLocal`), None for its own.
-
-    Raises `UsageError` where the variable holds no such word.
+    Raises `UsageError` where the environment asks for an output that there is not.
     """
-    if options.show_all:
-        return "both"
-    word = environment.get(OVERRIDE_OUTPUT, "")
-    if word and word not in _OUTPUTS:
-        raise UsageError(f"{OVERRIDE_OUTPUT} is '{word}', which is none of {', '.join(_OUTPUTS)}")
-    return word or None
+    name = re.sub(r"[^\w.-]+", "_", options.name or default_name).strip("._")
+    try:
+        forced_output(os.environ, show_all=options.show_all)
+    except ValueError as error:
+        raise UsageError(f"{OVERRIDE}: {error}") from error
+    return RunOptions(
+        name=name or "run",
+        fail_on_any=options.fail_on == "any",
+        show_all_output=options.show_all,
+        noninteractive=options.noninteractive or not _at_a_terminal(),
+        debug=options.debug,
+    )
+
+
+def _at_a_terminal() -> bool:
+    return sys.stdin is not None and sys.stdin.isatty()

@@ -100,8 +100,8 @@ class Expressions:
         name = self.original(callee(call))
         if name == "ThisLaunchFileDir":
             return _parent(self._places.path)
-        if name in _SAME and not call.args and isinstance(call.func, ast.Attribute):
-            return self.text(call.func.value)  # a method: `Path(__file__).resolve()`
+        if name in _METHODS and isinstance(call.func, ast.Attribute):
+            return self.text(call.func.value)
         if name == "PathJoinSubstitution" and len(call.args) == 1:
             elements = self.named(call.args[0])
             return self._joined(os.sep, elements.elts) if isinstance(elements, ast.List | ast.Tuple) else None
@@ -124,10 +124,9 @@ class Expressions:
         }
 
 
-_SAME = frozenset(
-    {"str", "Path", "TextSubstitution", "PathSubstitution", "abspath", "realpath", "normpath"}
-    | {"resolve", "absolute", "as_posix"}
-)
+# What changes nothing about a path: methods of one, and functions of a text.
+_METHODS = frozenset({"resolve", "absolute", "as_posix"})
+_SAME = frozenset({"str", "Path", "TextSubstitution", "PathSubstitution", "abspath", "realpath", "normpath"})
 
 
 def callee(call: ast.Call) -> str:

@@ -119,7 +119,7 @@ def test_options() -> None:
     assert {"--params-file", "--format", "--debug", "--launch-prefix", "--print"} <= set(found)
     assert "--debug" not in _words("launch", "-d", "--")  # it is given, by its other name
     assert "--params-file" in _words("launch", "--params-file", "x", "--")  # may be given again
-    assert not [word for word in _words("launch", "--", "x", "--")]
+    assert _words("launch", "--", "x", "--") == []
 
 
 def test_words_of_the_node_are_the_nodes() -> None:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.cli.colour import painter
-from orchestra.cli.problems.formats import FORMATS, renderer
+from orchestra.cli.problems.formats import renderer
 from orchestra.cli.problems.sources import from_files
 from orchestra.errors import Code, Problem, Severity
 from orchestra.location import Span
