@@ -26,7 +26,7 @@ def get_search_paths() -> list[str]:
 
 
 def searched() -> list[str]:
-    """Return everything that is searched for resources: the interpreter's prefix comes last, as it does for packages."""
+    """Return all that is searched for resources: the interpreter's prefix comes last, as it does for packages."""
     found = get_search_paths()
     return found + [prefix for prefix in _interpreter() if prefix not in found]
 

@@ -10,7 +10,7 @@ from orchestra.compat.launch.launch_description import LaunchDescription
 def get_default_launch_description(
     *,
     prefix_output_with_name: bool = False,
-    rclpy_context: Any = None,  # noqa: ANN401 - an rclpy.Context
+    rclpy_context: Any = None,
 ) -> LaunchDescription:
     """Return an empty description; the arguments of older releases have no effect."""
     del prefix_output_with_name, rclpy_context

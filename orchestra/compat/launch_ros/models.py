@@ -105,9 +105,8 @@ def _text(items: Any, span: Span) -> Value:
 
 
 def _word(kind: Any) -> str | None:
-    """Return how the launch language spells a type. Raises `TypeError` for one that it has no word for."""
+    """Return how the launch language spells a type."""
     if kind is None:
         return None
     items = get_args(kind) if get_origin(kind) is list else ()
-    word = f"list_of_{items[0].__name__}" if items else getattr(kind, "__name__", str(kind))
-    return word
+    return f"list_of_{items[0].__name__}" if items else getattr(kind, "__name__", str(kind))

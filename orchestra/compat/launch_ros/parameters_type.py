@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Mapping, Sequence
+from os import PathLike
 from pathlib import Path
 from typing import Any, Union
 
@@ -11,7 +11,7 @@ from orchestra.compat.launch.some_substitutions_type import SomeSubstitutionsTyp
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
-SomeParameterFile = Union[SomeSubstitutionsType, "os.PathLike[str]", ParameterFile]  # noqa: UP007 - evaluated by users' own annotations
+SomeParameterFile = Union[SomeSubstitutionsType, PathLike[str], ParameterFile]  # noqa: UP007 - evaluated by users' own annotations
 SomeParameterName = Sequence[Union[Substitution, str]]  # noqa: UP007
 SomeParameterValue = Any
 SomeParametersDict = Mapping[Any, Any]

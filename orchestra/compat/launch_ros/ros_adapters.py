@@ -16,7 +16,7 @@ _INSTEAD = (
 class ROSAdapter:
     """Upstream's node beside the launch. Raises `RuntimeError` that says what to use instead."""
 
-    def __init__(self, *, argv: Any = None, autostart: bool = True) -> None:  # noqa: ANN401 - words of a command line
+    def __init__(self, *, argv: Any = None, autostart: bool = True) -> None:
         del argv, autostart
         raise RuntimeError(_INSTEAD)
 

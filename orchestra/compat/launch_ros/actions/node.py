@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.launch.actions.execute_process import ExecuteProcess
@@ -69,6 +70,18 @@ class Node(ExecuteProcess):
         self.__expanded_remappings: list[tuple[str, str]] | None = None
         self.__final_node_name: str | None = None
         super().__init__(cmd=self.__words(), name=exec_name, **kwargs)
+
+    @staticmethod
+    def parse_nested_parameters(params: Iterable[Any], parser: Any) -> list[Any]:
+        """Return the parameters of entities of a launch file in XML or YAML, as the constructor takes them.
+
+        Raises `RuntimeError` where one is neither a value nor a file.
+        """
+        read = import_module(
+            "orchestra.compat.launch.frontend.reading.parameters"
+        )  # which few launch files need
+        parameters: list[Any] = read.parameters(params, parser)
+        return parameters
 
     @property
     def node_package(self) -> Sub | None:

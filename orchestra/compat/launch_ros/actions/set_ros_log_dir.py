@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 class SetROSLogDir(ModelledAction):
-    """Set the folder of the logs that nodes that follow in this scope write; a relative one is below the present one."""
+    """Set the folder for the logs of nodes that follow in this scope; a relative one is below the present one."""
 
     def __init__(self, new_log_dir: Sub, **kwargs: Any) -> None:
         super().__init__(**kwargs)

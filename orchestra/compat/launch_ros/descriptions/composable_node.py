@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Self
 
 from orchestra.compat.launch_ros.models import params, remaps
 from orchestra.compat.launch_ros.utilities.normalize_parameters import normalize_parameters
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
 class ComposableNode:
     """A class of a package, loaded into a container as a node. Raises `TypeError` as `Node` does."""
 
-    def __init__(  # noqa: PLR0913 - upstream's signature
+    def __init__(
         self,
         *,
         package: Sub,
@@ -42,6 +43,12 @@ class ComposableNode:
         self.__remappings = normalize_remap_rules(remappings) if remappings else None
         self.__extra_arguments = normalize_parameters(extra_arguments) if extra_arguments else None
         self.__condition = condition
+
+    @classmethod
+    def parse(cls, parser: Any, entity: Any) -> tuple[type[Self], dict[str, Any]]:
+        """Return the class and the keywords with which an entity of a launch file in XML or YAML constructs it."""
+        read = import_module("orchestra.compat.launch.frontend.reading.nodes")  # which few launch files need
+        return cls, read.composable_node(entity, parser)
 
     @property
     def package(self) -> list[Substitution]:

@@ -34,7 +34,7 @@ class OnStateTransition(EventHandler):
         **kwargs: Any,
     ) -> None:
         if target_lifecycle_node is not None and not isinstance(target_lifecycle_node, LifecycleNode):
-            raise RuntimeError(  # noqa: TRY004 - as upstream
+            raise RuntimeError(
                 f"OnStateTransition waits for a LifecycleNode, not for {target_lifecycle_node!r}"
             )
         self.__is_custom = matcher is not None

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.compat.calls import CallSubstitution
+from orchestra.compat.described import described
 from orchestra.compat.launch_ros.substitutions.find_package import FindPackagePrefix
 from orchestra.compat.text import normalized
 
@@ -20,6 +21,7 @@ class ExecutableInPackage(FindPackagePrefix):
     """The path, usually `PREFIX/lib/PACKAGE/EXECUTABLE`."""
 
     _name = "exec-in-pkg"
+    _parameters = ("executable", "package")
 
     def __init__(self, executable: Sub, package: Sub) -> None:
         super().__init__(package)
@@ -32,10 +34,7 @@ class ExecutableInPackage(FindPackagePrefix):
 
     def describe(self) -> str:
         """Return package and executable."""
-        package, executable = (
-            " + ".join(item.describe() for item in items) for items in (self.package, self.executable)
-        )
-        return f"ExecInPkg(pkg={package}, exec={executable})"
+        return f"ExecInPkg(pkg={described(self.package)}, exec={described(self.executable)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the path. Raises `SubstitutionFailure`."""

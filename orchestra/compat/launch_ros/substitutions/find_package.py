@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from orchestra.compat.ament_index_python.packages import (
     PackageNotFoundError,
     get_package_prefix,
     get_package_share_directory,
 )
-from orchestra.compat.calls import CallSubstitution
+from orchestra.compat.described import described
 from orchestra.compat.launch.substitutions.substitution_failure import SubstitutionFailure
+from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.text import normalized
 from orchestra.description.text import Call, Opaque, Template, Words
 
@@ -24,10 +25,11 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 
-class FindPackage(CallSubstitution):
+class FindPackage(ParsedSubstitution):
     """A place of a package: the base of the two below, and of users' own that say in `find` which place it is."""
 
     _name = "find-pkg-prefix"
+    _parameters: ClassVar[tuple[str, ...]] = ("package",)
 
     def __init__(self, package: Sub) -> None:
         super().__init__()
@@ -44,7 +46,7 @@ class FindPackage(CallSubstitution):
 
     def describe(self) -> str:
         """Return the kind of place and the package."""
-        return f"{type(self).__name__}(pkg={' + '.join(item.describe() for item in self.package)})"
+        return f"{type(self).__name__}(pkg={described(self.package)})"
 
     def perform(self, context: LaunchContext) -> str:
         """Return the place. Raises `PackageNotFoundError`."""
@@ -55,7 +57,7 @@ class FindPackage(CallSubstitution):
         words = Template((Words(package, span),), package, span)
         whole = Template((Call(self._name, (words,), span),), self._raw(), span)
         try:
-            return context._engine.evaluate(whole)  # noqa: SLF001 - compat's own
+            return context._engine.evaluate(whole)
         except SubstitutionFailure as failure:
             raise _not_found(failure) from failure
 

@@ -1,33 +1,47 @@
-"""What launch files import as `launch_ros.utilities`."""
+"""What launch files import as `launch_ros.utilities`.
+
+Not lazy as the other packages: functions have the names of the modules that they are in, and are what those names mean.
+"""
 
 from __future__ import annotations
 
-from typing import Any
+from orchestra.compat.launch_ros.utilities.evaluate_parameters import (
+    evaluate_parameter_dict,
+    evaluate_parameters,
+    evaluate_parameters_dict,
+)
+from orchestra.compat.launch_ros.utilities.namespace_utils import (
+    is_namespace_absolute,
+    is_root_namespace,
+    make_namespace_absolute,
+    prefix_namespace,
+)
+from orchestra.compat.launch_ros.utilities.normalize_parameters import (
+    normalize_parameter_dict,
+    normalize_parameters,
+    normalize_parameters_dict,
+)
+from orchestra.compat.launch_ros.utilities.normalize_remap_rule import (
+    normalize_remap_rule,
+    normalize_remap_rules,
+)
+from orchestra.compat.launch_ros.utilities.to_parameters_list import to_parameters_list
+from orchestra.compat.launch_ros.utilities.track_node_names import add_node_name, get_node_name_count
 
-from orchestra.compat.lazy import exported
-
-_NAMES = {
-    "add_node_name": "track_node_names",
-    "evaluate_parameter_dict": "evaluate_parameters",
-    "evaluate_parameters": "evaluate_parameters",
-    "evaluate_parameters_dict": "evaluate_parameters",
-    "get_node_name_count": "track_node_names",
-    "is_namespace_absolute": "namespace_utils",
-    "is_root_namespace": "namespace_utils",
-    "make_namespace_absolute": "namespace_utils",
-    "normalize_parameter_dict": "normalize_parameters",
-    "normalize_parameters": "normalize_parameters",
-    "normalize_parameters_dict": "normalize_parameters",
-    "normalize_remap_rule": "normalize_remap_rule",
-    "normalize_remap_rules": "normalize_remap_rule",
-    "prefix_namespace": "namespace_utils",
-    "to_parameters_list": "to_parameters_list",
-}
-
-__all__ = sorted(_NAMES)  # noqa: PLE0605 - the names are those of the table
-
-_attribute = exported(__name__, _NAMES)
-
-
-def __getattr__(name: str) -> Any:
-    return _attribute(name)
+__all__ = [
+    "add_node_name",
+    "evaluate_parameter_dict",
+    "evaluate_parameters",
+    "evaluate_parameters_dict",
+    "get_node_name_count",
+    "is_namespace_absolute",
+    "is_root_namespace",
+    "make_namespace_absolute",
+    "normalize_parameter_dict",
+    "normalize_parameters",
+    "normalize_parameters_dict",
+    "normalize_remap_rule",
+    "normalize_remap_rules",
+    "prefix_namespace",
+    "to_parameters_list",
+]

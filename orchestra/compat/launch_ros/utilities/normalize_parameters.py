@@ -20,7 +20,7 @@ _SCALARS = (bool, int, float, str)
 
 
 def normalize_parameters(parameters: Any) -> tuple[Any, ...]:
-    """Return `ParameterFile`, `Parameter` and flat dictionaries. Raises `TypeError` for anything but a list of these."""
+    """Return `ParameterFile`, `Parameter` and flat dictionaries. Raises `TypeError` for anything but a list."""
     if isinstance(parameters, str) or not isinstance(parameters, Sequence):
         raise TypeError(f"parameters are a list of dictionaries and files, not {parameters!r}")
     return tuple(_one(item) for item in parameters)

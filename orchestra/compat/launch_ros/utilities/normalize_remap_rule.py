@@ -3,15 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.text import normalized
+
+if TYPE_CHECKING:
+    from orchestra.compat.launch.substitution import Substitution
 
 _SIDES = 2
 
 
-def normalize_remap_rule(remap_rule: Any) -> tuple[tuple[Substitution, ...], tuple[Substitution, ...]]:  # noqa: ANN401 - whatever a user put there
+def normalize_remap_rule(remap_rule: Any) -> tuple[tuple[Substitution, ...], tuple[Substitution, ...]]:
     """Return the two sides of a rule. Raises `TypeError` for anything but a pair in a tuple, as upstream."""
     if not isinstance(remap_rule, tuple) or len(remap_rule) != _SIDES:
         raise TypeError(f"a remapping is a tuple of two names, not {remap_rule!r}")
@@ -20,7 +22,7 @@ def normalize_remap_rule(remap_rule: Any) -> tuple[tuple[Substitution, ...], tup
 
 
 def normalize_remap_rules(
-    remap_rules: Any,  # noqa: ANN401 - whatever a user put there
+    remap_rules: Any,
 ) -> tuple[tuple[tuple[Substitution, ...], tuple[Substitution, ...]], ...]:
     """Return the two sides of several rules. Raises `TypeError` for anything but pairs in tuples."""
     if not isinstance(remap_rules, Iterable):
