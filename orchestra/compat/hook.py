@@ -9,6 +9,7 @@ from __future__ import annotations
 import importlib
 import os
 import sys
+import sysconfig
 from contextlib import contextmanager
 from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
@@ -16,10 +17,15 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from orchestra.compat.place import is_own
+
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from types import ModuleType
 
+_INSTALLED: Final = tuple(
+    os.path.realpath(sysconfig.get_path(name)) for name in ("stdlib", "platstdlib", "purelib", "platlib")
+)
 SERVED: Final = frozenset(entry.name for entry in Path(__file__).parent.iterdir() if entry.is_dir())
 _ROOM: Final = __name__.rpartition(".")[0]
 
@@ -85,14 +91,6 @@ def served() -> Iterator[None]:
 
 
 def _is_of_users(module: ModuleType) -> bool:
-    """Return whether a module is neither part of Python nor installed for it."""
+    """Return whether a module is neither part of Python, nor installed for it, nor ours."""
     file = getattr(module, "__file__", None)
-    return file is not None and not os.path.realpath(file).startswith(_INSTALLED)
-
-
-_INSTALLED: Final = tuple(
-    os.path.join(os.path.realpath(prefix), "")  # noqa: PTH118 - compared with texts
-    for prefix in {*sys.path, os.path.dirname(os.__file__), str(Path(__file__).parents[2])}  # noqa: PTH120 - compared with texts
-    if prefix
-    and ("site-packages" in prefix or "dist-packages" in prefix or prefix == os.path.dirname(os.__file__))  # noqa: PTH120 - compared with texts
-)
+    return file is not None and not is_own(file) and not os.path.realpath(file).startswith(_INSTALLED)
