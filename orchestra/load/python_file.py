@@ -20,6 +20,7 @@ from orchestra.description.actions.opaque import OpaqueAction
 from orchestra.description.launch import Description
 from orchestra.description.text import Template, Words
 from orchestra.errors import Code
+from orchestra.load.tested import description_in
 from orchestra.location import Location, displayed, point
 from orchestra.nearest import nearest
 
@@ -86,7 +87,10 @@ def _made(path: str) -> Any:  # noqa: ANN401 - whatever the user's function retu
     """Return what the file's function returns, or the module where it has no such function."""
     module = load_module(path)
     generate = getattr(module, FUNCTION, None)
-    return generate() if generate is not None else module
+    if generate is not None:
+        return generate()
+    tested = description_in(module)
+    return module if tested is None else tested
 
 
 def _deprecated(made: LaunchDescription, at: Span) -> Template | None:

@@ -1,0 +1,21 @@
+"""What tests with launch descriptions import as `launch_pytest`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from orchestra.compat.lazy import exported
+
+_NAMES = {
+    "actions": "",
+    "fixture": "fixtures",
+    "tools": "",
+}
+
+__all__ = sorted(_NAMES)  # noqa: PLE0605 - the names are those of the table
+
+_attribute = exported(__name__, _NAMES)
+
+
+def __getattr__(name: str) -> Any:
+    return _attribute(name)

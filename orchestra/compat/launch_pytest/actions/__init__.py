@@ -1,0 +1,19 @@
+"""What launch files import as `launch_pytest.actions`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from orchestra.compat.lazy import exported
+
+_NAMES = {
+    "ReadyToTest": "orchestra.compat.launch_testing.actions.ready",
+}
+
+__all__ = sorted(_NAMES)  # noqa: PLE0605 - the names are those of the table
+
+_attribute = exported(__name__, _NAMES)
+
+
+def __getattr__(name: str) -> Any:
+    return _attribute(name)

@@ -1,0 +1,22 @@
+"""What launch files import as `launch_testing.util`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from orchestra.compat.lazy import exported
+
+_NAMES = {
+    "KeepAliveProc": "keep_alive_process",
+    "NO_CMD_ARGS": "proc_lookup",
+    "NoMatchingProcessException": "proc_lookup",
+    "resolveProcesses": "proc_lookup",
+}
+
+__all__ = sorted(_NAMES)  # noqa: PLE0605 - the names are those of the table
+
+_attribute = exported(__name__, _NAMES)
+
+
+def __getattr__(name: str) -> Any:
+    return _attribute(name)

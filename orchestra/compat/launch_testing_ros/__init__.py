@@ -1,0 +1,24 @@
+"""What tests with ROS nodes import as `launch_testing_ros`."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from orchestra.compat.lazy import exported
+
+_NAMES = {
+    "DataRepublisher": "running",
+    "LaunchTestRunner": "running",
+    "MessagePump": "running",
+    "WaitForTopics": "running",
+    "actions": "",
+    "tools": "",
+}
+
+__all__ = sorted(_NAMES)  # noqa: PLE0605 - the names are those of the table
+
+_attribute = exported(__name__, _NAMES)
+
+
+def __getattr__(name: str) -> Any:
+    return _attribute(name)
