@@ -277,25 +277,25 @@ def test_the_same_name_is_made_unique_once(context: LaunchContext) -> None:
 @pytest.mark.parametrize(
     "make",
     [
-        lambda: TextSubstitution(text=1),  # type: ignore[arg-type]
-        lambda: LC(1),  # type: ignore[arg-type]
+        lambda: TextSubstitution(text=1),
+        lambda: LC(1),
         lambda: LC("a", default=[["nested"]]),
-        lambda: EnvironmentVariable("a", default_value=1),  # type: ignore[arg-type]
-        lambda: PathJoinSubstitution(["a", 1]),  # type: ignore[list-item]
+        lambda: EnvironmentVariable("a", default_value=1),
+        lambda: PathJoinSubstitution(["a", 1]),
         lambda: PathJoinSubstitution([]),
-        lambda: PathJoinSubstitution(1),  # type: ignore[arg-type]
-        lambda: PythonExpression(None),  # type: ignore[arg-type]
-        lambda: PythonExpression("1", 1),  # type: ignore[arg-type]
-        lambda: LocalSubstitution(LC("a")),  # type: ignore[arg-type]
-        lambda: FindExecutable("sh"),  # type: ignore[misc]
-        lambda: Command(["ls", None]),  # type: ignore[list-item]
-        lambda: NotSubstitution(True),  # type: ignore[arg-type]
-        lambda: AndSubstitution("1"),  # type: ignore[call-arg]
-        lambda: AnySubstitution(True),  # type: ignore[arg-type]
-        lambda: IfElseSubstitution(True, "a"),  # type: ignore[arg-type]
-        lambda: StringJoinSubstitution([1]),  # type: ignore[list-item]
-        lambda: PathSubstitution(1),  # type: ignore[arg-type]
-        lambda: AnonName(b"a"),  # type: ignore[arg-type]
+        lambda: PathJoinSubstitution(1),
+        lambda: PythonExpression(None),
+        lambda: PythonExpression("1", 1),
+        lambda: LocalSubstitution(LC("a")),
+        lambda: FindExecutable("sh"),
+        lambda: Command(["ls", None]),
+        lambda: NotSubstitution(True),
+        lambda: AndSubstitution("1"),
+        lambda: AnySubstitution(True),
+        lambda: IfElseSubstitution(True, "a"),
+        lambda: StringJoinSubstitution([1]),
+        lambda: PathSubstitution(1),
+        lambda: AnonName(b"a"),
     ],
 )
 def test_other_types_are_refused(make: Any) -> None:
@@ -345,7 +345,9 @@ def _from(part: Any) -> Substitution:
     return LaunchConfiguration([_from(item) for item in part.arguments[0].parts])
 
 
-@pytest.mark.parametrize("kind", [LC, EnvironmentVariable, NotSubstitution, PythonExpression, IfElseSubstitution])
+@pytest.mark.parametrize(
+    "kind", [LC, EnvironmentVariable, NotSubstitution, PythonExpression, IfElseSubstitution]
+)
 def test_a_call_with_too_many_arguments_is_refused(kind: Any) -> None:
     with pytest.raises(TypeError, match="arguments"):
         kind.parse([[TextSubstitution(text=text)] for text in "abcd"])

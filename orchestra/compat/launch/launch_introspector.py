@@ -69,7 +69,7 @@ def _opaque_function(action: Any) -> _Tree:
 
 def _execute_process(action: Any) -> _Tree:
     words = ", ".join(described(normalized(word)) for word in action.cmd)
-    cwd = None if action.cwd is None else f"'{described(normalized(action.cwd))}'"
+    cwd = None if action.cwd is None else described(normalized(action.cwd))
     return (
         f"{type(action).__name__}(cmd=[{words}], cwd={cwd}, env={_environment(action.env)}, shell={action.shell})",
         [],
