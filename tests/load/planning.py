@@ -19,7 +19,7 @@ _PLACES = {"location", "provenance", "line", "column", "end_line", "end_column"}
 
 @dataclass(frozen=True)
 class Planned:
-    """A plan as data; its problems apart, each by its code and severity."""
+    """A plan as data; its problems apart, each by its code and severity, in no order of places."""
 
     content: dict[str, Any]
     problems: tuple[tuple[str, str], ...]
@@ -57,7 +57,7 @@ def planned(
     assert plan is not None
     content = _same_ending(_without_places(encode(plan)), language)
     del content["problems"]
-    return Planned(content, tuple((found.code.value, found.severity.value) for found in problems.ordered))
+    return Planned(content, tuple(sorted((found.code.value, found.severity.value) for found in problems)))
 
 
 def installed(folder: Path) -> dict[str, str]:

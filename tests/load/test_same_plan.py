@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any
 
+import pytest
 import yaml
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
@@ -68,8 +69,21 @@ _process = {
     "required": st.booleans(),
     "stop": _some(signal=st.just("SIGTERM"), timeout=_seconds, kill_timeout=_seconds),
     "ready": st.fixed_dictionaries({"message": st.just("/t")}, optional={"timeout": _seconds}),
+    "depends_on": st.lists(
+        st.fixed_dictionaries({"node": _names, "condition": st.just("ready")}), max_size=1
+    ),
     "success_exit_codes": st.lists(st.integers(0, 9), min_size=1, max_size=3),
 }
+_component = st.fixed_dictionaries(
+    {"pkg": st.just("p"), "plugin": st.just("P"), "name": _names},
+    optional={
+        "namespace": st.just("in"),
+        "param": st.lists(_param, max_size=2),
+        "remap": st.lists(st.fixed_dictionaries({"from": _names, "to": _names}), max_size=2),
+        "extra_arg": st.lists(st.fixed_dictionaries({"name": _names, "value": st.booleans()}), max_size=2),
+        "unless": st.booleans(),
+    },
+)
 _rich = st.one_of(
     st.fixed_dictionaries(
         {"exec": st.just("prog"), "param": st.lists(_param, max_size=3)}, optional=_process
@@ -92,6 +106,25 @@ _rich = st.one_of(
         }
     ).map(lambda keys: {"group": keys}),
     any_text.map(lambda text: {"log": {"message": escaped(text)}}),
+    st.fixed_dictionaries(
+        {"name": _names, "value": any_text.map(escaped)},
+        optional={"prepend": st.booleans(), "separator": any_text.map(escaped)},
+    ).map(lambda keys: {"append_env": keys}),
+    _some(keep=st.lists(st.fixed_dictionaries({"name": _names, "value": _scalars}), max_size=2)).map(
+        lambda keys: {"reset": keys}
+    ),
+    st.just({"reset_env": None}),
+    st.fixed_dictionaries(
+        {"exec": st.just("c"), "name": _names, "namespace": st.sampled_from(["", "n", "/m"])},
+        optional={**_process, "composable_node": st.lists(_component, max_size=2)},
+    ).map(lambda keys: {"node_container": keys}),
+    st.fixed_dictionaries(
+        {"exec": st.just("l"), "name": _names, "namespace": st.just("")},
+        optional={"autostart": st.booleans()},
+    ).map(lambda keys: {"lifecycle_node": keys}),
+    st.lists(_component, min_size=1, max_size=2).map(
+        lambda nodes: {"load_composable_node": {"target": "/c", "composable_node": nodes}}
+    ),
 )
 
 
@@ -100,7 +133,21 @@ _rich = st.one_of(
 def test_a_description_gives_the_same_plan_in_both_formats(
     tmp_path: Path, written: Actions, inner: Actions
 ) -> None:
-    plans = [planned(tmp_path, language, written, _ENVIRONMENT, inner=inner) for language in WRITERS]
+    _compare(tmp_path, written, inner)
+
+
+@pytest.mark.long
+@pytest.mark.timeout(900)
+@given(st.lists(ordinary | _rich, max_size=8), inner_actions)
+@settings(_quickly, max_examples=5_000)
+def test_a_description_gives_the_same_plan_in_both_formats_however_many_are_tried(
+    tmp_path: Path, written: Actions, inner: Actions
+) -> None:
+    _compare(tmp_path, written, inner)
+
+
+def _compare(folder: Path, written: Actions, inner: Actions) -> None:
+    plans = [planned(folder, language, written, _ENVIRONMENT, inner=inner) for language in WRITERS]
     assert plans[0] == plans[1]
 
 

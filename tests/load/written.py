@@ -13,8 +13,9 @@ Actions = list[dict[str, Any]]
 
 _ESCAPES = {'"': "&quot;", "\n": "&#10;", "\t": "&#9;", "\r": "&#13;"}
 _SEPARATORS = (",", ";", ", ", "|", " and ", "\ue000")
-# Where a text that is not quoted is given the type of what it looks like.
-_TYPED = {"param", "set_parameter"}
+# Where a text that stands in quotes in YAML is one, whatever it looks like; in a list of any parameter too.
+_TEXTS = {"param"}
+_LISTS_OF_TEXTS = {"param", "set_parameter"}
 
 
 def as_yaml(actions: Actions) -> str:
@@ -42,7 +43,6 @@ def _actions(actions: Actions) -> Iterator[str]:
 
 
 def _element(name: str, content: Mapping[str, Any]) -> str:
-    typed = name in _TYPED and "type" not in content
     attributes: list[str] = []
     inside: list[str] = []
     for key, value in content.items():
@@ -53,7 +53,9 @@ def _element(name: str, content: Mapping[str, Any]) -> str:
         elif isinstance(value, list) and value and isinstance(value[0], dict):
             inside += [_element(key, item) for item in value]
         elif value != []:
-            attributes += _attributes(key, value, typed=typed and key == "value")
+            quoting = _LISTS_OF_TEXTS if isinstance(value, list) else _TEXTS
+            typed = name in quoting and key == "value" and "type" not in content
+            attributes += _attributes(key, value, typed=typed)
     start = " ".join((name, *attributes))
     return f"<{start}>{''.join(inside)}</{name}>" if inside else f"<{start}/>"
 
