@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from orchestra.compat.launch.event_handlers.event_named import event_named
 from orchestra.compat.lazy import exported
 
 _NAMES = {
@@ -14,10 +15,10 @@ _NAMES = {
     "OnProcessIO": "on_process_io",
     "OnProcessStart": "on_process_start",
     "OnShutdown": "on_shutdown",
-    "event_named": "event_named",
 }
 
-__all__ = sorted(_NAMES)  # noqa: PLE0605 - the names are those of the table
+# A module of the same name is in its way: imported later, it would stand for the function.
+__all__ = [*sorted(_NAMES), "event_named"]  # noqa: PLE0604 - the names are those of the table
 
 _attribute = exported(__name__, _NAMES)
 
