@@ -500,7 +500,7 @@ def test_a_coroutine_gets_its_arguments() -> None:
 
     for ignoring in (True, False):
         action = OpaqueCoroutine(coroutine=noted, args=[1], kwargs={"b": 2}, ignore_context=ignoring)
-        (child,) = action._to_model({}).children  # type: ignore[attr-defined]  # a timer
+        (child,) = action._to_model({}).children
         context = LaunchContext()
         child.target.execute(context)
         assert seen.pop() == ((1,) if ignoring else (context, 1), {"b": 2})

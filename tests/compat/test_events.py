@@ -35,7 +35,7 @@ def _process() -> ExecuteProcess:
             events.IncludeLaunchDescription("d"),
             "launch.events.IncludeLaunchDescription",
             {"launch_description": "d"},
-        ),  # type: ignore[arg-type]  # any object
+        ),
         (
             process.ProcessStarted(action=None, **_RUNNING),
             "launch.events.process.ProcessStarted",

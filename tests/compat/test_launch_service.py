@@ -98,7 +98,12 @@ def test_a_service_does_not_run_twice_at_once() -> None:
 
 
 def test_shutdown_ends_the_run_from_inside() -> None:
-    service = _service(OpaqueFunction(function=lambda _: service.shutdown()))
+    service = _service()
+
+    def end(_: Any) -> None:
+        service.shutdown()
+
+    service.include_launch_description(LaunchDescription([OpaqueFunction(function=end)]))
     service.shutdown()
     assert not service.context.is_shutdown
     assert service.run(shutdown_when_idle=False) == 0
