@@ -11,11 +11,13 @@ from typing import TYPE_CHECKING, Any
 from orchestra.compat.seam import connected
 from orchestra.errors import DescriptionError, Problem, Problems
 from orchestra.load.files import load
+from orchestra.location import displayed, point
 from orchestra.plan.build import build
 from orchestra.resolve import launch_files
 from orchestra.resolve.command_line import inputs_from
 from orchestra.resolve.commands import run_command
 from orchestra.resolve.packages import InstalledPackages
+from orchestra.resolve.python.calling import take_environment
 from orchestra.resolve.python.connection import LoadingConnection
 from orchestra.resolve.python.isolation import isolated
 from orchestra.resolve.resolve import begin, carry_through, outcome
@@ -94,12 +96,12 @@ def opened(
     packages = InstalledPackages(inputs.environment)
     with _loading(path, inputs, load, packages):
         with _collector_paused():
+            run = begin(inputs, problems, load=load, packages=packages, run_command=run_command)
             description = load(path, problems, ())
+            take_environment(run, point(displayed(path)))  # code of the file may have changed it
             launch = None
             if description is not None:
-                run = begin(inputs, problems, load=load, packages=packages, run_command=run_command)
-                resolved = carry_through(description, run)
-                launch = Launch(build(resolved, problems), run)
+                launch = Launch(build(carry_through(description, run), problems), run)
         yield launch
 
 
@@ -126,7 +128,8 @@ class Launch:
         target = event.get("process")
         do = decide(question["ref"], event, ids.index(target) if target in ids else None, self._run, problems)
         resolved = outcome(self.plan.file, self._run)
-        self.plan, answer = fragment(self.plan, resolved, do, problems)
+        settled = self._run.found.triggers - len(resolved.triggers)
+        self.plan, answer = fragment(self.plan, resolved, do, problems, triggers=settled)
         return answer
 
 

@@ -18,14 +18,13 @@ if TYPE_CHECKING:
 
 
 def fragment(
-    before: Plan, resolved: Resolved, do: Sequence[TriggeredAction], problems: Problems
+    before: Plan, resolved: Resolved, do: Sequence[TriggeredAction], problems: Problems, *, triggers: int
 ) -> tuple[Plan, dict[str, Any]]:
     """Return the plan as it is then, and as JSON data what is new in it and done at once.
 
-    `resolved` has everything; its triggers are the new ones alone, which follow those of `before`.
+    `resolved` has everything; its triggers are the new ones alone, before which there were `triggers` in all.
     """
-    written = sum(not trigger.id.endswith(":on_exit") for trigger in before.triggers)
-    after = build(resolved, problems, triggers_before=written)
+    after = build(resolved, problems, triggers_before=triggers)
     known = {process.id for process in before.processes}
     known |= {component.id for component in before.components} | {trigger.id for trigger in before.triggers}
     new = {

@@ -30,7 +30,7 @@ def inputs_from(
     for word in words:
         name, separator, value = word.partition(":=")
         if not separator or not name or name != name.strip():
-            raise UsageError(f"'{word}' is none of NAME:=VALUE and NODE:NAME:=VALUE")
+            raise UsageError(f"'{word}' is none of NAME:=VALUE and NODE:NAME:=VALUE{_hint(word)}")
         span = Span(COMMAND_LINE, 1, column, 1, column + len(name))
         column += len(word) + 1
         node, colon, parameter = name.rpartition(":")
@@ -45,3 +45,9 @@ def inputs_from(
         files.append(GivenFile(path, Span(COMMAND_LINE, 1, start, 1, column)))
         column += 1
     return Inputs(environment, tuple(arguments.values()), tuple(parameters), tuple(files))
+
+
+def _hint(word: str) -> str:
+    """Return a question where one character is missing."""
+    name, separator, value = word.partition("=")
+    return f"; did you mean '{name}:={value}'?" if separator and name and name[-1] not in ": " else ""

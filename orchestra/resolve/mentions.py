@@ -22,7 +22,7 @@ from orchestra.resolve.scope import Hidden, Variable
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
-    from orchestra.description.entity import Conditional
+    from orchestra.description.entity import Action, Conditional
     from orchestra.description.launch import Description
     from orchestra.location import Location
     from orchestra.resolve.context import Evaluated, Packages
@@ -63,6 +63,16 @@ def names_in(actions: Iterable[Conditional]) -> set[str]:
         for template in _templates(entity):
             found.update(_variables(template))
     return found
+
+
+def is_of_the_moment(actions: Iterable[Action]) -> bool:
+    """Return whether actions say something that only an event knows which is being handled."""
+    return any(
+        isinstance(part, Opaque) and getattr(part.target, "_of_the_moment", False)
+        for entity in _entities(tuple(actions))
+        for template in _templates(entity)
+        for part in _performed(template)
+    )
 
 
 def words_in(action: Conditional) -> set[str]:

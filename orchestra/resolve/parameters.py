@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from orchestra.description.actions.set_parameter import SetParameter
     from orchestra.description.fields import Value as Typed
     from orchestra.description.parts import Param
+    from orchestra.description.text import Template
     from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
     from orchestra.values import ParameterValue
@@ -50,20 +51,24 @@ def everywhere(action: SetParameter, run: Resolution) -> list[InlineParameter | 
     return _inline(action, "", run, everywhere=True, quotes=False)
 
 
-def typed(
-    value: Typed | tuple[Typed, ...], type_word: str | None, run: Resolution, *, quotes: bool = True
+def _typed(
+    value: Typed | tuple[Typed, ...], type_word: str | None, run: Resolution, at: Location, *, quotes: bool
 ) -> ParameterValue | Poison:
     """Return a value with the type that upstream gives it; one that can have none is reported.
 
     Without `quotes`, a text in quotes is typed as any other.
     """
     if isinstance(value, tuple):
-        return _list(value, type_word, run)
+        return _list(value, type_word, run, at)
     if isinstance(value, Constant):
         return _constant(value, type_word, run)
     evaluated = run.evaluate(value)
-    if not isinstance(evaluated, Value):
-        return POISON
+    return _text(value, evaluated, type_word, run, quotes=quotes) if isinstance(evaluated, Value) else POISON
+
+
+def _text(
+    value: Template, evaluated: Value, type_word: str | None, run: Resolution, *, quotes: bool
+) -> ParameterValue | Poison:
     constant = value.constant
     try:
         if type_word not in (None, "yaml"):
@@ -92,10 +97,12 @@ def _inline(
     if param.value is None:
         return [None]
     type_word = run.word(param.type, VALUE_TYPES)
-    value = POISON if isinstance(type_word, Poison) else typed(param.value, type_word, run, quotes=quotes)
-    if isinstance(value, Poison):
+    if isinstance(type_word, Poison):
         return [None]
     at = run.at(span_of(param.value) or param.span)
+    value = _typed(param.value, type_word, run, at, quotes=quotes)
+    if isinstance(value, Poison):
+        return [None]
     if everywhere and not quotes and type_word is None and isinstance(param.value, Constant):
         value = _retyped(value, at, run)
     return [InlineParameter(above + name, value, at, everywhere)]
@@ -127,18 +134,30 @@ def _retyped(given: ParameterValue, location: Location, run: Resolution) -> Para
     return value
 
 
-def _list(items: tuple[Typed, ...], type_word: str | None, run: Resolution) -> ParameterValue | Poison:
-    at = run.at(items[0].span) if items else None
+def _list(
+    items: tuple[Typed, ...], type_word: str | None, run: Resolution, at: Location
+) -> ParameterValue | Poison:
     element = type_word.removeprefix("list_of_") if type_word is not None else None
     if element == type_word and element not in (None, "yaml"):
         run.problems.error(Code.PARAMETER_TYPE, f"a list is no {element}", at)
         return POISON
-    values = [typed(item, element, run) for item in items]
-    sound = [value for value in values if not isinstance(value, Poison)]
-    if len(sound) < len(values):
+    texts: list[str] = []
+    values: list[ParameterValue] = []
+    for item in items:
+        evaluated = item.value if isinstance(item, Constant) else run.evaluate(item)
+        if isinstance(item, Constant):
+            value = _constant(item, element, run)
+        elif isinstance(evaluated, Value):
+            value = _text(item, evaluated, element, run, quotes=True)
+            texts.append(evaluated.text)
+        else:
+            value = POISON
+        if not isinstance(value, Poison):
+            values.append(value)
+    if len(values) < len(items):
         return POISON
     try:
-        return unified(sound)
+        return unified(values, texts)
     except ValueError as error:
         run.problems.error(Code.PARAMETER_TYPE, str(error), at)
         return POISON

@@ -82,14 +82,17 @@ def coerced(text: str, type_word: str) -> ParameterValue:
     )
 
 
-def unified(values: Sequence[ParameterValue]) -> ParameterValue:
+def unified(values: Sequence[ParameterValue], texts: Sequence[str] = ()) -> ParameterValue:
     """Return one list of one type: integers beside floats become floats, as in a list in Python.
 
-    Raises `ValueError` with the reason: empty, nested or mixed.
+    `texts` are what the values were read from: where YAML reads all of them as texts, they are a list of texts, though
+    rcl alone would read some (as `y`) otherwise. Raises `ValueError` with the reason: empty, nested or mixed.
     """
     kinds = {type(value) for value in values}
     if kinds == {int, float}:
         return tuple(float(value) for value in values if isinstance(value, int | float))
+    if len(kinds) > 1 and len(texts) == len(values) and all(map(_is_text, texts)):
+        return tuple(texts)
     return _uniform(values)
 
 
@@ -113,6 +116,10 @@ def checked(value: ParameterValue, type_word: str | None = None) -> ParameterVal
 def flow(value: ParameterValue) -> str:
     """Return the text of a value for `$(param)`, as Python writes it; a list so that it can be read again."""
     return f"[{', '.join(map(_shown, value))}]" if isinstance(value, tuple) else str(value)
+
+
+def _is_text(text: str) -> bool:
+    return not text.strip() or isinstance(read_scalars(text, by_pyyaml), str)
 
 
 def _value(text: str, construct: Construct) -> ParameterValue:

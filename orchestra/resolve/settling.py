@@ -22,7 +22,8 @@ if TYPE_CHECKING:
 
 def settled(run: Resolution) -> tuple[ResolvedTrigger, ...]:
     """Return the triggers of what has been collected since the last time, one for each process that each is about."""
-    events = [(occasion, event) for occasion in run.found.occasions for event in _events(occasion, run)]
+    full = (occasion for occasion in run.found.occasions if occasion.do)
+    events = [(occasion, event) for occasion in full for event in _events(occasion, run)]
     for position, (occasion, _) in enumerate(events, run.found.triggers):
         if occasion.handler is not None:
             run.found.positions.setdefault(id(occasion.handler), []).append(position)

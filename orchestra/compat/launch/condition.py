@@ -29,7 +29,8 @@ class Condition:
 
     def _fields(self, span: Span) -> dict[str, Any]:
         """Return the field of a model that says the same: `if` or `unless` with a template."""
-        return {"if": Template((Opaque(_Holding(self), span),), self.describe(), span)}
+        said = self.describe() if type(self).describe is not Condition.describe else type(self).__name__
+        return {"if": Template((Opaque(_Holding(self), span),), said, span)}
 
 
 class _Holding:

@@ -35,7 +35,8 @@ class Substitution:
 
     def _raw(self) -> str:
         """Return the substitution as it would be written in a launch file, or else its description."""
-        return str(self.describe())
+        described = type(self).describe is not Substitution.describe
+        return str(self.describe()) if described else f"{type(self).__name__}()"
 
     def __truediv__(self, other: Any) -> Substitution:
         """Join two parts of a path (newer ROS releases)."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from orchestra.resolve.mentions import is_of_the_moment
 from orchestra.resolve.occasions import Occasion, OpenEvent, Registration
 from orchestra.resolve.python.deferral import Deferred, defer
 from orchestra.resolve.reactions import ResolvedDeferred
@@ -25,14 +26,21 @@ def visit(action: RegisterEventHandler, run: Resolution) -> None:
     for handler in action.handlers:
         run.engine.register(handler.origin, first=True)
         for occasion in _occasions(handler, location, run):
-            if handler.callback is None and handler.event != "custom":
+            if _is_known(handler):
                 run.collect(occasion, handler.children or ())
             else:
-                deferred = Deferred("handler", handler.origin, handler.callback)
+                callback = handler.callback or handler.origin.handle
+                deferred = Deferred("handler", handler.origin, callback)
                 occasion.do.append(ResolvedDeferred(defer(deferred, location, run), location))
                 run.found.occasions.append(occasion)
         if run.later and run.occasion is not None:
             run.occasion.do.append(Registration(handler.origin, location, armed=True))
+
+
+def _is_known(handler: Handler) -> bool:
+    """Return whether it is known without the event what is done."""
+    custom = handler.callback is not None or handler.event == "custom"
+    return not custom and not is_of_the_moment(handler.children or ())
 
 
 def _occasions(handler: Handler, location: Location, run: Resolution) -> list[Occasion]:

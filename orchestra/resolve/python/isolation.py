@@ -31,10 +31,18 @@ def isolated(environment: Mapping[str, str], argv: Sequence[str]) -> Iterator[No
         restoring.callback(_put_list, sys.argv, list(sys.argv))
         restoring.enter_context(redirect_stdout(sys.stderr))
         restoring.enter_context(served())
+        restoring.callback(_forget_loggers)
         put_environment(environment)
         sys.argv[:] = argv
         sys.path += _libraries(environment)
         yield
+
+
+def _forget_loggers() -> None:
+    """Undo what launch files have set for the loggers of `launch.logging`, where one has used them."""
+    module = sys.modules.get("orchestra.compat.launch.logging")
+    if module is not None:
+        module.reset()
 
 
 def _libraries(environment: Mapping[str, str]) -> list[str]:

@@ -6,13 +6,14 @@ It may run as long as it likes. Only what it raises is kept from ending the proc
 
 from __future__ import annotations
 
-import importlib
 import warnings
 from typing import TYPE_CHECKING
 
+from orchestra.compat.expressions import visible
 from orchestra.errors import Code
 from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON
+from orchestra.resolve.python.calling import put_environment
 from orchestra.resolve.substitutions.arguments import made, texts
 
 if TYPE_CHECKING:
@@ -31,24 +32,14 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
     try:
         with warnings.catch_warnings(record=True) as doubts:
             warnings.simplefilter("always")
-            names.update(_names(modules))
+            put_environment(context.environment)  # an expression may read os.environ
+            names.update(visible(modules))
             text = str(eval(expression, names))  # noqa: S307 - unrestricted Python is what $(eval) is
     except (Exception, GeneratorExit, SystemExit) as error:  # noqa: BLE001 - it may raise whatever it likes
         return _failed(call, context, expression, error, names)
     for doubt in doubts:
         context.problems.warning(Code.BAD_EXPRESSION, str(doubt.message), context.at(call.span))
     return made(call, context, text)
-
-
-def _names(modules: str) -> dict[str, object]:
-    """Return what an expression sees of a comma-separated list of modules."""
-    names: dict[str, object] = {}
-    for name in filter(None, map(str.strip, modules.split(","))):
-        module = importlib.import_module(name)
-        names[name.partition(".")[0]] = importlib.import_module(name.partition(".")[0])
-        if name == "math":
-            names |= {member: value for member, value in vars(module).items() if not member.startswith("_")}
-    return names
 
 
 def _failed(
