@@ -363,6 +363,10 @@ _SAME: list[tuple[str, list[dict[str, Any]]]] = [
         "TimerAction(period=2, actions=[LogInfo(msg='x')], cancel_on_shutdown=False)",
         [{"timer": {"period": 2, "cancel_on_shutdown": False, "children": [{"log": {"message": "x"}}]}}],
     ),
+    (
+        "ExecuteProcess(cmd=['echo'], respawn=LC('r', default='true'), respawn_delay=-1)",
+        [{"executable": {"cmd": "echo", "respawn": "$(var r true)", "respawn_delay": 0}}],
+    ),
     ("Shutdown(reason='done')", [{"shutdown": {"reason": "done"}}]),
     ("Shutdown()", [{"shutdown": {}}]),
     ("LogWarning(msg='x')", [{"log": {"message": "x", "level": "warning"}}]),

@@ -133,7 +133,8 @@ memory = LaunchDescription([LogInfo(msg=[LC('a'), '!'])])
         ("LaunchDescriptionSource(memory)", ["1!"]),
         ("Mine()", ["1"]),
         ("Written('anywhere.py')", ["anywhere.py"]),
-        ("PythonLaunchDescriptionSource('inner.txt')", ["in python 1"]),
+        ("PythonLaunchDescriptionSource('inner.launch.py')", ["in python 1"]),
+        ("LaunchDescriptionSource(memory, location='somewhere')", ["1!"]),
         ("AnyLaunchDescriptionSource('inner.launch.yaml')", ["x", "y"]),
         ("FrontendLaunchDescriptionSource(['inner', '.launch.yaml'])", ["x", "y"]),
         ("'inner.launch.yaml'", ["x", "y"]),
@@ -143,7 +144,7 @@ memory = LaunchDescription([LogInfo(msg=[LC('a'), '!'])])
 def test_includes_take_their_description_from_any_source(
     source: str, messages: list[str], tmp_path: Path
 ) -> None:
-    plans.write(tmp_path / "inner.txt", "LogInfo(msg=['in python ', LC('a')])")
+    plans.write(tmp_path / "inner.launch.py", "LogInfo(msg=['in python ', LC('a')])")
     (tmp_path / "inner.launch.yaml").write_text(_YAML, "utf-8")
     actions = f"IncludeLaunchDescription({source}, launch_arguments=[('a', '1')])"
     found = plans.python(tmp_path, actions, _SOURCES)

@@ -81,10 +81,12 @@ class LaunchDescriptionSource:
         found: LaunchDescription = context._engine.load(location, self._language)
         return found
 
-    def _described(self, span: Span) -> tuple[Template, Language | None, LaunchDescriptionSource | None]:
-        """Return the file, its language, and the source itself where only it has the description."""
-        file = template(self.__location, span)
+    @property
+    def _reads_file(self) -> bool:
+        """Whether nobody but the one who reads launch files knows the description."""
         known = is_of_ours(self, "get_launch_description") and is_of_ours(self, "_get_launch_description")
-        if self._is_file and known and self.__launch_description is None:
-            return file, self._language, None
-        return file, self._language, self
+        return self._is_file and known
+
+    def _file(self, span: Span) -> Template:
+        """Return the location as written."""
+        return template(self.__location, span)

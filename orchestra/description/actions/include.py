@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal, Self, TypeAlias
+from typing import Literal, Self, TypeAlias
 
 from pydantic import Field, PrivateAttr
 
@@ -28,20 +28,13 @@ class Include(Action):
     depends_on: tuple[DependsOn, ...] = Field(default=(), description="What every process inside waits for.")
 
     _language: Language | None = PrivateAttr(default=None)
-    _source: Any = PrivateAttr(default=None)
 
     @property
     def language(self) -> Language | None:
         """What the file is read as, None: its name tells. Only Python code says it."""
         return self._language
 
-    @property
-    def source(self) -> Any:  # noqa: ANN401 - a source of a Python launch file
-        """The object that has the launch description, which is then not read from the file, which may not exist."""
-        return self._source
-
-    def taken_from(self, *, language: Language | None, source: Any) -> Self:  # noqa: ANN401 - a source of a Python launch file
-        """Set where Python code takes the description from; return the action."""
+    def read_as(self, language: Language | None) -> Self:
+        """Set what the file is read as; return the action."""
         self._language = language
-        self._source = source
         return self

@@ -170,7 +170,7 @@ class ExecuteLocal(ModelledAction):
             "output": _output_field(self.__output, span),
             "on_exit": template("shutdown", span) if self.__ends_run() else None,
             "respawn": scalar(self.__respawn, span) if self.__respawn else None,
-            "respawn_delay": optional(self.__respawn_delay, span),
+            "respawn_delay": optional(_delay(self.__respawn_delay), span),
             "respawn_max_retries": None
             if self.__respawn_max_retries == -1
             else scalar(self.__respawn_max_retries, span),
@@ -226,6 +226,11 @@ class ExecuteLocal(ModelledAction):
     def __timeout(self, name: str) -> list[Substitution]:
         value = self.__timeouts[name]
         return normalized(LaunchConfiguration(name, default="5") if value is None else written(value))
+
+
+def _delay(delay: Sub | float | None) -> Sub | float | None:
+    """Return a delay: upstream does not wait for one below zero."""
+    return max(delay, 0) if isinstance(delay, int | float) else delay
 
 
 def _normalized_output(output: Sub | Mapping[str, Any] | None) -> Any:

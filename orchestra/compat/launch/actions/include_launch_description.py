@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.action import ModelledAction
+from orchestra.compat.launch.actions.set_launch_configuration import SetLaunchConfiguration
 from orchestra.compat.launch.launch_description_source import LaunchDescriptionSource
 from orchestra.compat.launch.launch_description_sources.any_launch_description_source import (
     AnyLaunchDescriptionSource,
@@ -16,6 +17,7 @@ from orchestra.description.actions.include import Include
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
+    from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
     from orchestra.compat.text import Sub
     from orchestra.description.entity import Action as Model
@@ -63,8 +65,20 @@ class IncludeLaunchDescription(ModelledAction):
         found = self.__source.try_get_launch_description_without_context()
         return [] if found is None else [found]
 
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Include the file; return what is to be visited where the description is an object."""
+        if self.__source._reads_file:
+            return super().execute(context)
+        settings = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
+        for setting in settings:
+            setting._place = self._place
+        return [*settings, self.__source.get_launch_description(context)]
+
+    def _is_as_described(self) -> bool:
+        return super()._is_as_described() and self.__source._reads_file
+
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
-        file, language, source = self.__source._described(span)
-        include = Include.at(span, file=file, arg=pairs(self.launch_arguments, span), **common)
-        return include.taken_from(language=language, source=source)
+        arguments = pairs(self.launch_arguments, span)
+        include = Include.at(span, file=self.__source._file(span), arg=arguments, **common)
+        return include.read_as(self.__source._language)
