@@ -137,7 +137,8 @@ def _entries(
         yield source.name, source.value, source.location
         return
     for entry in source.plain:
-        yield entry.name, entry.value, entry.location
+        if not entry.opens:
+            yield entry.name, entry.value, entry.location
     for name, setting in settings_of(source.sections, full).items():
         for item in sorted(setting.written, key=lambda item: item.won):
             yield name, item.value, item.location

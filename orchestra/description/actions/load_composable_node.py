@@ -16,4 +16,4 @@ class LoadComposableNode(Action):
     """
 
     target: Text = Field(description="Full name of the container's node.")
-    composable_node: tuple[ComposableNode, ...] = Field(min_length=1, description="The components, in order.")
+    composable_node: tuple[ComposableNode, ...] = Field(description="The components, in order.")
