@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from orchestra.plan.reactions import StartAction
-from orchestra.supervise.happening import in_order
+from orchestra.supervise.happening import in_order, run_started
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -37,6 +37,7 @@ class Triggers:
         self._known: dict[str, Trigger] = {}
         self._waiting: dict[str, Trigger] = {}  # the one that began to wait last is the last
         self._delayed: list[tuple[Timer, Trigger]] = []
+        self._started = False
         self._stopping = False
 
     @property
@@ -50,12 +51,18 @@ class Triggers:
         for trigger in triggers:
             self._known[trigger.id] = trigger
             if trigger.armed:
-                self._waiting[trigger.id] = trigger
+                self._wait(trigger)
 
     def register(self, name: str) -> None:
         """Let a trigger wait for its event; as the latest, whether or not it did before."""
         self._waiting.pop(name, None)
-        self._waiting[name] = self._known[name]
+        self._wait(self._known[name])
+
+    def _wait(self, trigger: Trigger) -> None:
+        """Let a trigger wait; what it waits for has come if that is the start of the run, which it was added to."""
+        self._waiting[trigger.id] = trigger
+        if self._started and trigger.on.event == "run_started":
+            self._set_off([trigger], run_started())
 
     def unregister(self, name: str) -> None:
         """Let a trigger wait no more."""
@@ -71,8 +78,12 @@ class Triggers:
 
     def happened(self, happening: Happening) -> None:
         """Set off what waits for this."""
+        self._started = self._started or happening.event == "run_started"
+        self._set_off(in_order(self._waiting.values(), happening), happening)
+
+    def _set_off(self, triggers: Iterable[Trigger], happening: Happening) -> None:
         at_once = []
-        for trigger in in_order(self._waiting.values(), happening):
+        for trigger in triggers:
             if trigger.once:
                 self.unregister(trigger.id)
             if not trigger.delay:
