@@ -15,7 +15,7 @@ from orchestra import pipeline
 from orchestra.cli import boundary
 from orchestra.cli.glance.walk import declared
 from orchestra.cli.inputs import file_and_inputs
-from orchestra.errors import Problems
+from orchestra.errors import DescriptionError, Problems
 from orchestra.location import displayed
 from orchestra.resolve.packages import InstalledPackages
 
@@ -45,22 +45,23 @@ class _Shown:
 def show_arguments(options: Namespace) -> int:
     """Print the arguments on standard output, and what keeps them from being known on standard error.
 
-    Where values are wanted that nobody gave, faults may only follow from that: then they count for nothing.
+    Where values are wanted that nobody gave, faults may only follow from that: then they count for nothing. Raises
+    `UsageError`, and `DescriptionError` where the file cannot be read as a launch file.
     """
     path, given = file_and_inputs(options)
     problems = Problems()
     plan = pipeline.collect(path, replace(given, launching=False, required=False), problems)
-    arguments = plan.arguments if plan is not None else ()
-    file = displayed(path)
-    shown = _shown(arguments, declared(path, InstalledPackages(os.environ)))
-    sys.stdout.write(arguments_text(file, shown))
+    if plan is None:
+        raise DescriptionError(problems.ordered)
+    shown = _shown(plan.arguments, declared(path, InstalledPackages(os.environ)))
+    sys.stdout.write(arguments_text(displayed(path), shown))
     if not problems.errors:
         return boundary.OK
     telling = boundary.Telling.of("launch", options)
     boundary.show_problems(
         problems.errors, telling.problem_format, sys.stderr, command_line=telling.command_line
     )
-    lacking = any(item.default is None and item.value is None for item in arguments)
+    lacking = any(item.default is None and item.value is None for item in plan.arguments)
     return boundary.OK if lacking else boundary.MISTAKE
 
 

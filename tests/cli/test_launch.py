@@ -65,6 +65,38 @@ def test_output_that_only_goes_to_files_can_be_shown(
 
 
 @pytest.mark.parametrize(
+    ("word", "words", "shown"),
+    [("own_log", (), False), ("screen", (), True), ("", (), False), ("log", ("-a",), True)],
+)
+def test_the_environment_may_say_what_is_shown(
+    orchestra: Command, word: str, words: tuple[str, ...], shown: bool
+) -> None:
+    found = orchestra("launch", "greet.launch.yaml", "how:=hi", *words, OVERRIDE_LAUNCH_PROCESS_OUTPUT=word)
+    assert found.returncode == 0
+    assert ("hi world" in found.stdout) is shown
+
+
+def test_an_output_that_there_is_not_is_a_mistake(orchestra: Command, home: Path) -> None:
+    found = orchestra("launch", "greet.launch.yaml", "how:=hi", OVERRIDE_LAUNCH_PROCESS_OUTPUT="scren")
+    assert (found.returncode, found.stdout) == (2, "")
+    assert "OVERRIDE_LAUNCH_PROCESS_OUTPUT: unknown output 'scren'" in found.stderr
+    assert not home.exists()
+
+
+@pytest.mark.parametrize("words", [(), ("-d",), ("--debug",)])
+def test_messages_of_level_debug_are_for_who_asks(
+    orchestra: Command, folder: Path, words: tuple[str, ...]
+) -> None:
+    (folder / "log.launch.yaml").write_text(
+        "launch:\n  - timer: {period: 0.0, children: [{log: {message: deep, level: debug}}]}\n"
+        "  - executable: {cmd: sleep 0.5, name: nap}\n"
+    )
+    found = orchestra("launch", "log.launch.yaml", *words)
+    assert found.returncode == 0
+    assert ("deep" in found.stderr) is bool(words)
+
+
+@pytest.mark.parametrize(
     ("words", "status"), [((), 0), (("--fail-on", "required"), 0), (("--fail-on", "any"), 1)]
 )
 def test_whose_failure_counts(orchestra: Command, folder: Path, words: tuple[str, ...], status: int) -> None:
@@ -87,42 +119,6 @@ def test_problems_can_be_had_as_json(orchestra: Command) -> None:
     found = orchestra("launch", "greet.launch.yaml", "--format", "json")
     assert (found.returncode, found.stdout) == (2, "")
     assert [problem["code"] for problem in json.loads(found.stderr)] == ["ORC022"]
-
-
-@pytest.mark.parametrize("flag", ["-s", "--show-args", "--show-arguments", "-ns"])
-def test_arguments_are_shown_and_nothing_is_started(orchestra: Command, home: Path, flag: str) -> None:
-    found = orchestra("launch", flag, "greet.launch.yaml")
-    assert (found.returncode, found.stderr) == (0, "")
-    assert found.stdout == (
-        "arguments of greet.launch.yaml:\n"
-        "\n"
-        "  who\n"
-        "      whom to greet\n"
-        "      default: world\n"
-        "      choices: world, moon\n"
-        "\n"
-        "  how\n"
-        "      required\n"
-    )
-    assert not home.exists()
-
-
-def test_no_arguments_is_said(orchestra: Command, folder: Path) -> None:
-    (folder / "none.launch.yaml").write_text("launch: []\n")
-    assert orchestra("launch", "-s", "none.launch.yaml").stdout == "none.launch.yaml has no arguments\n"
-
-
-@pytest.mark.parametrize("flag", ["-p", "--print", "--print-description"])
-def test_the_plan_is_shown_and_nothing_is_started(orchestra: Command, home: Path, flag: str) -> None:
-    found = orchestra("launch", "greet.launch.yaml", "how:=hi", flag)
-    assert (found.returncode, found.stdout) == (0, orchestra("plan", "greet.launch.yaml", "how:=hi").stdout)
-    assert not home.exists()
-
-
-def test_arguments_and_plan_cannot_be_shown_together(orchestra: Command) -> None:
-    found = orchestra("launch", "-s", "-p", "greet.launch.yaml")
-    assert found.returncode == 2
-    assert "not allowed with" in found.stderr
 
 
 @pytest.mark.parametrize("name", ["--name", "-n"])

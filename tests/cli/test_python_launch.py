@@ -1,0 +1,65 @@
+"""Launch files in Python, run for real: events, timers, and code that decides during the run."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+    from .conftest import Command
+
+_EVENTS = """
+from launch import Event, EventHandler, LaunchDescription
+from launch.actions import *
+from launch.event_handlers import *
+from launch.events import Shutdown
+from launch.substitutions import LocalSubstitution
+
+class Own(Event):
+    name = 'own'
+
+def count(context):
+    n = int(context.launch_configurations['n'])
+    context.launch_configurations['n'] = str(n + 1)  # is forgotten: each time begins where it was written
+    return [LogInfo(msg=f'counted {n}'), TimerAction(period=0.1, actions=[LogInfo(msg='a little later'), EmitEvent(event=Own())])]
+
+def generate_launch_description():
+    first = ExecuteProcess(cmd=['sh', '-c', 'echo up; exit 3'], name='first')
+    last = ExecuteProcess(cmd=['sh', '-c', 'read line'], name='last')
+    def ended(event, context):
+        assert event.action is first and event.process_name == 'first-1' and event.cmd[0] == 'sh' and event.pid > 0
+        return [LogInfo(msg=f'status {event.returncode}'), ExecuteProcess(cmd=['sh', '-c', 'echo decided'], name='decided')]
+    return LaunchDescription([
+        SetLaunchConfiguration('n', '1'),
+        RegisterEventHandler(EventHandler(matcher=lambda event: isinstance(event, Own), entities=[LogInfo(msg='own event')])),
+        RegisterEventHandler(OnProcessIO(target_action=first, on_stdout=lambda event: [LogInfo(msg='saw ' + event.text.decode().strip())])),
+        RegisterEventHandler(OnProcessExit(target_action=first, on_exit=ended)),
+        RegisterEventHandler(OnProcessStart(target_action=first, on_start=[LogInfo(msg='started'), OpaqueFunction(function=count)])),
+        RegisterEventHandler(OnShutdown(on_shutdown=[LogInfo(msg=['because ', LocalSubstitution('event.reason')])])),
+        first,
+        TimerAction(period=2, actions=[EmitEvent(event=Shutdown(reason='time is up'))]),
+    ])
+"""
+
+
+def test_handlers_and_functions_decide_during_the_run(orchestra: Command, tmp_path: Path) -> None:
+    (tmp_path / "events.launch.py").write_text(_EVENTS)
+    ran = orchestra("launch", "events.launch.py")
+    assert ran.returncode == 0, ran.stderr
+    told = [line.removeprefix("[orchestra] ") for line in ran.stderr.splitlines()]
+    for line in ("started", "saw up", "status 3", "counted 1", "a little later", "own event"):
+        assert told.count(line) == 1, ran.stderr
+    assert told.index("started") < told.index("counted 1") < told.index("a little later") < told.index("own event")
+    assert any(line.startswith("because ") and "time is up" in line for line in told)
+    assert "[decided] decided" in ran.stdout
+
+
+def test_code_that_fails_during_the_run_ends_it_with_the_place(orchestra: Command, tmp_path: Path) -> None:
+    (tmp_path / "broken.launch.py").write_text(
+        _EVENTS.replace("n = int(context.launch_configurations['n'])", "n = undefined_name")
+    )
+    ran = orchestra("launch", "broken.launch.py")
+    assert ran.returncode == 1, ran.stderr
+    assert "NameError" in ran.stderr
+    assert "broken.launch.py:13" in ran.stderr
