@@ -3,16 +3,14 @@
 from __future__ import annotations
 
 import types
+from collections.abc import Mapping
 from dataclasses import dataclass
 from enum import Enum, auto
 from functools import cache
-from typing import TYPE_CHECKING, Annotated, Any, Union, get_args, get_origin
+from typing import Annotated, Any, Union, get_args, get_origin
 
 from orchestra.description.entity import Action, Entity
 from orchestra.description.text import Template
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 
 class Kind(Enum):
@@ -26,6 +24,9 @@ class Kind(Enum):
     ACTIONS = auto()  # all elements that are not keys
 
 
+_ELEMENTS = (Kind.PART, Kind.PARTS, Kind.VARIABLES)
+
+
 @dataclass(frozen=True, slots=True)
 class Form:
     """A kind, and the model of the parts where they have one."""
@@ -33,16 +34,23 @@ class Form:
     kind: Kind
     model: type[Entity] | None = None
 
-    @property
-    def is_element(self) -> bool:
-        """Whether it is written as an element."""
-        return self.kind in {Kind.PART, Kind.PARTS, Kind.VARIABLES}
+
+@dataclass(frozen=True, slots=True)
+class Forms:
+    """The form of every key of a model; those that are elements; whether other elements in it are actions."""
+
+    by_key: Mapping[str, Form]
+    elements: frozenset[str]
+    holds_actions: bool
 
 
 @cache
-def forms_of(model: type[Entity]) -> Mapping[str, Form]:
-    """Return the form of every key of a model."""
-    return {entry.alias or name: _form(entry.annotation) for name, entry in model.model_fields.items()}
+def forms_of(model: type[Entity] | None) -> Forms:
+    """Return the forms of a model's keys, none where no model is known."""
+    fields = model.model_fields if model is not None else {}
+    forms = {entry.alias or name: _form(entry.annotation) for name, entry in fields.items()}
+    elements = frozenset(key for key, form in forms.items() if form.kind in _ELEMENTS)
+    return Forms(forms, elements, any(form.kind is Kind.ACTIONS for form in forms.values()))
 
 
 def _form(annotation: Any) -> Form:  # noqa: ANN401 - a type

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 from orchestra.description.substitutions import ELSEWHERE, SIGNATURES
 from orchestra.nearest import nearest
 
@@ -11,6 +13,7 @@ def meant(name: str) -> str | None:
     return ELSEWHERE.get(name) or nearest(name, SIGNATURES)
 
 
+@cache
 def usage(name: str) -> str:
     """Return how the substitution is written, optional arguments in brackets."""
     signature = SIGNATURES[name]

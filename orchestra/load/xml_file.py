@@ -13,9 +13,9 @@ from orchestra.description.actions import ACTIONS, model_of
 from orchestra.description.launch import Launch
 from orchestra.description.source import Keyed, Listed
 from orchestra.errors import Code
-from orchestra.load.elements import Element, Tagged
+from orchestra.load.elements import Attribute, Element, Tagged
 from orchestra.load.exposed import exposes_action
-from orchestra.load.forms import Form, Kind, forms_of
+from orchestra.load.forms import Form, Forms, Kind, forms_of
 from orchestra.load.keys import action_meant, key_meant, spelled
 from orchestra.load.offsets import Source, source
 from orchestra.load.placed import placed
@@ -25,13 +25,12 @@ from orchestra.load.xml_parser import NotXmlError, parse
 from orchestra.nearest import is_slip, nearest
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
     from orchestra.description.entity import Entity
     from orchestra.location import Span
 
 _ROOT = "launch"
-_NO_FORMS: Mapping[str, Form] = {}
+_SEPARATOR = "_sep"
+_TEXT = Form(Kind.TEXT)
 # Attributes of a root that say nothing to us: files of ROS 1 carry a version.
 _IGNORED = frozenset({"version"})
 # Keys of which a text between tags is probably meant to be the value.
@@ -68,7 +67,7 @@ class _Shaper:
 
     def launch(self, root: Element) -> Tagged:
         """Return the content of the root; unlike any other element it may have attributes that mean nothing."""
-        known = forms_of(Launch)
+        known = forms_of(Launch).by_key
         for attribute in root.attributes:
             name = attribute.name
             if spelled(name) not in known and name not in _IGNORED and ":" not in name:
@@ -98,59 +97,49 @@ class _Shaper:
 
     def content(self, element: Element, model: type[Entity] | None) -> Tagged:
         """Return what an element says; without a model scalars are taken for texts, elements for lists."""
-        forms = forms_of(model) if model is not None else _NO_FORMS
+        forms = forms_of(model)
         at = element.span(self.whole)
-        names = frozenset(key for key, form in forms.items() if form.is_element)
-        tagged = Tagged(at, at, element, names)
+        tagged = Tagged(at, at, element, forms.elements)
         self._attributes(element, forms, tagged)
-        nested = any(form.kind is Kind.ACTIONS for form in forms.values())
         actions = Listed(at)
         for child in element.children:
-            form = self._form(child.name, forms, actions=nested)
+            form = self._form(child.name, forms, actions=forms.holds_actions)
             if form is not None:
                 self._child(child, form, tagged)
-            elif nested:
+            elif forms.holds_actions:
                 actions.append(self.action(child))
             else:
                 self._part(child, None, tagged)
-        if nested:
+        if forms.holds_actions:
             tagged.put("children", actions, at)
         if element.text is not None:
             self._text(element, model, tagged)
         return tagged
 
-    def _attributes(self, element: Element, forms: Mapping[str, Form], tagged: Tagged) -> None:
-        separators = {
-            spelled(item.name).removesuffix("_sep"): item
-            for item in element.attributes
-            if spelled(item.name).endswith("_sep")
-        }
-        names = {spelled(item.name) for item in element.attributes}
+    def _attributes(self, element: Element, forms: Forms, tagged: Tagged) -> None:
+        separators = _separators(element)
         for attribute in element.attributes:
-            name = spelled(attribute.name)
-            if attribute.name.split(":")[0] == "xmlns" or (
-                name.endswith("_sep") and name.removesuffix("_sep") in names
-            ):
+            if attribute in separators.values() or attribute.name.split(":")[0] == "xmlns":
                 continue
-            form = self._form(attribute.name, forms) or Form(Kind.TEXT)
+            form = self._form(attribute.name, forms) or _TEXT
             at = attribute.span(self.whole)
-            if form.kind not in {Kind.TEXT, Kind.LIST}:
+            if form.kind not in (Kind.TEXT, Kind.LIST):
                 self._not_an_attribute(attribute.name, form, at, tagged)
-            elif name in separators:
-                separator = separators[name]
+            elif (separator := separators.get(spelled(attribute.name))) is not None:
                 tagged.put(attribute.name, separated(attribute, separator, self.whole, self.reader), at)
             elif form.kind is Kind.LIST:
                 tagged.put(attribute.name, listed(attribute, self.whole), at)
             else:
                 tagged.put(attribute.name, attribute.written(self.whole), at)
 
-    def _form(self, name: str, forms: Mapping[str, Form], *, actions: bool = False) -> Form | None:
+    def _form(self, name: str, forms: Forms, *, actions: bool = False) -> Form | None:
         """Return the form of a key, or of the one that it is a slip of unless it may as well be an action."""
-        form = forms.get(spelled(name))
-        if form is not None or not forms or (actions and (spelled(name) in ACTIONS or exposes_action(name))):
+        known = forms.by_key
+        form = known.get(spelled(name))
+        if form is not None or not known or (actions and (spelled(name) in ACTIONS or exposes_action(name))):
             return form
-        near, slip = key_meant(name, {*forms, *(ACTIONS if actions else ())})
-        return forms.get(near) if near is not None and slip else None
+        near, slip = key_meant(name, {*known, *(ACTIONS if actions else ())})
+        return known.get(near) if near is not None and slip else None
 
     def _child(self, child: Element, form: Form, tagged: Tagged) -> None:
         at = child.span(self.whole)
@@ -160,7 +149,7 @@ class _Shaper:
             case Kind.PARTS:
                 self._part(child, form.model, tagged)
             case Kind.VARIABLES:
-                self._once(child, self._variables(child), tagged)
+                self._once(child, self.content(child, None), tagged)
             case _:
                 message = f"'{child.name}' is written as an attribute: {child.name}=\"...\""
                 self.reader.error(Code.WRONG_TYPE, message, at)
@@ -184,10 +173,6 @@ class _Shaper:
         if isinstance(tagged[name], Listed):
             tagged[name].append(content)
 
-    def _variables(self, element: Element) -> Tagged:
-        """Return an element whose attributes are names of the user's choice."""
-        return self.content(element, None)
-
     def _text(self, element: Element, model: type[Entity] | None, tagged: Tagged) -> None:
         """Tell that text between tags says nothing; an error where something is missing that it probably is."""
         assert element.text is not None  # noqa: S101 - asked by the caller
@@ -210,6 +195,16 @@ class _Shaper:
             message = f"'{name}' is written as an element: <{key} .../>"
         self.reader.error(Code.WRONG_TYPE, message, at)
         _lose(tagged, key)
+
+
+def _separators(element: Element) -> dict[str, Attribute]:
+    """Return the attributes that separate the items of others, by the names of those."""
+    ending = [item for item in element.attributes if spelled(item.name).endswith(_SEPARATOR)]
+    if not ending:
+        return {}
+    names = {spelled(item.name) for item in element.attributes}
+    found = {spelled(item.name).removesuffix(_SEPARATOR): item for item in ending}
+    return {name: item for name, item in found.items() if name in names}
 
 
 def _lacking(model: type[Entity] | None, tagged: Tagged) -> frozenset[str]:
