@@ -26,7 +26,6 @@ def count(context):
 
 def generate_launch_description():
     first = ExecuteProcess(cmd=['sh', '-c', 'echo up; exit 3'], name='first')
-    last = ExecuteProcess(cmd=['sh', '-c', 'read line'], name='last')
     def ended(event, context):
         assert event.action is first and event.process_name == 'first-1' and event.cmd[0] == 'sh' and event.pid > 0
         return [LogInfo(msg=f'status {event.returncode}'), ExecuteProcess(cmd=['sh', '-c', 'echo decided'], name='decided')]
@@ -43,23 +42,28 @@ def generate_launch_description():
 """
 
 
-def test_handlers_and_functions_decide_during_the_run(orchestra: Command, tmp_path: Path) -> None:
-    (tmp_path / "events.launch.py").write_text(_EVENTS)
+def test_handlers_and_functions_decide_during_the_run(orchestra: Command, folder: Path) -> None:
+    (folder / "events.launch.py").write_text(_EVENTS)
     ran = orchestra("launch", "events.launch.py")
     assert ran.returncode == 0, ran.stderr
     told = [line.removeprefix("[orchestra] ") for line in ran.stderr.splitlines()]
     for line in ("started", "saw up", "status 3", "counted 1", "a little later", "own event"):
         assert told.count(line) == 1, ran.stderr
-    assert told.index("started") < told.index("counted 1") < told.index("a little later") < told.index("own event")
+    assert (
+        told.index("started")
+        < told.index("counted 1")
+        < told.index("a little later")
+        < told.index("own event")
+    )
     assert any(line.startswith("because ") and "time is up" in line for line in told)
     assert "[decided] decided" in ran.stdout
 
 
-def test_code_that_fails_during_the_run_ends_it_with_the_place(orchestra: Command, tmp_path: Path) -> None:
-    (tmp_path / "broken.launch.py").write_text(
+def test_code_that_fails_during_the_run_ends_it_with_the_place(orchestra: Command, folder: Path) -> None:
+    (folder / "broken.launch.py").write_text(
         _EVENTS.replace("n = int(context.launch_configurations['n'])", "n = undefined_name")
     )
     ran = orchestra("launch", "broken.launch.py")
     assert ran.returncode == 1, ran.stderr
     assert "NameError" in ran.stderr
-    assert "broken.launch.py:13" in ran.stderr
+    assert "broken.launch.py:12" in ran.stderr
