@@ -11,6 +11,7 @@ import os
 import threading
 from functools import partial
 from importlib import import_module
+from queue import SimpleQueue
 from typing import TYPE_CHECKING, Any
 
 import rclpy
@@ -18,8 +19,6 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.signals import SignalHandlerOptions
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from rclpy.node import Node
 
     from orchestra.ros.observer.order import Order
@@ -49,7 +48,17 @@ class Desk:
         """Whether an order needs the graph to be looked at."""
         return any(order.looks for order in self._orders.values())
 
-    def take(self, request: dict[str, Any]) -> None:
+    def take(self, requests: SimpleQueue[dict[str, Any] | None]) -> None:
+        """Take what has come, in its order; None is the end."""
+        while not requests.empty():
+            request = requests.get()
+            if request is None:
+                self.closed = True
+            else:
+                self._begin(request)
+        self.look()
+
+    def _begin(self, request: dict[str, Any]) -> None:
         """Begin with an order, or forget one."""
         if "forget" in request:
             self._drop(request["forget"])
@@ -60,7 +69,6 @@ class Desk:
         self._over.discard(name)
         self._drop(name)
         self._orders[name] = make(self._node, request, partial(self._say, name))
-        self.look()
 
     def look(self) -> None:
         """Look at the graph for all who need it, and clear away what is over."""
@@ -69,10 +77,6 @@ class Desk:
                 order.look()
         while self._over:
             self._drop(self._over.pop())
-
-    def close(self) -> None:
-        """There will be no more orders."""
-        self.closed = True
 
     def _drop(self, name: str) -> None:
         order = self._orders.pop(name, None)
@@ -113,12 +117,11 @@ def _serve(requests: int, desk: Desk, executor: SingleThreadedExecutor) -> None:
 
 
 def _read(requests: int, desk: Desk, executor: SingleThreadedExecutor) -> None:
-    """Hand each order to the executor's thread."""
-    for line in _lines(requests):
-        executor.create_task(desk.take, json.loads(line))
-    executor.create_task(desk.close)
-
-
-def _lines(descriptor: int) -> Iterator[bytes]:
-    with os.fdopen(descriptor, "rb", closefd=False) as stream:
-        yield from stream
+    """Wake the executor's thread for each order; tasks would be carried out in another order than they were made."""
+    waiting: SimpleQueue[dict[str, Any] | None] = SimpleQueue()
+    with os.fdopen(requests, "rb", closefd=False) as stream:
+        for line in stream:
+            waiting.put(json.loads(line))
+            executor.create_task(desk.take, waiting)
+    waiting.put(None)
+    executor.create_task(desk.take, waiting)

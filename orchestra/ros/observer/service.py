@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 # An answer is lost where the server has not yet discovered the client's reader when it sends it (rmw_fastrtps gives
 # discovery 100 ms for that), so it is asked again after this time, in seconds.
-_ASK_AGAIN = 2.0
+_ASK_AGAIN = 0.5
 
 
 class Service:
