@@ -9,7 +9,8 @@ from typing import Any
 import pytest
 import yaml
 
-from tests.resolve.launching import outcome
+from orchestra.errors import Problems
+from orchestra.pipeline import collect, inputs_from
 
 _PROBES = Path(__file__).parents[1] / "data" / "launch-probes.jsonl"
 
@@ -97,17 +98,37 @@ def _split(argv: list[Any]) -> tuple[list[str], dict[str, Any]]:
     return words, parameters
 
 
+_PYTHON = """from launch import LaunchDescription
+from launch.actions import SetLaunchConfiguration
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node, PushROSNamespace, SetParameter, SetRemap
+from launch_ros.descriptions import ParameterValue
+
+
+def generate_launch_description():
+    before, keywords = {}
+    return LaunchDescription([*before, Node(executable='exe', **keywords)])
+"""
+
+
+@pytest.mark.parametrize("language", ["yaml", "py"])
 @pytest.mark.parametrize("record", _records(), ids=lambda record: record["in"])
-def test_a_node_is_started_as_by_upstream(record: dict[str, Any], tmp_path: Path) -> None:
-    found = outcome(tmp_path, _description(record["in"]))
+def test_a_node_is_started_as_by_upstream(record: dict[str, Any], language: str, tmp_path: Path) -> None:
+    written = record["in"]
+    text = _description(written) if language == "yaml" else _PYTHON.replace("{}", written, 1)
+    file = tmp_path / f"main.launch.{language}"
+    file.write_text(text, "utf-8")
+    problems = Problems()
+    plan = collect(str(file), inputs_from([], environment={}), problems)
     if "err" in record and record["in"] not in _ACCEPTED:
-        assert len(found.problems.errors) == 1
+        assert len(problems.errors) == 1
         return
     if record["in"] in _REFUSED:
-        assert len(found.problems.errors) == 1
+        assert len(problems.errors) == 1
         return
-    assert list(found.problems.errors) == []
-    (process,) = found.plan.processes
+    assert list(problems.errors) == []
+    assert plan is not None
+    (process,) = plan.processes
     if "out" in record:
         words, parameters = _split(record["out"])
         ours = iter(process.command)
