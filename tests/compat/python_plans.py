@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from textwrap import dedent, indent
 from typing import TYPE_CHECKING, Any
 
-from orchestra.errors import Problems
+from orchestra.errors import Problem, Problems
 from orchestra.pipeline import collect, inputs_from
 from orchestra.plan.codec import encode
 from tests.load.planning import _without_places
@@ -15,8 +15,6 @@ from tests.load.planning import _without_places
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
-
-    from orchestra.errors import Problem
 
 _IMPORTS = """\
 from typing import List

@@ -72,7 +72,11 @@ def test_what_cannot_be_a_name_is_a_value_error(prefixes: tuple[str, str], name:
 
 def test_a_missing_package_is_a_key_error_that_names_what_was_meant(prefixes: tuple[str, str]) -> None:
     del prefixes
-    for look_up in (ament.get_package_prefix, ament.get_package_share_directory, ament.get_package_share_path):
+    for look_up in (
+        ament.get_package_prefix,
+        ament.get_package_share_directory,
+        ament.get_package_share_path,
+    ):
         with pytest.raises(ament.PackageNotFoundError) as raised:
             look_up("loewr")
         assert isinstance(raised.value, KeyError)

@@ -83,10 +83,10 @@ _WRONG: dict[str, Callable[[], Any]] = {
     "a number for an argument": lambda: _node(arguments=[1]),
     "a number for a node's name": lambda: _node(name=1),
     "a number for a namespace": lambda: _node(namespace=1),
-    "a lifecycle node without a namespace": lambda: LifecycleNode(executable="tool", name="n"),  # type: ignore[call-arg]
-    "a container without a name": lambda: ComposableNodeContainer(executable="tool", namespace=""),  # type: ignore[call-arg]
+    "a lifecycle node without a namespace": lambda: LifecycleNode(executable="tool", name="n"),
+    "a container without a name": lambda: ComposableNodeContainer(executable="tool", namespace=""),
     "a container with no name": lambda: ComposableNodeContainer(executable="c", name=None, namespace=""),
-    "a component without a class": lambda: ComposableNode(package="demo"),  # type: ignore[call-arg]
+    "a component without a class": lambda: ComposableNode(package="demo"),
     "a component's parameters": lambda: _component(parameters="/a.yaml"),
     "a component's remappings": lambda: _component(remappings=[["a", "b"]]),
     "a target that is a number": lambda: LoadComposableNodes(
@@ -97,11 +97,11 @@ _WRONG: dict[str, Callable[[], Any]] = {
     ),
     "a parameter that is None": lambda: SetParameter("a", None),
     "a parameter of mixed things": lambda: SetParameter("a", [1, {2: 3}]),
-    "a namespace that is a number": lambda: PushROSNamespace(1),  # type: ignore[arg-type]
-    "a remapping to a number": lambda: SetRemap("a", 1),  # type: ignore[arg-type]
-    "a file that is a number": lambda: SetParametersFromFile(1),  # type: ignore[arg-type]
-    "a folder that is a number": lambda: SetROSLogDir(1),  # type: ignore[arg-type]
-    "time that is a number": lambda: SetUseSimTime(1),  # type: ignore[arg-type]
+    "a namespace that is a number": lambda: PushROSNamespace(1),
+    "a remapping to a number": lambda: SetRemap("a", 1),
+    "a file that is a number": lambda: SetParametersFromFile(1),
+    "a folder that is a number": lambda: SetROSLogDir(1),
+    "time that is a number": lambda: SetUseSimTime(1),
 }
 
 
@@ -121,7 +121,7 @@ def test_a_transition_is_of_some_node(names: list[str], ids: list[int]) -> None:
 
 def test_a_lifecycle_node_has_a_name() -> None:
     with pytest.raises(RuntimeError, match="needs a name"):
-        LifecycleNode(executable="tool", name=None, namespace="")  # type: ignore[arg-type]
+        LifecycleNode(executable="tool", name=None, namespace="")
 
 
 def test_a_node_tells_what_it_was_given() -> None:
@@ -239,18 +239,18 @@ def test_actions_tell_what_they_were_given() -> None:
     assert (parameter.name[0].describe(), parameter.value) == ("'rate'", [1, 2])
     assert SetROSLogDir("logs").log_dir[0].describe() == "'logs'"
     assert SetUseSimTime(True).value is True
-    assert [item.describe() for item in SetUseSimTime(LC("s")).value] == ["LaunchConfig('s')"]  # type: ignore[union-attr]
+    assert [item.describe() for item in SetUseSimTime(LC("s")).value] == ["LaunchConfig('s')"]
     timer = ROSTimer(period=2.0, actions=[remap])
     assert (timer.period[0].describe(), timer.actions) == ("'2.0'", [remap])
 
 
 def test_a_model_stands_where_the_user_s_line_made_the_object() -> None:
     node = _node(parameters=[{"a": LC("b")}])
-    model = model_of(node)
+    model: Any = model_of(node)
     line = test_a_model_stands_where_the_user_s_line_made_the_object.__code__.co_firstlineno + 1
     source = '    node = _node(parameters=[{"a": LC("b")}])'
     assert Path(model.span.file).name == Path(__file__).name
-    (param,) = model.param  # type: ignore[attr-defined]
+    (param,) = model.param
     assert (param.value.span.line, model.span.line) == (
         _line_of("return Node(executable"),
         _line_of("return Node("),

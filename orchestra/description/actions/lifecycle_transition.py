@@ -11,9 +11,5 @@ from orchestra.description.fields import Integer, Text
 class LifecycleTransition(Action):
     """Take lifecycle nodes of this launch through transitions, each when the one before has reached its goal."""
 
-    node: tuple[Text, ...] = Field(
-        min_length=1, description="Full names; the slash in front may be left out."
-    )
-    transition: tuple[Integer, ...] = Field(
-        min_length=1, description="Ids of lifecycle_msgs/msg/Transition, in order."
-    )
+    node: tuple[Text, ...] = Field(description="Full names; the slash in front may be left out.")
+    transition: tuple[Integer, ...] = Field(description="Ids of lifecycle_msgs/msg/Transition, in order.")
