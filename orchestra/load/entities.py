@@ -64,7 +64,7 @@ class _Builder:
     def content(self, content: Any, at: Span, model: type[Entity]) -> Any:  # noqa: ANN401 - a tree
         """Return what stands behind a key as a mapping: nothing at all and a bare list of actions are mappings too."""
         nested = "children" in model.known_keys()
-        if isinstance(content, Written) and content.null:
+        if isinstance(content, Written) and content.null and model.required_keys() != {"children"}:
             return Keyed(at, at)
         if isinstance(content, Listed) and nested:
             keyed = Keyed(content.span, at)

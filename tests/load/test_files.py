@@ -76,6 +76,10 @@ FAULTS: dict[str, tuple[str | bytes, list[tuple[Code, int, int, str | None]]]] =
         [(Code.WRONG_TYPE, 2, 3, None)],
     ),
     "a tag": ("launch:\n- log: {message: !!python/name:os.system a}", [(Code.SYNTAX, 2, 18, None)]),
+    "nothing for a list of actions": ("launch:", [(Code.WRONG_TYPE, 1, 1, None)]),
+    "a group of nothing": ("launch:\n- group:", [(Code.WRONG_TYPE, 2, 3, None)]),
+    "a timer of nothing": ("launch:\n- timer: {period: 1, children: }", [(Code.WRONG_TYPE, 2, 22, None)]),
+    "keys beside the root": ("launch: []\nother: 1", [(Code.UNKNOWN_KEY, 2, 1, None)]),
     "no YAML": ("launch: [", [(Code.SYNTAX, 1, 10, None)]),
     "two documents": ("launch: []\n---\nlaunch: []", [(Code.SYNTAX, 2, 1, None)]),
     "a misspelt root": ("lunch: []", [(Code.UNKNOWN_KEY, 1, 1, "launch")]),
@@ -184,6 +188,36 @@ def test_aliases_that_expand_without_bound_are_refused_in_bounded_time(tmp_path:
 def test_files_that_nest_too_deeply_are_refused(text: str, tmp_path: Path) -> None:
     _, problems = _load(text, tmp_path)
     assert {problem.code for problem in problems} >= {Code.SYNTAX}
+
+
+_NAMES = {
+    "<launch/>": ("a.launch.xml", "a.xml", "a.launch", "A.LAUNCH.XML"),
+    "launch: []": ("a.launch.yaml", "a.launch.yml", "a.yaml", "a.yml", "a.launch", "a.launch.YAML"),
+}
+
+
+@pytest.mark.parametrize(("text", "name"), [(text, name) for text, names in _NAMES.items() for name in names])
+def test_the_end_of_its_name_tells_the_format_of_a_file(text: str, name: str, tmp_path: Path) -> None:
+    description, problems = _load(text, tmp_path, name)
+    assert list(problems) == []
+    assert description is not None
+    assert description.actions == ()
+
+
+@pytest.mark.parametrize(
+    ("text", "name"),
+    [
+        ("<launch deprecated='use b'><log message='a'/></launch>", "a.launch.xml"),
+        ("launch: {deprecated: use b, children: [log: {message: a}]}", "a.launch.yaml"),
+    ],
+)
+def test_a_file_may_say_that_it_is_not_to_be_used_any_more(text: str, name: str, tmp_path: Path) -> None:
+    description, problems = _load(text, tmp_path, name)
+    assert list(problems) == []
+    assert description is not None
+    assert description.deprecated is not None
+    assert description.deprecated.constant == "use b"
+    assert len(description.actions) == 1
 
 
 @pytest.mark.parametrize("name", ["a.launch.toml", "a"])
