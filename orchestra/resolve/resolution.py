@@ -133,8 +133,8 @@ class Resolution:
 
     @property
     def frame(self) -> Frame:
-        """The file that is being visited."""
-        return self.frames[-1]
+        """The file that is being visited; user code may visit actions by hand, in none."""
+        return self.frames[-1] if self.frames else Frame("", self.scope)
 
     def goes_on(self, span: Span) -> bool:
         """Count a step of the visit; false where there have been more than any description needs."""

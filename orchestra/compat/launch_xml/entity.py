@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.frontend.entity import Entity as BaseEntity
 from orchestra.compat.launch.frontend.entity import key_of
+from orchestra.compat.launch.utilities.type_utils import get_typed_value
 from orchestra.compat.launch_xml.element import PlacedElement
 
 if TYPE_CHECKING:
@@ -59,6 +60,11 @@ class Entity(BaseEntity):
             self.__read.add(separator)
             return self.__element.attrib[key].split(self.__element.attrib[separator])
         return self.__written.get(key, self.__element.attrib[key])
+
+    def _coerced(self, raw: Any, data_type: Any, *, can_be_str: bool) -> Any:
+        if isinstance(raw, list):  # the texts between separators
+            return get_typed_value(raw, data_type, can_be_str=can_be_str)
+        return super()._coerced(raw, data_type, can_be_str=can_be_str)
 
     def _unread(self) -> Iterator[str]:
         yield from dict.fromkeys(child.tag for child in self.__element if child.tag not in self.__read_tags)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.actions.execute_local import ExecuteLocal
@@ -10,6 +11,7 @@ from orchestra.compat.launch.descriptions.executable import Executable
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from orchestra.compat.launch.substitution import Substitution
     from orchestra.compat.text import Sub
 
 
@@ -31,6 +33,13 @@ class ExecuteProcess(ExecuteLocal):
             cmd=cmd, prefix=prefix, name=name, cwd=cwd, env=env, additional_env=additional_env
         )
         super().__init__(process_description=executable, **kwargs)
+
+    @classmethod
+    def _parse_cmdline(cls, cmd: str, parser: Any) -> list[list[Substitution]]:
+        """Return the words of a command in a launch file in XML or YAML, split by shell rules."""
+        words = import_module("orchestra.compat.launch.frontend.reading.words")  # which few launch files need
+        found: list[list[Substitution]] = words.parse_cmdline(cmd, parser)
+        return found
 
     @property
     def name(self) -> Any:

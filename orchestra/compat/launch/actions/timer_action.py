@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.building import models_of
+from orchestra.compat.described import described
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.text import Sub, normalized
 from orchestra.compat.values import scalar, written
@@ -40,14 +41,14 @@ class TimerAction(ModelledAction):
         super().__init__(**kwargs)
         if not isinstance(actions, Iterable):
             raise TypeError(f"the actions of a timer are a list, not {actions!r}")
-        self.__period = normalized(written(period))
+        self.__period = float(period) if isinstance(period, int | float) else normalized(written(period))
         self.__actions = actions if isinstance(actions, list) else list(actions)
         self.__cancel_on_shutdown = cancel_on_shutdown
         self._is_cancelled = False
 
     @property
-    def period(self) -> list[Substitution]:
-        """The seconds."""
+    def period(self) -> float | list[Substitution]:
+        """The seconds: a number where one was given."""
         return self.__period
 
     @property
@@ -76,7 +77,8 @@ class TimerAction(ModelledAction):
         return self.actions
 
     def __seconds(self) -> str:
-        return " + ".join(item.describe() for item in self.period)
+        period = self.period
+        return str(period) if isinstance(period, float) else described(period)
 
     def _is_as_described(self) -> bool:
         return super()._is_as_described() and not self._is_cancelled

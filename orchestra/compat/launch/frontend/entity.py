@@ -85,9 +85,13 @@ class Entity:
 
     def _typed(self, name: str, raw: Any, data_type: Any, *, can_be_str: bool) -> Any:
         try:
-            return typed(raw, data_type, can_be_str=can_be_str)
+            return self._coerced(raw, data_type, can_be_str=can_be_str)
         except (ValueError, TypeError) as error:
             raise TypeError(f"Attribute '{name}' of '{self.type_name}': {error}") from error
+
+    def _coerced(self, raw: Any, data_type: Any, *, can_be_str: bool) -> Any:
+        """Return a value as a type. Raises `ValueError` or `TypeError` where it is none."""
+        return typed(raw, data_type, can_be_str=can_be_str)
 
 
 def is_list_of_entities(data_type: Any) -> bool:

@@ -56,7 +56,6 @@ def composable_node(entity: Entity, parser: Any) -> dict[str, Any]:
     extra = pairs(entity, parser, "extra_arg")
     if extra:
         found["extra_arguments"] = [{tuple(name): value} for name, value in extra]
-    entity.assert_entity_completely_parsed()
     return found
 
 
@@ -73,5 +72,8 @@ def _settings(entity: Entity, parser: Any) -> dict[str, Any]:
 
 
 def _components(entity: Entity, parser: Any, *, optional: bool) -> list[ComposableNode]:
-    found = entity.get_attr("composable_node", data_type=ENTITIES, optional=optional)
-    return [ComposableNode(**composable_node(item, parser)) for item in found or ()]
+    found = []
+    for item in entity.get_attr("composable_node", data_type=ENTITIES, optional=optional) or ():
+        found.append(ComposableNode(**composable_node(item, parser)))
+        item.assert_entity_completely_parsed()
+    return found
