@@ -93,6 +93,27 @@ def test_what_is_only_told_imports_nothing_heavy(words: list[str]) -> None:
     assert len([name for name in modules if name.startswith("orchestra")]) < 60
 
 
+@pytest.mark.parametrize(
+    "words", [["la"], ["launch", ""], ["plan", "--"], ["launch", "a.launch.py", ""], ["launch", "a.launch.yaml", "w"]]
+)
+def test_completing_imports_nothing_heavy(words: list[str], folder: Path) -> None:
+    (folder / "a.launch.py").write_text("DeclareLaunchArgument('world')\n")
+    (folder / "a.launch.yaml").write_text("launch: [{arg: {name: world}}]\n")
+    done = subprocess.run(
+        [sys.executable, "-c", _MODULES.format(words=["completion", "--complete", "fish", *words])],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    )
+    assert done.stdout
+    modules = set(json.loads(done.stderr.splitlines()[-1]))
+    parser = {"yaml"} if "a.launch.yaml" in words else set()
+    assert modules & _HEAVY == parser
+    assert not {name for name in modules if name.startswith(("orchestra.description", "orchestra.plan"))}
+
+
 def test_the_keeper_of_a_run_imports_nothing_heavy() -> None:
     """Before the first fork there is our own supervise room, and little of the standard library."""
     count = (
