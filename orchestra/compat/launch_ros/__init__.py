@@ -9,6 +9,7 @@ from orchestra.compat.lazy import exported
 _NAMES = {
     "actions": "",
     "default_launch_description": "",
+    "get_default_launch_description": "default_launch_description",
     "descriptions": "",
     "event_handlers": "",
     "events": "",
