@@ -29,7 +29,8 @@ class LaunchContext:
         self.__noninteractive = noninteractive
         self._engine = _engine if _engine is not None else connection().engine(self.__argv)
         self.__globals: dict[str, Any] = {}
-        self.__locals: list[dict[str, Any]] = []
+        self.__locals: dict[str, Any] = {}
+        self.__outer_locals: list[dict[str, Any]] = []
         self._is_shutdown = False
 
     @property
@@ -74,25 +75,23 @@ class LaunchContext:
         if file is not None:
             known["current_launch_file_path"] = file
             known["current_launch_file_directory"] = file.rpartition("/")[0]
-        for extension in self.__locals:
-            known.update(extension)
-        return known
+        return known | self.__locals
 
     def extend_locals(self, extensions: Mapping[str, Any]) -> None:
         """Make more known, until the event that is being handled is over."""
-        self.__locals.append(dict(extensions))
+        self.__locals.update(extensions)
 
     def extend_globals(self, extensions: Mapping[str, Any]) -> None:
         """Make more known, for good."""
         self.__globals.update(extensions)
 
     def _push_locals(self) -> None:
-        self.__locals.append({})
+        self.__outer_locals.append(dict(self.__locals))
 
     def _pop_locals(self) -> None:
-        if not self.__locals:
+        if not self.__outer_locals:
             raise RuntimeError("there are no locals to pop")
-        self.__locals.pop()
+        self.__locals = self.__outer_locals.pop()
 
     def _push_launch_configurations(self) -> None:
         self._engine.push_configurations()

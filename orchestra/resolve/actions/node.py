@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from orchestra.resolve.context import POISON, Evaluated, Poison, Value
 from orchestra.resolve.namespaces import namespace_at
@@ -54,7 +54,15 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
         autostart=autostart is True,
         faulty=not whole or not regular or any(isinstance(value, Poison) for value in values),
     )
+    _tell(action.origin, program, [(rule.source.text, rule.target.text) for rule in rules])
     return add_process(action, program, run)
+
+
+def _tell(origin: Any, program: Program, rules: list[tuple[str, str]]) -> None:  # noqa: ANN401 - any object
+    """Let the object of a Python launch file know what its names have come to: user code asks for them."""
+    if origin is not None and not program.faulty and hasattr(origin, "_resolved_as"):
+        name, namespace = (None if item is None else item.text for item in (program.name, program.namespace))
+        origin._resolved_as(name, namespace, rules)  # noqa: SLF001 - the class of ours that made the action
 
 
 def _words(

@@ -12,6 +12,8 @@ from orchestra.description.actions.arg import Arg
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from orchestra.compat.launch.launch_context import LaunchContext
+    from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
     from orchestra.compat.launch.substitution import Substitution
     from orchestra.description.entity import Action as Model
 
@@ -62,6 +64,13 @@ class DeclareLaunchArgument(ModelledAction):
     def choices(self) -> list[str] | None:
         """The values that it may have."""
         return self.__choices
+
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Declare the argument. Raises `RuntimeError` where it has no value, nor one that it may have."""
+        super().execute(context)
+        if self.name not in context.launch_configurations:
+            raise RuntimeError(f"the launch argument '{self.name}' has neither a value nor a default")
+        return None
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
