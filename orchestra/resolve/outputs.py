@@ -6,15 +6,18 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from orchestra.description.outputs import OUTPUTS, PLACES, STREAMS
 from orchestra.description.text import Template
+from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Poison
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
 
     Places: TypeAlias = dict[str, tuple[str, ...]]
 
+_OVERRIDE: Final = "OVERRIDE_LAUNCH_PROCESS_OUTPUT"
 # What each word stands for (launch, `get_output_loggers`): screen and log by stream, the files of its own apart.
 _WORDS: Final[Mapping[str, Places]] = {
     "screen": {"both": ("screen",)},
@@ -26,9 +29,15 @@ _WORDS: Final[Mapping[str, Places]] = {
 
 
 def output(
-    written: Template | Mapping[str, tuple[Template, ...]] | None, run: Resolution
+    written: Template | Mapping[str, tuple[Template, ...]] | None, run: Resolution, at: Location
 ) -> str | Places | Poison | None:
-    """Return where the output goes, None where nothing is said."""
+    """Return where the output goes, None where nothing is said; `at` is the place of the process.
+
+    As upstream, a variable of the caller's environment can say it for all processes.
+    """
+    everywhere = run.inputs.environment.get(_OVERRIDE)
+    if everywhere:
+        return _overridden(everywhere, run, at)
     if written is None or isinstance(written, Template):
         return run.word(written, OUTPUTS)
     places: Places = {}
@@ -39,6 +48,14 @@ def output(
         if words:
             places[stream] = tuple(place for place in PLACES if place in words)
     return next((word for word, meaning in _WORDS.items() if _routes(meaning) == _routes(places)), places)
+
+
+def _overridden(word: str, run: Resolution, at: Location) -> str | Poison:
+    if word in OUTPUTS:
+        return word
+    message = f"{_OVERRIDE} is one of {', '.join(OUTPUTS)}, not '{word}'"
+    run.problems.error(Code.BAD_VALUE, message, at)
+    return POISON
 
 
 def _routes(places: Places) -> set[tuple[str, str]]:

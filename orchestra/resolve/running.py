@@ -51,7 +51,7 @@ def add_process(action: Running, program: Program, run: Resolution) -> int:
     sound = _Sound()
     location = run.at(action.span)
     on_exit = sound(run.word(action.on_exit, ON_EXIT))
-    places = output(action.output, run)
+    places = output(action.output, run, location)
     process = ResolvedProcess(
         kind=program.kind,
         package=program.package,

@@ -42,7 +42,40 @@ def _action(action: str, /, **keys: st.SearchStrategy[Any]) -> st.SearchStrategy
 
 
 _pairs = st.lists(st.fixed_dictionaries({"name": _names.map(str.upper), "value": _texts}), max_size=2)
+_namespaces = st.sampled_from(["n", "/m", ""])
+_params = st.lists(st.fixed_dictionaries({"name": _names, "value": st.integers(0, 9)}), max_size=2)
+_rules = st.lists(
+    st.fixed_dictionaries({"from": _names, "to": st.sampled_from(["t", "/u", "~/v"])}), max_size=2
+)
+_components = st.lists(
+    st.fixed_dictionaries(
+        {"pkg": _names, "plugin": _names.map(lambda name: f"lib::{name}")},
+        optional={
+            "name": _names,
+            "namespace": _namespaces,
+            "param": _params,
+            "remap": _rules,
+            "extra_arg": st.lists(st.fixed_dictionaries({"name": _names, "value": _flags}), max_size=1),
+            "if": _flags,
+        },
+    ),
+    min_size=1,
+    max_size=3,
+)
 _plain = st.one_of(
+    _action("append_env", name=_names.map(lambda name: f"{name.upper()}_1"), value=_texts, prepend=_flags),
+    _action("reset_env"),
+    _action("reset", keep=st.lists(st.fixed_dictionaries({"name": _names, "value": _texts}), max_size=1)),
+    _action("set_ros_log_dir", new_log_dir=st.sampled_from(["a", "/b"])),
+    _action("lifecycle_node", exec=st.just("prog"), name=_names, namespace=_namespaces, autostart=_flags),
+    _action(
+        "node_container",
+        exec=st.just("prog"),
+        name=_names,
+        namespace=_namespaces,
+        composable_node=_components,
+    ),
+    _action("load_composable_node", target=st.sampled_from(["/n/a", "b", "/x"]), composable_node=_components),
     _action("arg", name=_names, default=_texts),
     _action("let", name=_names, value=_texts),
     _action("log", message=_texts),
@@ -73,6 +106,7 @@ def _around(inner: st.SearchStrategy[dict[str, Any]]) -> st.SearchStrategy[dict[
         _action("group", children=children, scoped=st.booleans(), forwarding=st.booleans()),
         _action("group", children=children, for_each=each),
         _action("timer", period=st.floats(0, 10), children=children),
+        _action("ros_timer", period=st.floats(0, 10), children=children),
         _action("include", file=st.just("inner.launch.yaml"), scoped=st.booleans(), for_each=each),
     )
 

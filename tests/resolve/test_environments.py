@@ -152,6 +152,14 @@ def test_other_places_are_refused(written: str, tmp_path: Path) -> None:
     assert [problem.code for problem in found.problems] == [Code.WRONG_TYPE]
 
 
+def test_the_caller_can_say_where_all_output_goes(tmp_path: Path) -> None:
+    text = "launch:\n- executable: {cmd: sleep 1, output: screen}"
+    environment = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "own_log"}
+    assert outcome(tmp_path, text, environment=environment).plan.processes[0].output == "own_log"
+    environment = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "everywhere"}
+    assert outcome(tmp_path, text, environment=environment).faults == [(Code.BAD_VALUE, "main.yaml", 2, 3)]
+
+
 PREFIXES = {
     "a text is split behind its substitutions": ("$(var tool)", ("gdb", "-ex", "run me", "--args")),
     "a list is not": ("[gdb, '-ex run']", ("gdb", "-ex run")),

@@ -58,8 +58,8 @@ def _narrowed(event: TriggerEvent) -> str:
 
 def _action(action: TriggeredAction) -> str:  # noqa: C901, PLR0911 - one line per action
     match action:
-        case LogAction(message):
-            return f"log {message!r}"
+        case LogAction(message, _, level):
+            return f"log {message!r}{'' if level == 'info' else f' as {level}'}"
         case StartAction(process):
             return f"start {process}"
         case LoadAction(component):
