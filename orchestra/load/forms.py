@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import types
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from enum import Enum, auto
 from functools import cache
@@ -17,6 +17,7 @@ class Kind(Enum):
     """What stands behind a key."""
 
     TEXT = auto()  # an attribute
+    VALUE = auto()  # an attribute that is a list where it is written as one
     LIST = auto()  # an attribute that is a list of scalars
     PART = auto()  # one element
     PARTS = auto()  # any number of elements
@@ -29,24 +30,35 @@ _ELEMENTS = (Kind.PART, Kind.PARTS, Kind.VARIABLES)
 
 @dataclass(frozen=True, slots=True)
 class Form:
-    """A kind, and the model of the parts where they have one."""
+    """A kind, the model of the parts where they have one, and whether an attribute may also be an element."""
 
     kind: Kind
     model: type[Entity] | None = None
+    or_variables: bool = False
 
 
 @dataclass(frozen=True, slots=True)
 class Forms:
-    """The form of every key of a model; those that are elements; whether other elements in it are actions."""
+    """The form of every key of a model; those that are elements; whether other elements in it are actions.
+
+    `others` is the form of attributes that are no key.
+    """
 
     by_key: Mapping[str, Form]
     elements: frozenset[str]
-    holds_actions: bool
+    holds_actions: bool = False
+    others: Form = Form(Kind.TEXT)
+
+
+VARIABLES = Forms({}, frozenset(), others=Form(Kind.VALUE))
 
 
 @cache
 def forms_of(model: type[Entity] | None) -> Forms:
-    """Return the forms of a model's keys, none where no model is known."""
+    """Return the forms of a model's keys, none where no model is known.
+
+    Raises `TypeError` for a field of a type that nobody has thought of.
+    """
     fields = model.model_fields if model is not None else {}
     forms = {entry.alias or name: _form(entry.annotation) for name, entry in fields.items()}
     elements = frozenset(key for key, form in forms.items() if form.kind in _ELEMENTS)
@@ -54,17 +66,18 @@ def forms_of(model: type[Entity] | None) -> Forms:
 
 
 def _form(annotation: Any) -> Form:  # noqa: ANN401 - a type
-    alternatives = [_bare(item) for item in _alternatives(_bare(annotation)) if item is not type(None)]
+    alternatives = tuple(_alternatives(annotation))
+    variables = any(get_origin(item) is dict for item in alternatives)
     if Template in alternatives:
-        return Form(Kind.TEXT)
+        return Form(Kind.TEXT, or_variables=variables)
+    if variables:
+        return Form(Kind.VARIABLES)
     for item in alternatives:
-        if get_origin(item) is dict:
-            return Form(Kind.VARIABLES)
         if isinstance(item, type) and issubclass(item, Entity):
             return Form(Kind.PART, item)
         if get_origin(item) is tuple:
-            return _form_of_items(_bare(get_args(item)[0]))
-    return Form(Kind.TEXT)
+            return _form_of_items(next(_alternatives(get_args(item)[0])))
+    raise TypeError(f"a field of type {annotation} has no form in XML")
 
 
 def _form_of_items(item: Any) -> Form:  # noqa: ANN401 - a type
@@ -75,12 +88,12 @@ def _form_of_items(item: Any) -> Form:  # noqa: ANN401 - a type
     return Form(Kind.LIST)
 
 
-def _bare(annotation: Any) -> Any:  # noqa: ANN401 - a type
-    """Return a type without what is annotated to it."""
+def _alternatives(annotation: Any) -> Iterator[Any]:  # noqa: ANN401 - a type
+    """Yield the types that a value may have, without what is annotated to them."""
     while get_origin(annotation) is Annotated:
         annotation = get_args(annotation)[0]
-    return annotation
-
-
-def _alternatives(annotation: Any) -> tuple[Any, ...]:  # noqa: ANN401 - a type
-    return get_args(annotation) if get_origin(annotation) in (Union, types.UnionType) else (annotation,)
+    if get_origin(annotation) in (Union, types.UnionType):
+        for item in get_args(annotation):
+            yield from _alternatives(item)
+    elif annotation is not type(None):
+        yield annotation

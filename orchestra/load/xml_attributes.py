@@ -33,16 +33,17 @@ def separated(attribute: Attribute, separator: Attribute, whole: Source, reader:
     return items
 
 
-def listed(attribute: Attribute, whole: Source) -> Listed:
-    """Return the items of a value as `[a, b]`, by YAML's rules; any other value is a list of one."""
+def listed(attribute: Attribute, whole: Source, *, alone: bool) -> Listed | Written:
+    """Return the items of a value as `[a, b]`, by YAML's rules; any other value is itself or a list of it alone."""
     written = attribute.written(whole)
-    items = Listed(written.span)
     node = _composed(written.text)
+    items = Listed(written.span)
     if isinstance(node, yaml.SequenceNode) and all(isinstance(item, yaml.ScalarNode) for item in node.value):
-        for item in node.value:
-            items.append(_item(written, item))
-    else:
+        items.extend(_item(written, item) for item in node.value)
+    elif alone:
         items.append(written)
+    else:
+        return written
     return items
 
 

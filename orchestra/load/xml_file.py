@@ -15,7 +15,7 @@ from orchestra.description.source import Keyed, Listed
 from orchestra.errors import Code
 from orchestra.load.elements import Attribute, Element, Tagged
 from orchestra.load.exposed import exposes_action
-from orchestra.load.forms import Form, Forms, Kind, forms_of
+from orchestra.load.forms import VARIABLES, Form, Forms, Kind, forms_of
 from orchestra.load.keys import action_meant, key_meant, spelled
 from orchestra.load.offsets import Source, source
 from orchestra.load.placed import placed
@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 _ROOT = "launch"
 _SEPARATOR = "_sep"
-_TEXT = Form(Kind.TEXT)
+_ATTRIBUTES = (Kind.TEXT, Kind.VALUE, Kind.LIST)
 # Attributes of a root that say nothing to us: files of ROS 1 carry a version.
 _IGNORED = frozenset({"version"})
 # Keys of which a text between tags is probably meant to be the value.
@@ -95,9 +95,9 @@ class _Shaper:
         action.put(element.name, self.content(element, model), at)
         return action
 
-    def content(self, element: Element, model: type[Entity] | None) -> Tagged:
+    def content(self, element: Element, model: type[Entity] | None, forms: Forms | None = None) -> Tagged:
         """Return what an element says; without a model scalars are taken for texts, elements for lists."""
-        forms = forms_of(model)
+        forms = forms or forms_of(model)
         at = element.span(self.whole)
         tagged = Tagged(at, at, element, forms.elements)
         self._attributes(element, forms, tagged)
@@ -121,14 +121,15 @@ class _Shaper:
         for attribute in element.attributes:
             if attribute in separators.values() or attribute.name.split(":")[0] == "xmlns":
                 continue
-            form = self._form(attribute.name, forms) or _TEXT
+            form = self._form(attribute.name, forms) or forms.others
             at = attribute.span(self.whole)
-            if form.kind not in (Kind.TEXT, Kind.LIST):
+            if form.kind not in _ATTRIBUTES:
                 self._not_an_attribute(attribute.name, form, at, tagged)
             elif (separator := separators.get(spelled(attribute.name))) is not None:
                 tagged.put(attribute.name, separated(attribute, separator, self.whole, self.reader), at)
-            elif form.kind is Kind.LIST:
-                tagged.put(attribute.name, listed(attribute, self.whole), at)
+            elif form.kind is not Kind.TEXT:
+                one = form.kind is Kind.LIST
+                tagged.put(attribute.name, listed(attribute, self.whole, alone=one), at)
             else:
                 tagged.put(attribute.name, attribute.written(self.whole), at)
 
@@ -143,13 +144,13 @@ class _Shaper:
 
     def _child(self, child: Element, form: Form, tagged: Tagged) -> None:
         at = child.span(self.whole)
-        match form.kind:
+        match Kind.VARIABLES if form.or_variables else form.kind:
             case Kind.PART:
                 self._once(child, self.content(child, form.model), tagged)
             case Kind.PARTS:
                 self._part(child, form.model, tagged)
             case Kind.VARIABLES:
-                self._once(child, self.content(child, None), tagged)
+                self._once(child, self.content(child, None, VARIABLES), tagged)
             case _:
                 message = f"'{child.name}' is written as an attribute: {child.name}=\"...\""
                 self.reader.error(Code.WRONG_TYPE, message, at)

@@ -99,6 +99,19 @@ SAME = {
         "<group><for_each robot='a,b' side='l;r' side-sep=';'/></group>",
         "[group: {for_each: {robot: 'a,b', side: [l, r]}, children: []}]",
     ),
+    "lists of names of the user's choice": (
+        "<group><for_each robot='[a, b]' side='[c'/></group>",
+        "[group: {for_each: {robot: [a, b], side: '[c'}, children: []}]",
+    ),
+    "output in one word": ("<node exec='a' output='screen'/>", "[node: {exec: a, output: screen}]"),
+    "output by stream": (
+        "<node exec='a'><output stdout='log' stderr='[screen, log]'/></node>",
+        "[node: {exec: a, output: {stdout: log, stderr: [screen, log]}}]",
+    ),
+    "a command as a list": (
+        "<executable cmd='a|b c' cmd-sep='|'/>",
+        "[executable: {cmd: [a, b c]}]",
+    ),
     "both ways to join words": (
         "<node exec='a' launch-prefix='b'><depends-on node='c'/><depends_on node='d'/></node>"
         "<push-ros-namespace namespace='e'/>",
