@@ -29,6 +29,7 @@ VISITORS: dict[str, str] = {
     "Include": "include",
     "Let": "let",
     "LifecycleNode": "lifecycle_node",
+    "LifecycleTransition": "lifecycle_transition",
     "LoadComposableNode": "load_composable_node",
     "Log": "log",
     "Node": "node",
