@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -16,6 +17,7 @@ from orchestra.resolve.scope import Ledger, Scope
 from orchestra.resolve.words import split
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
 
     from orchestra.description.text import Template
@@ -68,8 +70,12 @@ def _span(start: int, end: int) -> Span:
 
 
 @pytest.fixture
-def place(package: Path) -> Place:
-    """The place where upstream's recorded probes were taken: some variables and environment, no file; a package."""
+def place(package: Path) -> Iterator[Place]:
+    """The place where upstream's recorded probes were taken: some variables and environment, no file; a package.
+
+    `$(eval)` sees the environment of the description as its own: that of the tests is put back.
+    """
+    outside = dict(os.environ)
     environment = {"E1": "envval", "PATH": "/usr/bin:/bin", "AMENT_PREFIX_PATH": str(package)}
     problems = Problems()
     scope = Scope(problems, Ledger(), environment)
@@ -78,7 +84,9 @@ def place(package: Path) -> Place:
     for name, value in {"a": "A", "b": "true", "n": "3", "name": "a"}.items():
         made.set(name, value)
     made.set("poisoned", POISON)
-    return made
+    yield made
+    os.environ.clear()
+    os.environ.update(outside)
 
 
 @pytest.fixture
