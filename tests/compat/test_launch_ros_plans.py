@@ -270,10 +270,12 @@ def test_a_fault_is_told_at_the_user_s_line(action: str, message: str, tmp_path:
     assert (Path(problem.span.file).name, problem.span.line) == ("a.launch.py", line)
 
 
-def test_words_appended_to_the_command_are_arguments(tmp_path: Path) -> None:
+def test_words_appended_to_the_command_are_ros_arguments(tmp_path: Path) -> None:
+    """Upstream's command line ends with `--ros-args` until the node is visited."""
     body = """
         plain = Node(executable='/bin/true', arguments=['a'])
-        plain.cmd.append([TextSubstitution(text='b')])
+        plain.cmd.append([TextSubstitution(text='--log-level')])
+        plain.cmd.append([TextSubstitution(text='warn')])
         with_ros = Node(executable='/bin/true', arguments=['a'], ros_arguments=['--log-level', 'info'])
         with_ros.cmd.append([TextSubstitution(text='-r'), ])
         with_ros.cmd.append([TextSubstitution(text='x:=y'), ])
@@ -281,7 +283,7 @@ def test_words_appended_to_the_command_are_arguments(tmp_path: Path) -> None:
     """
     found = of_python(tmp_path, body)
     assert [process["command"] for process in found.content["processes"]] == [
-        ["/bin/true", "a", "b", "--ros-args"],
+        ["/bin/true", "a", "--ros-args", "--log-level", "warn", "--ros-args"],
         ["/bin/true", "a", "--ros-args", "--log-level", "info", "-r", "x:=y", "--ros-args"],
     ]
 

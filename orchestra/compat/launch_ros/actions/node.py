@@ -60,7 +60,7 @@ class Node(ExecuteProcess):
         self.__node_executable = executable
         self.__node_name = name
         self.__node_namespace = namespace
-        self.__arguments = _listed(arguments)
+        self.__arguments = None if arguments is None else _listed(arguments)
         self.__ros_arguments = _checked(ros_arguments, "ros_arguments")
         self.__parameters = normalize_parameters(_checked(parameters, "parameters") or [])
         self.__remappings = normalize_remap_rules(() if remappings is None else remappings)
@@ -107,7 +107,7 @@ class Node(ExecuteProcess):
 
     @property
     def expanded_remapping_rules(self) -> list[tuple[str, str]] | None:
-        """The node's own rules; None before the visit, and without any."""
+        """The rules of all nodes and its own; None before the visit, and without any."""
         return self.__expanded_remappings
 
     def is_node_name_fully_specified(self) -> bool:
@@ -125,16 +125,16 @@ class Node(ExecuteProcess):
         name, namespace = (None if item is None else _performed(item, context) for item in self.__names[1:])
         base = context.launch_configurations.get("ros_namespace", None)
         absolute = make_namespace_absolute(prefix_namespace(base, namespace))
-        rules = [(_performed(left, context), _performed(right, context)) for left, right in self.__remappings]
-        self._resolved_as(name, absolute, rules)
+        own = [(_performed(left, context), _performed(right, context)) for left, right in self.__remappings]
+        self._resolved_as(name, absolute, [*context.launch_configurations.get("ros_remaps", ()), *own])
 
-    def _resolved_as(self, name: str | None, namespace: str | None, rules: list[tuple[str, str]]) -> None:
-        """Take note of what a visit has come to. `rules` are the node's own remappings."""
+    def _resolved_as(self, name: str | None, namespace: str | None, rules: Iterable[tuple[str, str]]) -> None:
+        """Take note of what a visit has come to. `rules` are the remappings of all nodes, then the node's own."""
         if name is not None:
             self.__expanded_node_name = name.removeprefix("/")
         if namespace is not None:
             self.__expanded_node_namespace = namespace
-        self.__expanded_remappings = rules or None
+        self.__expanded_remappings = list(rules) or None
         self.__final_node_name = f"{self.__expanded_node_namespace.rstrip('/')}/{self.__expanded_node_name}"
 
     def _process_model(self, common: Mapping[str, Any]) -> Model:
@@ -144,7 +144,7 @@ class Node(ExecuteProcess):
         """Return the fields that the models of all kinds of nodes share."""
         span = self._place.span
         package, name, namespace = (optional(item, span) for item in self.__names)
-        arguments, ros_arguments = self.__argument_fields()
+        arguments = tuple(template(word, span) for word in self.__arguments or ())
         return {
             "pkg": package,
             "exec": template(self.__node_executable, span),
@@ -152,7 +152,7 @@ class Node(ExecuteProcess):
             "namespace": namespace,
             "exec_name": optional(self.process_description.name, span),
             "args": arguments or None,
-            "ros_args": ros_arguments,
+            "ros_args": self.__ros_words(),
             "param": params(self.__parameters, span),
             "remap": remaps(self.__remappings, span),
         }
@@ -163,16 +163,15 @@ class Node(ExecuteProcess):
         if self.__package is not None:
             program = ExecutableInPackage(package=self.__package, executable=self.__node_executable)
         ros_arguments = () if self.__ros_arguments is None else (_ROS_ARGUMENTS, *self.__ros_arguments)
-        return [program, *self.__arguments, *ros_arguments]
+        return [program, *(self.__arguments or ()), *ros_arguments, _ROS_ARGUMENTS]
 
-    def __argument_fields(self) -> tuple[tuple[Template, ...], tuple[Template, ...] | None]:
-        """Return arguments and ROS arguments, with what users have appended to `cmd` since."""
+    def __ros_words(self) -> tuple[Template, ...] | None:
+        """Return the ROS arguments, with what users have appended to `cmd` since, which ends with `--ros-args`."""
+        appended = self.process_description.cmd[len(self.__words()) :]
+        if self.__ros_arguments is None and not appended:
+            return None
         span = self._place.span
-        words = tuple(template(word, span) for word in self.process_description.cmd[1:])
-        if self.__ros_arguments is None:
-            return words, None
-        count = len(self.__arguments)
-        return words[:count], words[count + 1 :]
+        return tuple(template(word, span) for word in (*(self.__ros_arguments or ()), *appended))
 
 
 def _refuse_former(kwargs: Mapping[str, Any]) -> None:
@@ -188,10 +187,10 @@ def _checked(value: Any, name: str) -> Any:
     return value
 
 
-def _listed(arguments: Iterable[Sub] | None) -> list[Sub]:
+def _listed(arguments: Iterable[Sub]) -> list[Sub]:
     if isinstance(arguments, str | Substitution):
         raise TypeError(f"'arguments' of a Node are a list of words, not {arguments!r}")
-    return [] if arguments is None else list(arguments)
+    return list(arguments)
 
 
 def _performed(subs: Iterable[Substitution], context: LaunchContext) -> str:
