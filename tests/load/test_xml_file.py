@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import re
 import time
 from itertools import pairwise
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -19,8 +21,6 @@ from orchestra.load.reader import Reader
 from orchestra.load.xml_parser import parse
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from orchestra.location import Span
 
 
@@ -232,6 +232,12 @@ def test_a_file_that_ends_in_launch_is_what_it_begins_with(text: str, tmp_path: 
 @pytest.mark.parametrize(("name", "text"), [("a.launch.xml", "launch: []"), ("a.launch.yaml", "<launch/>")])
 def test_no_format_is_tried_for_another(name: str, text: str, tmp_path: Path) -> None:
     assert [code for code, *_ in _loaded(text, tmp_path, name)] in ([Code.SYNTAX], [Code.WRONG_TYPE])
+
+
+def test_what_the_page_on_launch_files_shows_is_read_without_a_fault(tmp_path: Path) -> None:
+    page = Path(__file__).parents[2].joinpath("docs/launch-files.md").read_text("utf-8")
+    (shown,) = re.findall(r"```xml\n(.*?)```", page, re.DOTALL)
+    assert _loaded(shown, tmp_path, "a.launch.xml") == []
 
 
 _MESSAGE = "<launch><log message='ä'/></launch>"
