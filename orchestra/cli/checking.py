@@ -56,10 +56,12 @@ class _LaunchFile:
         self._packages = InstalledPackages(inputs.environment)
         pipeline.collect(str(Path(path).absolute()), inputs, self.problems, load=self._load)
 
-    def _load(self, path: str, problems: Problems, chain: tuple[Span, ...] = ()) -> Description | None:
+    def _load(
+        self, path: str, problems: Problems, chain: tuple[Span, ...] = (), ending: str | None = None
+    ) -> Description | None:
         if chain:
             self.included.add(os.path.realpath(path))
-        description = load(path, problems, chain)
+        description = load(path, problems, chain, ending)
         if description is not None:
             files = files_named(description, self._environment, self._packages)
             self.named.update(map(os.path.realpath, files))

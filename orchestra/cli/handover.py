@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.cli.boundary import Telling, guarded
@@ -18,9 +19,14 @@ if TYPE_CHECKING:
     from orchestra.supervise.resolver import Answer
 
 
-def hand_over(plan: Plan, options: Namespace, default_name: str, stream: BinaryIO) -> None:
-    """Write the plan and how to run it to the supervisor's stream. Raises `UsageError`."""
-    stream.write(document.dumps(plan, run_options(options, default_name)))
+def hand_over(
+    plan: Plan, options: Namespace, default_name: str, stream: BinaryIO, *, files: str | None = None
+) -> None:
+    """Write the plan and how to run it to the supervisor's stream. Raises `UsageError`.
+
+    `files` is a folder that becomes part of the run directory.
+    """
+    stream.write(document.dumps(plan, replace(run_options(options, default_name), files=files)))
 
 
 def supervised(

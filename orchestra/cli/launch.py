@@ -76,7 +76,8 @@ def prepare(options: Namespace, stream: BinaryIO) -> int | Answer:
     with ExitStack() as lasting:
         launch = inputs.launch_from(options, lasting)
         inputs.warn(launch.plan, options)
-        hand_over(launch.plan, options, Path(launch.plan.file).name.partition(".")[0], stream)
+        name = Path(launch.plan.file).name.partition(".")[0]
+        hand_over(launch.plan, options, name, stream, files=launch.files.keep(more=launch.deferred))
         if launch.deferred:
             return partial(_answer, lasting.pop_all(), launch)
     return boundary.OK

@@ -5,14 +5,16 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from subprocess import CompletedProcess
+from typing import TYPE_CHECKING, TypeAlias
 
 import pytest
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
     from pathlib import Path
-from subprocess import CompletedProcess
+
+Command: TypeAlias = Callable[..., CompletedProcess[str]]
 
 
 @pytest.fixture
@@ -45,7 +47,7 @@ def prefix(tmp_path: Path) -> Path:
 
 
 @pytest.fixture
-def orchestra(folder: Path, home: Path) -> Callable[..., CompletedProcess[str]]:
+def orchestra(folder: Path, home: Path) -> Command:
     """Run `orchestra WORDS` and return what came of it."""
 
     def run(*words: str, **environment: str) -> CompletedProcess[str]:

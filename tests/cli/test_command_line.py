@@ -94,7 +94,8 @@ def test_what_is_only_told_imports_nothing_heavy(words: list[str]) -> None:
 
 
 @pytest.mark.parametrize(
-    "words", [["la"], ["launch", ""], ["plan", "--"], ["launch", "a.launch.py", ""], ["launch", "a.launch.yaml", "w"]]
+    "words",
+    [["la"], ["launch", ""], ["plan", "--"], ["launch", "a.launch.py", ""], ["launch", "a.launch.yaml", "w"]],
 )
 def test_completing_imports_nothing_heavy(words: list[str], folder: Path) -> None:
     (folder / "a.launch.py").write_text("DeclareLaunchArgument('world')\n")

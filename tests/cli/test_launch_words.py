@@ -3,16 +3,15 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable
-from subprocess import CompletedProcess
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
 if TYPE_CHECKING:
     from pathlib import Path
+    from subprocess import CompletedProcess
 
-Command = Callable[..., CompletedProcess[str]]
+    from .conftest import Command
 
 _YAML = "launch:\n  - arg: {name: a, default: x}\n  - executable: {cmd: 'echo [$(var a)]', name: tell}\n"
 _XML = '<launch><arg name="a" default="x"/><executable cmd="echo [$(var a)]" name="tell"/></launch>\n'

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from subprocess import CompletedProcess
 from typing import TYPE_CHECKING
 
 import pytest
@@ -11,7 +9,7 @@ import pytest
 if TYPE_CHECKING:
     from pathlib import Path
 
-Command = Callable[..., CompletedProcess[str]]
+    from .conftest import Command
 
 _YAML = {
     "outer.launch.yaml": """\

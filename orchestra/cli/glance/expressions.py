@@ -5,10 +5,11 @@ from __future__ import annotations
 import ast
 import os
 from collections import Counter
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from orchestra.cli.glance.model import Places
 
@@ -20,7 +21,8 @@ class Expressions:
         self._places = places
         self._originals = dict(_renamed_imports(tree))
         self._values = _assigned_once(tree)
-        self._open: list[str] = []
+        self._bound: dict[str, ast.expr] = {}
+        self._open: list[ast.expr] = []
 
     def original(self, name: str) -> str:
         """Return the name under which an imported thing was defined."""
@@ -28,19 +30,45 @@ class Expressions:
 
     def named(self, node: ast.expr | None) -> ast.expr | None:
         """Return the expression behind a name that is assigned once, any other expression as it is."""
-        seen = set()
-        while isinstance(node, ast.Name) and node.id in self._values and node.id not in seen:
-            seen.add(node.id)
-            node = self._values[node.id]
+        seen: list[ast.expr] = []
+        while isinstance(node, ast.Name | ast.Subscript) and node not in seen:
+            seen.append(node)
+            node = self._behind(node) or node
         return node
+
+    def rounds(self, target: ast.expr, sequence: ast.expr) -> list[dict[str, ast.expr]] | None:
+        """Return what each round of a loop over written-out elements binds, None for any other loop."""
+        names = target.elts if isinstance(target, ast.Tuple) else [target]
+        elements = self._elements(sequence)
+        if elements is None or not all(isinstance(name, ast.Name) for name in names):
+            return None
+        rounds = []
+        for element in elements:
+            value = self.named(element)
+            values = value.elts if isinstance(value, ast.Tuple | ast.List) else []
+            found = values if isinstance(target, ast.Tuple) else [element]
+            rounds.append(
+                {name.id: one for name, one in zip(names, found, strict=False) if isinstance(name, ast.Name)}
+            )
+        return rounds
+
+    @contextmanager
+    def bound(self, values: Mapping[str, ast.expr]) -> Iterator[None]:
+        """Let names stand for expressions for a while."""
+        outer = self._bound
+        self._bound = {**outer, **values}
+        try:
+            yield
+        finally:
+            self._bound = outer
 
     def text(self, node: ast.expr | None) -> str | None:
         """Return what an expression comes to as a text, None where that depends on anything."""
         match node:
             case ast.Constant(value=str() | bool() | int() | float() as value):
                 return str(value)
-            case ast.Name(id=name):
-                return self._name(name)
+            case ast.Name() | ast.Subscript():
+                return self._text_behind(node)
             case ast.List(elts=elements) | ast.Tuple(elts=elements) | ast.JoinedStr(values=elements):
                 return self._joined("", elements)
             case ast.FormattedValue(value=value, conversion=-1, format_spec=None):
@@ -76,16 +104,43 @@ class Expressions:
         texts = (self.text(key) for key in found)
         return frozenset(text for text in texts if text is not None)
 
-    def _name(self, name: str) -> str | None:
-        if name == "__file__":
+    def _text_behind(self, node: ast.Name | ast.Subscript) -> str | None:
+        found = self._behind(node)
+        if found is None and isinstance(node, ast.Name) and node.id == "__file__":
             return self._places.path
-        if name not in self._values or name in self._open:
+        if found is None or found in self._open:
             return None
-        self._open.append(name)
+        self._open.append(found)
         try:
-            return self.text(self._values[name])
+            return self.text(found)
         finally:
             self._open.pop()
+
+    def _behind(self, node: ast.Name | ast.Subscript) -> ast.expr | None:
+        """Return the value of a name, or of a key of a mapping that is written out."""
+        if isinstance(node, ast.Name):
+            return self._bound.get(node.id) or self._values.get(node.id)
+        mapping = self.named(node.value)
+        key = self.text(node.slice)
+        if not isinstance(mapping, ast.Dict) or key is None:
+            return None
+        found = (
+            value for name, value in zip(mapping.keys, mapping.values, strict=True) if self.text(name) == key
+        )
+        return next(found, None)
+
+    def _elements(self, sequence: ast.expr) -> Sequence[ast.expr] | None:
+        found = self.named(sequence)
+        if (
+            isinstance(found, ast.Call)
+            and isinstance(found.func, ast.Attribute)
+            and found.func.attr == "items"
+        ):
+            mapping = self.named(found.func.value)
+            if isinstance(mapping, ast.Dict):
+                pairs = zip(mapping.keys, mapping.values, strict=True)
+                return [ast.Tuple([key, value]) for key, value in pairs if key is not None]
+        return found.elts if isinstance(found, ast.List | ast.Tuple | ast.Set) else None
 
     def _joined(self, separator: str, elements: Sequence[ast.expr]) -> str | None:
         parts = []

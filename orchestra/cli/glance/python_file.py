@@ -44,8 +44,20 @@ def _calls(
             return
     elif isinstance(node, ast.If | ast.IfExp):
         conditional = True
-    for child in ast.iter_child_nodes(node):
-        yield from _calls(child, expressions, conditional=conditional)
+    for values in _rounds(node, expressions):
+        with expressions.bound(values):
+            for child in ast.iter_child_nodes(node):
+                yield from _calls(child, expressions, conditional=conditional)
+
+
+def _rounds(node: ast.AST, expressions: Expressions) -> list[dict[str, ast.expr]]:
+    """Return the bindings with which a node is gone through: once without any, unless it is a loop that is known."""
+    if isinstance(node, ast.For):
+        return expressions.rounds(node.target, node.iter) or [{}]
+    if isinstance(node, ast.ListComp | ast.GeneratorExp) and len(node.generators) == 1:
+        generator = node.generators[0]
+        return expressions.rounds(generator.target, generator.iter) or [{}]
+    return [{}]
 
 
 def _argument(call: ast.Call, expressions: Expressions, *, conditional: bool) -> Iterator[SeenArgument]:

@@ -114,3 +114,35 @@ def test_default_of_an_argument(look: Look, expression: str, default: str | None
 def test_what_is_conditional(look: Look, text: str, conditional: bool) -> None:
     (argument,) = look("a.launch.py", text).arguments
     assert argument.conditional is conditional
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        (
+            "for n, d in (('a', '1'), ('b', f'{d}')):\n    add(DeclareLaunchArgument(n, default_value=d))",
+            ["a=1", "b=d"],
+        ),
+        ("x = [DeclareLaunchArgument(n) for n in ['a', 'b']]", ["a", "b"]),
+        ("names = ['a', 'b']\nx = [DeclareLaunchArgument(n) for n in names]", ["a", "b"]),
+        (
+            "f(DeclareLaunchArgument(n, default_value=d) for n, d in {'a': '1', 'b': '2'}.items())",
+            ["a=1", "b=2"],
+        ),
+        (
+            "table = [{'name': 'a', 'default': '1'}, {'name': 'b'}, x]\n"
+            "y = [DeclareLaunchArgument(p['name'], default_value=p['default']) for p in table]",
+            ["a=1", "b=p['default']"],
+        ),
+        ("for n, d in ['ab', ('c',)]:\n    DeclareLaunchArgument(n)", ["c"]),
+        ("for n in names():\n    DeclareLaunchArgument(n)\n    DeclareLaunchArgument('z')", ["z"]),
+        ("for n in []:\n    DeclareLaunchArgument('z')", ["z"]),
+        ("for x.y in ['a']:\n    DeclareLaunchArgument('z')", ["z"]),
+        ("for n in ['a']:\n    for m in ['b']:\n        DeclareLaunchArgument(n + m)", ["ab"]),
+        ("x = {'k': 'a'}\nDeclareLaunchArgument(x['k'])\nDeclareLaunchArgument(x['l'])", ["a"]),
+        ("x = {'k': x['k']}\nDeclareLaunchArgument(x['k'])", []),
+    ],
+)
+def test_loops_over_what_is_written_out(look: Look, text: str, expected: list[str]) -> None:
+    found = look("a.launch.py", text).arguments
+    assert [f"{item.name}={item.default}" if item.default else item.name for item in found] == expected
