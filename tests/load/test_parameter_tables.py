@@ -151,12 +151,15 @@ TYPED: dict[tuple[str, str], Any] = {
 }
 
 
-@pytest.mark.parametrize("language", sorted(_LINES))
-@pytest.mark.parametrize(("type_word", "text"), TYPED)
+# What is quoted in YAML is a text, unless it gets another type than "yaml".
+_TYPED_IN = [
+    (language, *key) for language in sorted(_LINES) for key in TYPED if (language, key[0]) != ("yaml", "yaml")
+]
+
+
+@pytest.mark.parametrize(("language", "type_word", "text"), _TYPED_IN)
 def test_a_type_reads_the_text(language: str, type_word: str, text: str, tmp_path: Path) -> None:
     written = text if language == "xml" else "'" + text.replace("'", "''") + "'"
-    if language == "yaml" and type_word == "yaml":
-        pytest.skip("what is quoted in YAML is a text, unless it gets another type than this")
     _same(_value(tmp_path, language, value=written, type=type_word), TYPED[type_word, text])
 
 
