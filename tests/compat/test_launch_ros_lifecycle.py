@@ -14,7 +14,6 @@ from orchestra.compat.launch_ros.actions import LifecycleNode, Node
 from orchestra.compat.launch_ros.event_handlers import OnStateTransition
 from orchestra.compat.launch_ros.events import lifecycle, matches_node_name
 from orchestra.compat.launch_ros.events.lifecycle import ChangeState, StateTransition
-from orchestra.resolve import interpret
 from tests.compat.contexts import loading
 from tests.compat.python_plans import of_python
 
@@ -199,8 +198,7 @@ def test_a_handler_of_a_user_is_left_for_the_run(tmp_path: Path) -> None:
     assert (trigger["on"]["event"], trigger["on"]["target"]) == ("state_changed", "/a/n")
 
 
-def test_transitions_are_made_in_order(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setitem(interpret.VISITORS, "LifecycleTransition", "lifecycle_transition")
+def test_transitions_are_made_in_order(tmp_path: Path) -> None:
     action = "LifecycleTransition(lifecycle_node_names=['/a/n', ['a/', 'n']], transition_ids=[1, ['', '3']])"
     triggers = _triggers(tmp_path, action)
     assert [(trigger["on"]["event"], _orders(trigger)) for trigger in triggers] == [
@@ -210,10 +208,7 @@ def test_transitions_are_made_in_order(tmp_path: Path, monkeypatch: pytest.Monke
 
 
 @pytest.mark.parametrize("number", ["12", "'configure'"])
-def test_a_transition_that_is_none_is_an_error(
-    number: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setitem(interpret.VISITORS, "LifecycleTransition", "lifecycle_transition")
+def test_a_transition_that_is_none_is_an_error(number: str, tmp_path: Path) -> None:
     body = f"[LifecycleTransition(lifecycle_node_names=['n'], transition_ids=[{number}])]"
     found = of_python(tmp_path, body)
     assert [problem.severity.value for problem in found.problems] == ["error"]

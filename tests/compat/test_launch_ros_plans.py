@@ -329,6 +329,21 @@ def test_a_subclass_of_a_node_is_a_node(tmp_path: Path) -> None:
     assert [step["message"] for step in trigger["do"]] == ["started /b"]
 
 
+def test_user_code_that_comes_later_knows_the_names(tmp_path: Path) -> None:
+    body = """
+        node = Node(executable='/bin/true', name='n', remappings=[('a', 'b')])
+
+        def tell(context):
+            return [LogInfo(msg=' '.join([node.node_name, node.expanded_node_namespace, *node.expanded_remapping_rules[-1]]))]
+
+        return LaunchDescription([PushROSNamespace('x'), node, OpaqueFunction(function=tell)])
+    """
+    found = of_python(tmp_path, body)
+    assert found.messages == []
+    (trigger,) = found.content["triggers"]
+    assert [step["message"] for step in trigger["do"]] == ["/x/n /x a b"]
+
+
 def test_a_package_finder_of_a_user_finds_its_own_places(tmp_path: Path) -> None:
     body = """
         from launch_ros.substitutions import FindPackage

@@ -130,10 +130,8 @@ class Node(ExecuteProcess):
 
     def _resolved_as(self, name: str | None, namespace: str | None, rules: Iterable[tuple[str, str]]) -> None:
         """Take note of what a visit has come to. `rules` are the remappings of all nodes, then the node's own."""
-        if name is not None:
-            self.__expanded_node_name = name.removeprefix("/")
-        if namespace is not None:
-            self.__expanded_node_namespace = namespace
+        self.__expanded_node_name = self.UNSPECIFIED_NODE_NAME if name is None else name.removeprefix("/")
+        self.__expanded_node_namespace = self.UNSPECIFIED_NODE_NAMESPACE if namespace is None else namespace
         self.__expanded_remappings = list(rules) or None
         self.__final_node_name = f"{self.__expanded_node_namespace.rstrip('/')}/{self.__expanded_node_name}"
 
