@@ -13,6 +13,7 @@ from orchestra.errors import DescriptionError, Problem, Problems
 from orchestra.load.files import load
 from orchestra.location import displayed, point
 from orchestra.plan.build import build
+from orchestra.plan.relocated import relocated
 from orchestra.resolve import launch_files
 from orchestra.resolve.command_line import inputs_from
 from orchestra.resolve.commands import run_command
@@ -28,6 +29,9 @@ if TYPE_CHECKING:
 
     from orchestra.plan.model import Plan
     from orchestra.resolve.inputs import Inputs
+    from orchestra.resolve.model import Resolved
+    from orchestra.resolve.python.files import Files
+    from orchestra.resolve.python.isolation import Isolation
     from orchestra.resolve.resolution import LoadFile, Resolution
 
 
@@ -41,6 +45,10 @@ __all__ = [
     "opened",
     "plan_of_node",
 ]
+
+
+# Where temporary files of launch files' code are, in a plan.
+FILES = "${run}/files"
 
 
 def make_plan(path: str, inputs: Inputs) -> Plan:
@@ -94,22 +102,27 @@ def opened(
     What is wrong is in `problems`. None where the file itself cannot be read as a launch file.
     """
     packages = InstalledPackages(inputs.environment)
-    with _loading(path, inputs, load, packages):
+    with _loading(path, inputs, load, packages) as isolation:
         with _collector_paused():
             run = begin(inputs, problems, load=load, packages=packages, run_command=run_command)
             description = load(path, problems, ())
             take_environment(run, point(displayed(path)))  # code of the file may have changed it
             launch = None
             if description is not None:
-                launch = Launch(build(carry_through(description, run), problems), run)
+                resolved = _symbolic(carry_through(description, run), isolation.files)
+                launch = Launch(build(resolved, problems), run, isolation.files)
         yield launch
 
 
 class Launch:
-    """A plan, and the state of the resolution that it is from: code of the launch files may be left in it."""
+    """A plan, and the state of the resolution that it is from: code of the launch files may be left in it.
 
-    def __init__(self, plan: Plan, run: Resolution) -> None:
+    `files` are the temporary ones of that code, `${run}/files` in the plan.
+    """
+
+    def __init__(self, plan: Plan, run: Resolution, files: Files) -> None:
         self.plan = plan
+        self.files = files
         self._run = run
 
     @property
@@ -127,10 +140,15 @@ class Launch:
         ids = [process.id for process in self.plan.processes]
         target = event.get("process")
         do = decide(question["ref"], event, ids.index(target) if target in ids else None, self._run, problems)
-        resolved = outcome(self.plan.file, self._run)
+        resolved = _symbolic(outcome(self.plan.file, self._run), self.files)
         settled = self._run.found.triggers - len(resolved.triggers)
         self.plan, answer = fragment(self.plan, resolved, do, problems, triggers=settled)
         return answer
+
+
+def _symbolic(resolved: Resolved, files: Files) -> Resolved:
+    """Return what was resolved, with the folder of temporary files as a part of the run directory."""
+    return relocated(resolved, files.folder, FILES) if files.folder is not None and files.used else resolved
 
 
 @contextmanager
@@ -146,7 +164,7 @@ def _collector_paused() -> Iterator[None]:
 
 
 @contextmanager
-def _loading(path: str, inputs: Inputs, load: LoadFile, packages: InstalledPackages) -> Iterator[None]:
+def _loading(path: str, inputs: Inputs, load: LoadFile, packages: InstalledPackages) -> Iterator[Isolation]:
     """Let launch files in Python be loaded, and leave this process as it was."""
 
     def begin_alone(problems: Problems) -> Resolution:
@@ -155,6 +173,8 @@ def _loading(path: str, inputs: Inputs, load: LoadFile, packages: InstalledPacka
         return begin(own, problems, load=load, packages=packages, run_command=run_command)
 
     words = (f"{item.name}:={item.value}" for item in inputs.arguments)
-    connection = LoadingConnection(packages, begin_alone)
-    with isolated(inputs.environment, ("ros2", "launch", path, *words)), connected(connection):
-        yield
+    with (
+        isolated(inputs.environment, ("ros2", "launch", path, *words)) as isolation,
+        connected(LoadingConnection(packages, begin_alone, isolation.prepare)),
+    ):
+        yield isolation

@@ -38,8 +38,18 @@ class Described(ModelledAction):
 
 
 def models_of(entities: Iterable[LaunchDescriptionEntity]) -> tuple[Model, ...]:
-    """Return the models of several entities."""
-    return tuple(model_of(entity) for entity in entities)
+    """Return the models of several entities. One that has none stays opaque: the visit tells why, at its own place."""
+    return tuple(_model_or_opaque(entity) for entity in entities)
+
+
+def _model_or_opaque(entity: LaunchDescriptionEntity) -> Model:
+    try:
+        return model_of(entity)
+    except ValueError:  # pydantic's ValidationError is one
+        from orchestra.description.actions.opaque import OpaqueAction  # noqa: PLC0415 - as above
+
+        place: Place = getattr(entity, "_place", None) or here()
+        return OpaqueAction.at(place.span, target=entity, origin=entity)
 
 
 def conditioned(action: Action) -> dict[str, Any]:

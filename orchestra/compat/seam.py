@@ -56,6 +56,9 @@ class Engine(Protocol):
     def emit(self, event: Any) -> None:
         """Let an event happen, after the visit that is going on."""
 
+    def handle_events(self) -> None:
+        """Hand the events that have happened to the handlers that want them."""
+
     def would_handle(self, event: Any) -> bool:
         """Return whether a handler waits for such an event."""
 
@@ -98,6 +101,9 @@ class Connection(Protocol):
     @property
     def front_end(self) -> FrontEnd:
         """The languages of XML and YAML files."""
+
+    def prepare(self) -> None:
+        """Get ready for code of a launch file."""
 
     def engine(self, argv: Sequence[str]) -> Engine:
         """Return an engine with a state of its own."""

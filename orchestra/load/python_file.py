@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat import faults
 from orchestra.compat.launch.launch_description import LaunchDescription
+from orchestra.compat.seam import connection
 from orchestra.description.actions.opaque import OpaqueAction
 from orchestra.description.launch import Description
 from orchestra.description.text import Template, Words
@@ -38,6 +39,7 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
     file = displayed(path)
     at = point(file)
     try:
+        connection().prepare()
         made = _made(path)
     except (Exception, SystemExit) as error:  # noqa: BLE001 - the boundary of user code
         faults.report(error, problems, included_from, at)

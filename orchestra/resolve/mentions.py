@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from orchestra.description.actions.arg import Arg
 from orchestra.description.actions.include import Include
+from orchestra.description.actions.opaque import OpaqueAction
 from orchestra.description.entity import Entity
 from orchestra.description.text import Call, Opaque, Template, Words
 from orchestra.errors import Problems
@@ -129,11 +130,14 @@ def _run_nothing(command: tuple[str, ...], environment: Mapping[str, str]) -> Co
     return CommandResult(0, "", "", "nothing is run here")
 
 
+# Code of a launch file may name any file: it counts as one that is not known.
 def _files(
     actions: tuple[Conditional, ...], context: Context, variables: Mapping[str, Variable]
 ) -> tuple[str | None, ...]:
-    includes = [entity for entity in _entities(actions) if isinstance(entity, Include)]
-    values = [glimpse(include.file, context, variables) for include in includes]
+    found = [entity for entity in _entities(actions) if isinstance(entity, Include | OpaqueAction)]
+    values = [
+        glimpse(entity.file, context, variables) if isinstance(entity, Include) else None for entity in found
+    ]
     return tuple(None if value is None else beside(context.file, value.text) for value in values)
 
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 from orchestra.plan import codec
 from orchestra.supervise import directory
 from orchestra.supervise.attention import Attention
-from orchestra.supervise.keeper import say
 from orchestra.supervise.furnishing import furnish
+from orchestra.supervise.keeper import say
 from orchestra.supervise.kin import Kin, send_to_groups
 from orchestra.supervise.leftovers import end_leftovers
 from orchestra.supervise.loop import Loop
@@ -41,6 +41,8 @@ def conduct(beginnings: Beginnings) -> int:
     runs = directory.state_folder() / "runs"
     try:
         run_directory = directory.create(runs, document.options.name)
+        if document.options.files is not None:
+            run_directory.adopt(document.options.files)
         plan = _furnish(document.plan, run_directory)
     except OSError as error:
         raise Refused(FAILED, f"the run directory cannot be written: {error}") from error
@@ -48,11 +50,11 @@ def conduct(beginnings: Beginnings) -> int:
         loop, run_directory, plan, document.options, run_id=beginnings.run_id, resolver=resolver
     ) as around:
         outcome = _run(beginnings, attention, plan, around)
-    run_directory.release()
     try:
+        run_directory.release()
         directory.prune(runs)
     except OSError as error:
-        say(f"old runs could not be removed: {error}")
+        say(f"the runs could not be tidied up: {error}")
     return outcome.status
 
 

@@ -32,9 +32,23 @@ class RunDirectory:
         """The event stream."""
         return self.path / "events.jsonl"
 
+    def adopt(self, folder: str) -> None:
+        """Let a folder from elsewhere be the part `files`; it stays where it is while somebody may write to it."""
+        (self.path / "files").symlink_to(folder)
+
     def release(self) -> None:
-        """Let the directory become an old run. The kernel does it too when the process ends."""
-        os.close(self._lock)
+        """Let the directory become an old run, with all that belongs to it. Raises `OSError` where that cannot be had.
+
+        Without this the kernel unlocks it when the process ends.
+        """
+        files = self.path / "files"
+        try:
+            if files.is_symlink():
+                folder = files.readlink()
+                files.unlink()
+                shutil.move(folder, files)
+        finally:
+            os.close(self._lock)
 
 
 def state_folder() -> Path:

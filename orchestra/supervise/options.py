@@ -12,10 +12,12 @@ class RunOptions:
 
     `colour` None means: on a terminal, unless `NO_COLOR` or `FORCE_COLOR` says otherwise. `show_all_output` shows the
     output of every process, whatever the description says. `noninteractive` is accepted as by `ros2 launch`: nothing
-    here depends on a terminal. `debug` shows messages of level debug too.
+    here depends on a terminal. `debug` shows messages of level debug too. `files` is a folder with temporary files of
+    the launch files' code: it becomes part of the run directory.
 
     Limits are in seconds: `service_timeout` until the service of a lifecycle node or a container is there,
-    `answer_timeout` for its answer, `resolver_timeout` for the code of the description that decides what a trigger does.
+    `answer_timeout` for its answer, `resolver_timeout` for the code of the description that decides what a trigger
+    does.
     """
 
     name: str = "run"
@@ -24,6 +26,7 @@ class RunOptions:
     show_all_output: bool = False
     noninteractive: bool = False
     debug: bool = False
+    files: str | None = None
     service_timeout: float = 60.0
     answer_timeout: float = 60.0
     resolver_timeout: float = 30.0

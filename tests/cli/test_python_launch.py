@@ -67,3 +67,50 @@ def test_code_that_fails_during_the_run_ends_it_with_the_place(orchestra: Comman
     assert ran.returncode == 1, ran.stderr
     assert "NameError" in ran.stderr
     assert "broken.launch.py:12" in ran.stderr
+
+
+_FILES = """
+import tempfile
+from launch import LaunchDescription
+from launch.actions import *
+from launch.event_handlers import *
+
+def written(text):
+    with tempfile.NamedTemporaryFile('w', delete=False, suffix='.txt') as file:
+        file.write(text)
+    return file.name
+
+def generate_launch_description():
+    first = ExecuteProcess(cmd=['cat', written('first')], name='first')
+    def more(event, context):
+        return [ExecuteProcess(cmd=['cat', written('second')], name='second')]
+    return LaunchDescription([first, RegisterEventHandler(OnProcessExit(target_action=first, on_exit=more))])
+"""
+
+
+def test_temporary_files_of_launch_files_are_part_of_the_run(
+    orchestra: Command, folder: Path, home: Path, tmp_path: Path
+) -> None:
+    (folder / "files.launch.py").write_text(_FILES)
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    ran = orchestra("launch", "files.launch.py", TMPDIR=str(elsewhere))
+    assert ran.returncode == 0, ran.stderr
+    assert {"[first] first", "[second] second"} <= set(ran.stdout.splitlines())
+    assert not list(elsewhere.iterdir())
+    (run,) = (home / "runs").iterdir()
+    assert sorted(file.read_text() for file in (run / "files").iterdir()) == ["first", "second"]
+
+
+def test_a_plan_names_temporary_files_as_every_plan_does_and_leaves_none(
+    orchestra: Command, folder: Path, tmp_path: Path
+) -> None:
+    (folder / "files.launch.py").write_text(_FILES)
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    plans = [
+        orchestra("plan", "files.launch.py", "--format", "json", TMPDIR=str(elsewhere)) for _ in range(2)
+    ]
+    assert plans[0].stdout == plans[1].stdout
+    assert '"${run}/files/tmp0001.txt"' in plans[0].stdout
+    assert not list(elsewhere.iterdir())

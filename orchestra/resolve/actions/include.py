@@ -6,6 +6,7 @@ from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
+from orchestra.load.files import PYTHON
 from orchestra.resolve.arguments import Given, settle
 from orchestra.resolve.context import POISON, Evaluated, Poison, Value
 from orchestra.resolve.dependencies import dependencies
@@ -31,7 +32,7 @@ def visit(action: Include, run: Resolution) -> None:
     for _ in repeated(action.for_each, run):
         value = run.evaluate(action.file)
         path = existing_file(value, action.file, "launch file", run) if isinstance(value, Value) else None
-        description = _description(path, run.at(action.span), run) if path is not None else None
+        description = _description(path, action, run) if path is not None else None
         if path is None or description is None:
             run.scope.ledger.incomplete = True
             continue
@@ -87,14 +88,16 @@ def _arguments(action: Include, run: Resolution) -> list[tuple[Given, Evaluated,
     return given
 
 
-def _description(path: str, location: Location, run: Resolution) -> Description | None:
+def _description(path: str, action: Include, run: Resolution) -> Description | None:
     """Return what a file says. One in Python says it anew each time, in the environment of this place."""
+    location = run.at(action.span)
     chain = (location.span, *location.included_from)
-    if path.endswith(".py"):
+    if action.language == "python" or (action.language is None and path.endswith(PYTHON)):
         with user_code(run, location.span):
-            run.descriptions[path] = run.load(path, run.problems, chain)
+            run.descriptions[path] = run.load(path, run.problems, chain, PYTHON)
     elif path not in run.descriptions:
-        run.descriptions[path] = run.load(path, run.problems, chain)
+        ending = () if action.language is None else (f".{action.language}",)
+        run.descriptions[path] = run.load(path, run.problems, chain, *ending)
     return run.descriptions.get(path)
 
 

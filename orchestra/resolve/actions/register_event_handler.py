@@ -24,7 +24,7 @@ def visit(action: RegisterEventHandler, run: Resolution) -> None:
     """Wait for events; inside a timer or another event handler from the moment when that is carried out."""
     location = run.at(action.span)
     for handler in action.handlers:
-        run.engine.register(handler.origin, first=True)
+        run.engine.waits(handler.origin)
         for occasion in _occasions(handler, location, run):
             if _is_known(handler):
                 run.collect(occasion, handler.children or ())

@@ -16,10 +16,19 @@ if TYPE_CHECKING:
 
 
 class LoadingConnection:
-    """Serves the launch files of one resolution. `begin` makes a state of its own for a context that users build."""
+    """Serves the launch files of one resolution. `begin` makes a state of its own for a context that users build.
 
-    def __init__(self, packages: InstalledPackages, begin: Callable[[Problems], Resolution]) -> None:
+    `prepare` gets ready for their code.
+    """
+
+    def __init__(
+        self,
+        packages: InstalledPackages,
+        begin: Callable[[Problems], Resolution],
+        prepare: Callable[[], None] = lambda: None,
+    ) -> None:
         self.front_end = LoadingFrontEnd()
+        self.prepare = prepare
         self._packages = packages
         self._begin = begin
 

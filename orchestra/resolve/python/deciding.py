@@ -10,7 +10,7 @@ from orchestra.resolve.occasions import Occasion, OpenEvent
 from orchestra.resolve.python.calling import user_code
 from orchestra.resolve.python.deferral import copied
 from orchestra.resolve.python.emitting import emit
-from orchestra.resolve.python.occurrences import event_object
+from orchestra.resolve.python.occurrences import observed
 from orchestra.resolve.python.visiting import visit_entities, visit_entity
 from orchestra.resolve.settling import settled_actions
 
@@ -74,4 +74,4 @@ def _carry_out(kept: Kept, event: Any, run: Resolution) -> None:
 def _event(happened: Mapping[str, Any], index: int | None, run: Resolution) -> Any:
     process = None if index is None else run.found.processes[index]
     label = "" if process is None else process.label or PurePath(process.executable).name
-    return event_object(happened, process, f"{label}-{(index or 0) + 1}")
+    return observed(happened, process, f"{label}-{(index or 0) + 1}")

@@ -10,6 +10,7 @@ from orchestra.compat.faults import ReportedError
 from orchestra.compat.launch.launch_context import LaunchContext
 from orchestra.compat.launch.substitutions.substitution_failure import SubstitutionFailure
 from orchestra.compat.place import here
+from orchestra.description.actions.register_event_handler import RegisterEventHandler
 from orchestra.description.actions.reset_env import ResetEnv
 from orchestra.description.actions.stacks import (
     PopEnvironment,
@@ -22,6 +23,7 @@ from orchestra.location import Location
 from orchestra.resolve.context import Value
 from orchestra.resolve.evaluate import evaluate
 from orchestra.resolve.model import InlineParameter
+from orchestra.resolve.occasions import Registration
 from orchestra.resolve.python.calling import our_code, user_code
 from orchestra.resolve.python.configurations import Configurations, Environment
 from orchestra.resolve.python.emitting import emit, handle_events
@@ -120,16 +122,25 @@ class ResolvingEngine:
 
     def register(self, handler: Any, *, first: bool) -> None:
         """Let an event handler wait, before those that wait already or after them."""
-        self._handlers.insert(0 if first else len(self._handlers), handler)
+        self.carry_out(RegisterEventHandler.at(here().span, handlers=handler._to_models()))
+        if not first:
+            self._handlers.append(self._handlers.pop(0))
+
+    def waits(self, handler: Any) -> None:
+        """Take note that an event handler waits, the newest of all."""
+        if not any(known is handler for known in self._handlers):
+            self._handlers.insert(0, handler)
 
     def unregister(self, handler: Any) -> None:
         """Let an event handler wait no more. Raises `ValueError` where it does not wait."""
         if not any(known is handler for known in self._handlers):
             raise ValueError(f"{handler!r} is not registered")
         self._handlers = [known for known in self._handlers if known is not handler]
-        self._run.found.occasions = [
-            occasion for occasion in self._run.found.occasions if occasion.handler is not handler
-        ]
+        found = self._run.found
+        found.occasions = [occasion for occasion in found.occasions if occasion.handler is not handler]
+        if self._run.occasion is not None:
+            location = Location(here().span, self._run.context.included_from)
+            self._run.occasion.do.append(Registration(handler, location, armed=False))
 
     def emit(self, event: Any) -> None:
         """Let an event happen after the visit."""

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.compat.hook import served
 from orchestra.resolve.python.calling import put_environment
+from orchestra.resolve.python.files import Files
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -18,8 +19,24 @@ if TYPE_CHECKING:
 _LIBRARIES = ("lib/python3*/site-packages", "local/lib/python3*/dist-packages", "lib/python3*/dist-packages")
 
 
+class Isolation:
+    """The state of a process in which launch files are loaded; `files` are the temporary ones of their code."""
+
+    def __init__(self, restoring: ExitStack) -> None:
+        self.files = Files()
+        self._restoring = restoring
+
+    def prepare(self) -> None:
+        """Get ready for code of launch files, which may want temporary files."""
+        if self.files.folder is None:
+            # Here, because only such code needs it, and what it imports.
+            from orchestra.resolve.python.temporary import temporary_files  # noqa: PLC0415
+
+            self._restoring.enter_context(temporary_files(self.files))
+
+
 @contextmanager
-def isolated(environment: Mapping[str, str], argv: Sequence[str]) -> Iterator[None]:
+def isolated(environment: Mapping[str, str], argv: Sequence[str]) -> Iterator[Isolation]:
     """Let launch files in Python be loaded: `os.environ` is `environment`, `sys.argv` are the words of `ros2 launch`.
 
     What they print goes to standard error, for standard output carries the product of the command.
@@ -35,7 +52,7 @@ def isolated(environment: Mapping[str, str], argv: Sequence[str]) -> Iterator[No
         put_environment(environment)
         sys.argv[:] = argv
         sys.path += _libraries(environment)
-        yield
+        yield Isolation(restoring)
 
 
 def _forget_loggers() -> None:

@@ -6,11 +6,13 @@ from base64 import b64decode
 from types import SimpleNamespace
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.launch.actions.execute_local import ExecuteLocal
 from orchestra.compat.launch.events.execution_complete import ExecutionComplete
 from orchestra.compat.launch.events.process.process_exited import ProcessExited
 from orchestra.compat.launch.events.process.process_started import ProcessStarted
 from orchestra.compat.launch.events.process.process_stderr import ProcessStderr
 from orchestra.compat.launch.events.process.process_stdout import ProcessStdout
+from orchestra.compat.launch.events.process.running_process_event import RunningProcessEvent
 from orchestra.compat.launch.events.shutdown import Shutdown
 from orchestra.compat.launch_ros.events.lifecycle.state_transition import StateTransition
 
@@ -18,6 +20,18 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from orchestra.resolve.model import ResolvedProcess
+
+
+def observed(happened: Mapping[str, Any], process: ResolvedProcess | None, name: str) -> Any:
+    """Return the event as `event_object`; the action that started the process knows of it too."""
+    event = event_object(happened, process, name)
+    if (
+        process is not None
+        and isinstance(process.origin, ExecuteLocal)
+        and isinstance(event, RunningProcessEvent)
+    ):
+        process.origin._observe(event)
+    return event
 
 
 def event_object(happened: Mapping[str, Any], process: ResolvedProcess | None, name: str) -> Any:

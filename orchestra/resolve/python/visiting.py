@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from pydantic import ValidationError
 
 from orchestra.compat.building import model_of
-from orchestra.compat.launch.action import Action
+from orchestra.compat.launch.action import Action, ModelledAction
 from orchestra.compat.launch.launch_description import LaunchDescription
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.errors import Code
@@ -46,6 +46,9 @@ def visit_entity(entity: Any, run: Resolution) -> None:
 def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
     """Visit an entity that only its own code can carry out; its condition, where it has one, holds."""
     entity = action.target
+    if isinstance(entity, ModelledAction) and entity._is_as_described():  # its model is faulty
+        visit_entity(entity, run)
+        return
     if type(entity).visit is LaunchDescription.visit:
         visit_entities(entity.entities, run)
         return

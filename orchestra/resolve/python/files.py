@@ -1,0 +1,23 @@
+"""Where temporary files of user code are."""
+
+from __future__ import annotations
+
+import os
+
+
+class Files:
+    """The folder for temporary files; it is there when code of a launch file runs for the first time."""
+
+    def __init__(self) -> None:
+        self.folder: str | None = None
+        self.kept = False
+
+    @property
+    def used(self) -> bool:
+        """Whether there is a file in it."""
+        return self.folder is not None and bool(os.listdir(self.folder))  # noqa: PTH208 - no paths are wanted
+
+    def keep(self, *, more: bool) -> str | None:
+        """Let somebody else remove the folder; None where nothing is in it, nor will be: `more` says so."""
+        self.kept = self.used or (more and self.folder is not None)
+        return self.folder if self.kept else None
