@@ -15,7 +15,7 @@ import signal
 from ctypes import CFUNCTYPE, PYFUNCTYPE, Structure, c_bool, c_char_p, c_void_p, py_object
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from orchestra.ros.interfaces import layouts, wire
+from orchestra.ros.interfaces import layouts
 from orchestra.ros.interfaces.layouts import Bytes, String
 
 if TYPE_CHECKING:
@@ -38,16 +38,22 @@ class MessageInTransit(Structure):
     """A serialized message, between the middleware and Python.
 
     `incoming` is what the middleware delivered, header included, in memory of rosidl_runtime_c. `outgoing` is the
-    body that it is to send: until there is one, that of a message without transforms. Calling the object makes
-    the Python message of what came in. `typesupport` adds how it is filled and freed.
+    body that it is to send: until there is one, that of a message without fields. Calling the object makes
+    the Python message of what came in. `typesupport` adds how it is filled and freed. A subclass for each type
+    says how it is called and how it is read and written.
     """
 
     _fields_ = (("incoming", String),)
 
-    outgoing = _body(wire.encode(()))
+    type_name = ""
+    outgoing = _body(bytes(_HEADER + 4))
 
     def __call__(self) -> object:
-        """Return what came in as a message; subclasses say of which class."""
+        """Return what came in as a message."""
+        raise NotImplementedError
+
+    def encode(self, source: Any) -> bytes:  # noqa: ANN401  # whatever is sent
+        """Return a message as it goes over the wire, header included. Raises where it cannot be sent."""
         raise NotImplementedError
 
     def serialized(self) -> bytes:
@@ -106,10 +112,10 @@ def _from_py(source: Any, message: MessageInTransit) -> bool:  # noqa: ANN401  #
     try:
         uninterrupted(_prepare, source, message)
     except Exception:  # noqa: BLE001  # any field may be of any class; all is told below
-        _log.exception("this TFMessage cannot be sent")
+        _log.exception("this %s cannot be sent", message.type_name)
         return False
     return True
 
 
 def _prepare(source: Any, message: MessageInTransit) -> None:  # noqa: ANN401  # as above
-    message.outgoing = _body(wire.encode(source.transforms))
+    message.outgoing = _body(message.encode(source))

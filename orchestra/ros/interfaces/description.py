@@ -33,17 +33,17 @@ def describe(element: TypeDescription) -> TypeDescription:
     """Describe TFMessage, given that of its element; it shares the element's tables."""
     nested = FieldType(type_id=_NESTED_TYPE_UNBOUNDED_SEQUENCE, nested_type_name=text(ELEMENT))
     fields = [Field(text(b"transforms"), nested, text(b""))]
-    referenced = [*_items(element.referenced_type_descriptions, IndividualType), element.type_description]
+    referenced = [*items(element.referenced_type_descriptions, IndividualType), element.type_description]
     return TypeDescription(
         IndividualType(text(NAME), sequence(Field, fields)),
-        sequence(IndividualType, sorted(referenced, key=lambda item: _string(item.type_name))),
+        sequence(IndividualType, sorted(referenced, key=lambda item: string(item.type_name))),
     )
 
 
 def sources(element: String) -> String:
     """Return the sequence of definition files: that of TFMessage, then those that its element needs."""
     return sequence(
-        TypeSource, [TypeSource(text(NAME), text(b"msg"), text(SOURCE)), *_items(element, TypeSource)]
+        TypeSource, [TypeSource(text(NAME), text(b"msg"), text(SOURCE)), *items(element, TypeSource)]
     )
 
 
@@ -53,34 +53,36 @@ def type_hash(description: TypeDescription) -> TypeHash:
         "type_description": _individual_type(description.type_description),
         "referenced_type_descriptions": [
             _individual_type(item)
-            for item in _items(description.referenced_type_descriptions, IndividualType)
+            for item in items(description.referenced_type_descriptions, IndividualType)
         ],
     }
     digest = hashlib.sha256(json.dumps(content).encode()).digest()
     return TypeHash(_RIHS_VERSION, (ctypes.c_uint8 * 32)(*digest))
 
 
-def _items(items: String, kind: type[_Item]) -> list[_Item]:
-    return [kind.from_address(items.data + index * ctypes.sizeof(kind)) for index in range(items.size)]
+def items(found: String, kind: type[_Item]) -> list[_Item]:
+    """Return the items of a rosidl sequence."""
+    return [kind.from_address(found.data + index * ctypes.sizeof(kind)) for index in range(found.size)]
 
 
-def _string(value: String) -> str:
+def string(value: String) -> str:
+    """Return the text of a rosidl string."""
     return ctypes.string_at(value.data, value.size).decode()
 
 
 def _individual_type(item: IndividualType) -> dict[str, Any]:
     return {
-        "type_name": _string(item.type_name),
+        "type_name": string(item.type_name),
         "fields": [
             {
-                "name": _string(field.name),
+                "name": string(field.name),
                 "type": {
                     "type_id": field.type.type_id,
                     "capacity": field.type.capacity,
                     "string_capacity": field.type.string_capacity,
-                    "nested_type_name": _string(field.type.nested_type_name),
+                    "nested_type_name": string(field.type.nested_type_name),
                 },
             }
-            for field in _items(item.fields, Field)
+            for field in items(item.fields, Field)
         ],
     }

@@ -2,7 +2,7 @@
 
 Sources: the headers `message_type_support_struct.h`, `type_hash.h` and `type_description/*__struct.h` of
 rosidl_runtime_c, `message_introspection.h` of rosidl_typesupport_introspection_c, `message_type_support.h` of
-rosidl_typesupport_fastrtps_cpp, `Cdr.h` and `FastBuffer.h` of Fast CDR 2. The private part of Fast CDR that is
+rosidl_typesupport_fastrtps_cpp, their counterparts for services, `Cdr.h` and `FastBuffer.h` of Fast CDR 2. The private part of Fast CDR that is
 used here is checked against the library itself when a type support is made (see `typesupport`).
 """
 
@@ -133,6 +133,47 @@ class Members(Structure):
         ("members", POINTER(Member)),
         ("init_function", c_void_p),
         ("fini_function", c_void_p),
+    )
+
+
+class ServiceHandle(Structure):
+    """`rosidl_service_type_support_t`; the two functions for events, which only service introspection needs, are null."""
+
+    _fields_ = (
+        ("typesupport_identifier", c_char_p),
+        ("data", c_void_p),
+        ("func", c_void_p),
+        ("request_typesupport", c_void_p),
+        ("response_typesupport", c_void_p),
+        ("event_typesupport", c_void_p),
+        ("event_message_create_handle_function", c_void_p),
+        ("event_message_destroy_handle_function", c_void_p),
+        ("get_type_hash_func", c_void_p),
+        ("get_type_description_func", c_void_p),
+        ("get_type_description_sources_func", c_void_p),
+    )
+
+
+class ServiceCallbacks(Structure):
+    """`service_type_support_callbacks_t` of rosidl_typesupport_fastrtps_cpp."""
+
+    _fields_ = (
+        ("service_namespace", c_char_p),
+        ("service_name", c_char_p),
+        ("request", c_void_p),
+        ("response", c_void_p),
+    )
+
+
+class ServiceMembers(Structure):
+    """`rosidl_typesupport_introspection_c__ServiceMembers`."""
+
+    _fields_ = (
+        ("service_namespace", c_char_p),
+        ("service_name", c_char_p),
+        ("request", c_void_p),
+        ("response", c_void_p),
+        ("event", c_void_p),
     )
 
 

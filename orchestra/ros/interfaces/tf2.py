@@ -93,6 +93,11 @@ TFMessage.__module__ = "tf2_msgs.msg._tf_message"
 
 
 class _TFMessageInTransit(conversion.MessageInTransit):
+    type_name = "TFMessage"
+
+    def encode(self, source: Transforms) -> bytes:
+        return wire.encode(source.transforms)
+
     def __call__(self) -> TFMessage:
         """Return the message that came in; an empty one, with a record in the log, if it is malformed.
 

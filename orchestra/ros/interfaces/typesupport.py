@@ -19,26 +19,24 @@ from __future__ import annotations
 
 import ctypes
 import operator
+from contextlib import contextmanager
 from ctypes import CFUNCTYPE, POINTER, c_bool, c_char_p, c_int, c_size_t, c_uint32, c_void_p, py_object
 from itertools import repeat
 from operator import attrgetter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from orchestra.ros.interfaces import description, layouts
 from orchestra.ros.interfaces.layouts import Bytes, Callbacks, Cdr, FastBuffer, Handle
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator, Sequence
 
     from orchestra.ros.interfaces.conversion import MessageInTransit
 
 _FAST_CDR = "libfastcdr.so.2"
 _RUNTIME = "librosidl_runtime_c.so"
-_FASTRTPS = b"rosidl_typesupport_fastrtps_c"
-_INTROSPECTION = b"rosidl_typesupport_introspection_c"
-_NAMESPACE = b"tf2_msgs__msg"
-_CXX_NAMESPACE = b"tf2_msgs::msg"
-_TYPE_NAME = b"TFMessage"
+FASTRTPS = b"rosidl_typesupport_fastrtps_c"
+INTROSPECTION = b"rosidl_typesupport_introspection_c"
 _ROS_TYPE_MESSAGE = 18  # rosidl_typesupport_introspection_c/field_types.h
 
 
@@ -61,6 +59,36 @@ class _Outgoing:
     from_param = attrgetter("outgoing")
 
 
+class Message(NamedTuple):
+    """What the middleware is told of a message type.
+
+    `namespace` is that of the C names, `package__msg`. `unbounded` is the `max_serialized_size` of a type without
+    bounds: that of any compiled type that has a string will do.
+    """
+
+    namespace: bytes
+    name: bytes
+    description: layouts.TypeDescription
+    sources: layouts.String
+    members: layouts.Members
+    unbounded: int
+
+
+class Libraries:
+    """The libraries behind a type support. Raises `OSError` or `UnsupportedInstallationError`."""
+
+    def __init__(self) -> None:
+        self.runtime = ctypes.PyDLL(_RUNTIME)
+        self.fast_cdr = ctypes.PyDLL(_FAST_CDR)
+        _check_layout(self.fast_cdr)
+
+    def compiled(self, handle: int) -> tuple[Handle, Handle]:
+        """Return the two handles, for sending and for introspection, of a compiled type."""
+        find = self.runtime.get_message_typesupport_handle
+        find.argtypes, find.restype = [c_void_p, c_char_p], POINTER(Handle)
+        return find(handle, FASTRTPS).contents, find(handle, INTROSPECTION).contents
+
+
 def build(element: int, transit: type[MessageInTransit]) -> int:
     """Make the type support of TFMessage from the handle of TransformStamped; return its address.
 
@@ -69,34 +97,61 @@ def build(element: int, transit: type[MessageInTransit]) -> int:
     Raises:
         UnsupportedInstallationError: the libraries are not those of ROS 2 Jazzy.
     """
+    with jazzy("TFMessage", "tf2_msgs"):
+        libraries = Libraries()
+        fastrtps, introspection = libraries.compiled(element)
+        of_element, sources = described(fastrtps)
+        member = layouts.Member(
+            name=b"transforms",
+            type_id=_ROS_TYPE_MESSAGE,
+            members=ctypes.addressof(introspection),
+            is_array=True,
+        )
+        message = Message(
+            b"tf2_msgs__msg",
+            b"TFMessage",
+            description.describe(of_element),
+            description.sources(sources),
+            members(b"tf2_msgs__msg", b"TFMessage", [member]),
+            unbounded(fastrtps),
+        )
+        return message_support(message, transit, libraries)
+
+
+@contextmanager
+def jazzy(what: str, package: str) -> Iterator[None]:
+    """Say what to do where the libraries are not those of ROS 2 Jazzy."""
     try:
-        return _build(element, transit)
-    except (
-        OSError,
-        AttributeError,
-        ValueError,
-    ) as error:  # no such library, no such function, a null pointer
-        raise UnsupportedInstallationError(f"{error}; install tf2_msgs to use TFMessage") from error
+        yield
+    except UnsupportedInstallationError as error:
+        raise UnsupportedInstallationError(f"{error}; install {package} to use {what}") from error
+    except (OSError, AttributeError, ValueError) as error:  # no such library or function, a null pointer
+        raise UnsupportedInstallationError(f"{error}; install {package} to use {what}") from error
 
 
-def _build(element: int, transit: type[MessageInTransit]) -> int:
-    runtime = ctypes.PyDLL(_RUNTIME)
-    find = runtime.get_message_typesupport_handle
-    find.argtypes, find.restype = [c_void_p, c_char_p], POINTER(Handle)
-    fastrtps, introspection = find(element, _FASTRTPS).contents, find(element, _INTROSPECTION).contents
-    fast_cdr = ctypes.PyDLL(_FAST_CDR)
-    _check_layout(fast_cdr)
-    _give_memory(transit, runtime)
+def message_support(message: Message, transit: type[MessageInTransit], libraries: Libraries) -> int:
+    """Make the type support of a message; return the address of its handle.
+
+    `transit` is the class of the objects that stand for messages; it learns to take bytes and to free them.
+    """
+    _give_memory(transit, libraries.runtime)
+    data = {
+        FASTRTPS: _callbacks(message, libraries.fast_cdr),
+        INTROSPECTION: message.members,
+    }
+    return handles(Handle, data, description_functions(message.description, message.sources))[FASTRTPS]
+
+
+def handles(
+    kind: type[ctypes.Structure], data: dict[bytes, ctypes.Structure], functions: list[int], *others: int
+) -> dict[bytes, int]:
+    """Make a handle for each type support, which lead to each other; `others` stand before the description functions."""
     table: dict[bytes, int] = {}
     dispatch = _callback(CFUNCTYPE(c_void_p, _handle_in(table), c_char_p), operator.getitem)
-    common = (dispatch, *_description_functions(fastrtps))
-    for identifier, data in (
-        (_FASTRTPS, _callbacks(fastrtps, fast_cdr)),
-        (_INTROSPECTION, _members(introspection)),
-    ):
-        handle = layouts.immortal(Handle(identifier, ctypes.addressof(data), *common))
+    for identifier, of_it in data.items():
+        handle = layouts.immortal(kind(identifier, ctypes.addressof(of_it), dispatch, *others, *functions))
         table[identifier] = ctypes.addressof(handle)
-    return table[_FASTRTPS]
+    return table
 
 
 def _callback(prototype: Callable[..., object], function: Callable[..., object]) -> int:
@@ -113,13 +168,23 @@ def _constant(address: int) -> int:
     return _callback(CFUNCTYPE(c_void_p), repeat(address).__next__)
 
 
-def _description_functions(element: Handle) -> list[int]:
-    """Return the functions of a handle that return the type's hash, description and sources."""
+def described(compiled: Handle) -> tuple[layouts.TypeDescription, layouts.String]:
+    """Return the description of a compiled type, and the sequence of its definition files."""
     prototype = ctypes.PYFUNCTYPE(c_void_p, c_void_p)
-    of_element = layouts.TypeDescription.from_address(prototype(element.get_type_description_func)(None))
-    sources = layouts.String.from_address(prototype(element.get_type_description_sources_func)(None))
-    described = description.describe(of_element)
-    values = (description.type_hash(described), described, description.sources(sources))
+    return (
+        layouts.TypeDescription.from_address(prototype(compiled.get_type_description_func)(None)),
+        layouts.String.from_address(prototype(compiled.get_type_description_sources_func)(None)),
+    )
+
+
+def unbounded(compiled: Handle) -> int:
+    """Return the function of a type without bounds that says so, and a size to begin with."""
+    return int(Callbacks.from_address(compiled.data).max_serialized_size)
+
+
+def description_functions(of_type: layouts.TypeDescription, sources: layouts.String) -> list[int]:
+    """Return the functions of a handle that return the type's hash, description and sources."""
+    values = (description.type_hash(of_type), of_type, sources)
     return [_constant(ctypes.addressof(layouts.immortal(value))) for value in values]
 
 
@@ -134,7 +199,7 @@ def _give_memory(transit: type[MessageInTransit], runtime: ctypes.PyDLL) -> None
     transit.__del__ = _method(free)  # type: ignore[attr-defined]  # as above
 
 
-def _callbacks(element: Handle, fast_cdr: ctypes.PyDLL) -> Callbacks:
+def _callbacks(message: Message, fast_cdr: ctypes.PyDLL) -> Callbacks:
     """Return what rmw_fastrtps calls to send, `message >> cdr`, and to receive, `cdr >> message`."""
     cdr = POINTER(Cdr)
     send = fast_cdr._ZN8eprosima7fastcdr3Cdr15serialize_arrayEPKcm  # noqa: SLF001  # a C++ name, not a private one
@@ -143,13 +208,12 @@ def _callbacks(element: Handle, fast_cdr: ctypes.PyDLL) -> Callbacks:
     cdr.__rrshift__ = _method(send)  # type: ignore[attr-defined]  # a method from a library
     return layouts.immortal(
         Callbacks(
-            _CXX_NAMESPACE,
-            _TYPE_NAME,
+            message.namespace.replace(b"__", b"::"),
+            message.name,
             _callback(CFUNCTYPE(c_bool, py_object, cdr), operator.rshift),
             _callback(CFUNCTYPE(c_bool, cdr, py_object), operator.rshift),
             _callback(CFUNCTYPE(c_uint32, py_object), attrgetter("outgoing.size")),
-            # Says "unbounded" and a size to begin with: so does the element's own function.
-            Callbacks.from_address(element.data).max_serialized_size,
+            message.unbounded,
         )
     )
 
@@ -161,19 +225,14 @@ def _method(function: Callable[..., object]) -> object:
     return bind(function)
 
 
-def _members(element: Handle) -> layouts.Members:
+def members(namespace: bytes, name: bytes, fields: Sequence[layouts.Member]) -> layouts.Members:
     """Return the names and types of the fields, which the middleware makes its own type object from.
 
     The functions that reach into a message stay null: a message in transit is serialized.
     """
-    member = layouts.Member(
-        name=b"transforms",
-        type_id=_ROS_TYPE_MESSAGE,
-        members=ctypes.addressof(element),
-        is_array=True,
-    )
+    array = layouts.immortal((layouts.Member * len(fields))(*fields))
     return layouts.immortal(
-        layouts.Members(_NAMESPACE, _TYPE_NAME, member_count=1, members=ctypes.pointer(member))
+        layouts.Members(namespace, name, member_count=len(fields), members=ctypes.cast(array, POINTER(layouts.Member)))
     )
 
 
@@ -192,5 +251,5 @@ def _check_layout(fast_cdr: ctypes.PyDLL) -> None:
     expected = (ctypes.addressof(memory), len(memory), ctypes.addressof(buffer))
     if (found.data, found.size, reference) != expected:
         raise UnsupportedInstallationError(
-            f"{_FAST_CDR} is laid out in another way than in ROS 2 Jazzy; install tf2_msgs to use TFMessage"
+            f"{_FAST_CDR} is laid out in another way than in ROS 2 Jazzy"
         )
