@@ -31,19 +31,47 @@ def components(
     resolved: Resolved, ids: Sequence[str], own: Sequence[str], problems: Problems
 ) -> tuple[Component, ...]:
     """Return the components in order; `ids` are those of the processes, `own` those of the components."""
-    return tuple(
-        _component(component, identity, resolved, ids, problems)
-        for component, identity in zip(resolved.components, own, strict=True)
-    )
+    containers = _Containers(resolved)
+    found = []
+    for component, identity in zip(resolved.components, own, strict=True):
+        index = containers.index(component)
+        if index is None:
+            _report_missing(component, containers, resolved, problems)
+        found.append(_component(component, identity, index, resolved, ids, problems))
+    return tuple(found)
+
+
+class _Containers:
+    """The processes by what components may call them."""
+
+    def __init__(self, resolved: Resolved) -> None:
+        self.names: dict[str, int] = {}
+        self.origins: dict[int, int] = {}
+        for index, process in enumerate(resolved.processes):
+            name = node_name(process)
+            if name is not None:
+                self.names.setdefault(name, index)
+            if process.origin is not None:
+                self.origins.setdefault(id(process.origin), index)
+
+    def index(self, component: ResolvedComponent) -> int | None:
+        """Return the index of the process that is the container, None where none of the plan is."""
+        if component.container_process is not None:
+            return component.container_process
+        if component.container is not None:
+            return self.names.get(component.container.text)
+        return self.origins.get(id(component.container_origin))
 
 
 def _component(
-    component: ResolvedComponent, identity: str, resolved: Resolved, ids: Sequence[str], problems: Problems
+    component: ResolvedComponent,
+    identity: str,
+    index: int | None,
+    resolved: Resolved,
+    ids: Sequence[str],
+    problems: Problems,
 ) -> Component:
     full = node_name(component)
-    index = _process(component, resolved)
-    if index is None:
-        _report_missing(component, resolved, problems)
     if full is not None:
         check_files(component.parameters, full, problems)
     check_remaps(component, problems)
@@ -71,19 +99,6 @@ def _component(
     )
 
 
-def _process(component: ResolvedComponent, resolved: Resolved) -> int | None:
-    """Return the index of the process that is the container, None where none of the plan is."""
-    if component.container_process is not None:
-        return component.container_process
-    origin, name = component.container_origin, component.container
-    for index, process in enumerate(resolved.processes):
-        if origin is not None and process.origin is origin:
-            return index
-        if name is not None and node_name(process) == name.text:
-            return index
-    return None
-
-
 def _container(component: ResolvedComponent, index: int | None, resolved: Resolved) -> str:
     if index is not None:
         process = resolved.processes[index]
@@ -91,7 +106,9 @@ def _container(component: ResolvedComponent, index: int | None, resolved: Resolv
     return component.container.text if component.container is not None else ""
 
 
-def _report_missing(component: ResolvedComponent, resolved: Resolved, problems: Problems) -> None:
+def _report_missing(
+    component: ResolvedComponent, containers: _Containers, resolved: Resolved, problems: Problems
+) -> None:
     """Report a container that is not of this plan. By its name alone it may be of another launch."""
     if component.faulty:
         return
@@ -99,7 +116,7 @@ def _report_missing(component: ResolvedComponent, resolved: Resolved, problems: 
         message = "the container that this component is loaded into is not started"
         problems.error(Code.UNKNOWN_DEPENDENCY, message, component.location)
         return
-    known = [name for process in resolved.processes if (name := node_name(process)) is not None]
+    known = containers.names
     if is_mistake(component.container.text, known, resolved):
         message = f"no process of this plan is the container '{component.container.text}'"
         suggestion = nearest(component.container.text, known)

@@ -16,7 +16,7 @@ def digest(process: Process) -> str:
     """Return the SHA-256 of command, environment, cwd, parameter content, stdin, shell and limits."""
     content = (
         process.command,
-        process.environment,
+        (process.environment, process.inherit_environment),
         process.cwd,
         process.parameters,
         process.parameter_files,

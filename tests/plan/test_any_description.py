@@ -56,7 +56,7 @@ def test_a_plan_survives_json_and_is_the_same_every_time(
     assert dumps(loads(dumps(plan))) == dumps(plan)
     assert dumps(again) == dumps(plan)
     assert plan.problems == problems.ordered
-    ids = [item.id for item in (*plan.processes, *plan.components)]
+    ids = [process.id for process in plan.processes] + [component.id for component in plan.components]
     assert len(set(ids)) == len(ids)
 
 

@@ -322,6 +322,7 @@ def test_the_digest_covers_what_makes_a_process_another_one(tmp_path: Path) -> N
         "args: x",
         "cwd: /var",
         "env: [{name: A, value: b}]",
+        "env_only: []",
         "param: [{name: x, value: 1}]",
         "shell: true",
     ]

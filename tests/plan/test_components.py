@@ -6,8 +6,10 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from orchestra.description.actions.lifecycle_node import LifecycleNode
 from orchestra.description.actions.load_composable_node import LoadComposableNode
 from orchestra.description.actions.node_container import NodeContainer
+from orchestra.description.actions.push_ros_namespace import PushRosNamespace
 from orchestra.description.components import ComposableNode
 from orchestra.description.text import Opaque, Template
 from orchestra.errors import Code, Severity
@@ -248,6 +250,14 @@ def test_python_names_a_container_by_its_action() -> None:
 def test_an_action_that_starts_nothing_is_no_container() -> None:
     _, problems = planned(_load(object()))
     assert [problem.code for problem in problems.errors] == [Code.UNKNOWN_DEPENDENCY]
+
+
+def test_a_life_cycle_node_needs_its_full_name() -> None:
+    node = LifecycleNode.at(AT, exec=text("sleep"), name=text("a"), namespace=None)
+    _, problems = planned(node)
+    assert [(problem.code, problem.span) for problem in problems] == [(Code.BAD_NAME, AT)]
+    _, problems = planned(PushRosNamespace.at(AT, namespace=text("ns")), node)
+    assert list(problems) == []
 
 
 def test_a_life_cycle_node_can_be_started_by_itself(tmp_path: Path) -> None:
