@@ -39,12 +39,12 @@ def file_parameters(
     path = existing_file(value, written, "parameter file", run)
     if path is None:
         return None
-    if substitute or plain:
-        file = read_file(path, value.location, run, substitute=substitute, plain=plain)
+    if substitute:
+        file = read_file(path, value.location, run, substitute=True, plain=plain)
     else:
-        if path not in run.parameter_files:
-            run.parameter_files[path] = read_file(path, value.location, run)
-        file = run.parameter_files[path]
+        if (path, plain) not in run.parameter_files:
+            run.parameter_files[path, plain] = read_file(path, value.location, run, plain=plain)
+        file = run.parameter_files[path, plain]
     return None if file is None else replace(file, location=value.location, everywhere=everywhere)
 
 

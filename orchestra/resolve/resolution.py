@@ -100,7 +100,7 @@ class Resolution:
     conditions: int = 0
     repetitions: int = 0
     descriptions: dict[str, Description | None] = field(default_factory=dict)
-    parameter_files: dict[str, FileParameters | None] = field(default_factory=dict)
+    parameter_files: dict[tuple[str, bool], FileParameters | None] = field(default_factory=dict)
     make_engine: Callable[[Resolution], Any] | None = None
     _engine: Any = None
 
