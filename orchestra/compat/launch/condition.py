@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.described import said
 from orchestra.description.text import Opaque, Template
 
 if TYPE_CHECKING:
@@ -29,8 +30,7 @@ class Condition:
 
     def _fields(self, span: Span) -> dict[str, Any]:
         """Return the field of a model that says the same: `if` or `unless` with a template."""
-        said = self.describe() if type(self).describe is not Condition.describe else type(self).__name__
-        return {"if": Template((Opaque(_Holding(self), span),), said, span)}
+        return {"if": Template((Opaque(_Holding(self), span),), said(self, Condition), span)}
 
 
 class _Holding:

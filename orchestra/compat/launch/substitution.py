@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.described import said
 from orchestra.compat.place import here
 from orchestra.description.text import Call, Opaque, Template, Words
 from orchestra.description.written import called, escaped
@@ -35,8 +36,7 @@ class Substitution:
 
     def _raw(self) -> str:
         """Return the substitution as it would be written in a launch file, or else its description."""
-        described = type(self).describe is not Substitution.describe
-        return str(self.describe()) if described else f"{type(self).__name__}()"
+        return said(self, Substitution)
 
     def __truediv__(self, other: Any) -> Substitution:
         """Join two parts of a path (newer ROS releases)."""
