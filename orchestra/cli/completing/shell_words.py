@@ -59,6 +59,8 @@ def written(word: str, line: Line, *, finished: bool) -> str:
         return rest.replace("'", "'\\''")
     special = _SPECIAL_IN_DOUBLE if line.quote else _SPECIAL
     text = "".join(f"\\{character}" if character in special else character for character in rest)
+    if text.startswith("~") and not line.quote and not line.begun:
+        text = f"\\{text}"  # a name, where the user has not begun with the sign for a home folder
     return f"{text} " if finished and not line.quote else text
 
 

@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 
     from orchestra.cli.glance.model import Places
 
@@ -19,8 +19,9 @@ class Expressions:
 
     def __init__(self, tree: ast.Module, places: Places) -> None:
         self._places = places
-        self._originals = dict(_renamed_imports(tree))
-        self._values = _assigned_once(tree)
+        nodes = list(ast.walk(tree))
+        self._originals = dict(_renamed_imports(nodes))
+        self._values = _assigned_once(nodes)
         self._bound: dict[str, ast.expr] = {}
         self._open: list[ast.expr] = []
 
@@ -207,17 +208,16 @@ def _parent(path: str | None) -> str | None:
     return None if path is None else os.path.dirname(path)  # noqa: PTH120 - a text is wanted, and pathlib would change it
 
 
-def _renamed_imports(tree: ast.Module) -> Iterator[tuple[str, str]]:
-    for node in ast.walk(tree):
+def _renamed_imports(nodes: Iterable[ast.AST]) -> Iterator[tuple[str, str]]:
+    for node in nodes:
         if isinstance(node, ast.ImportFrom):
             for alias in node.names:
                 if alias.asname:
                     yield alias.asname, alias.name
 
 
-def _assigned_once(tree: ast.Module) -> dict[str, ast.expr]:
+def _assigned_once(nodes: Sequence[ast.AST]) -> dict[str, ast.expr]:
     """Return the values of the names that one plain assignment sets, and nothing else in the file."""
-    nodes = list(ast.walk(tree))
     stores = Counter(
         node.arg if isinstance(node, ast.arg) else node.id
         for node in nodes

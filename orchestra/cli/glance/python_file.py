@@ -13,6 +13,8 @@ if TYPE_CHECKING:
 
     from orchestra.cli.glance.model import Places
 
+_DECLARE, _INCLUDE = "DeclareLaunchArgument", "IncludeLaunchDescription"
+_LEAVES = (ast.Constant, ast.Name, ast.expr_context, ast.operator, ast.alias)
 _SOURCES = frozenset(
     f"{language}LaunchDescriptionSource" for language in ("Python", "XML", "YAML", "Any", "Frontend")
 )
@@ -21,33 +23,39 @@ _SOURCES = frozenset(
 def glance(text: str, places: Places) -> Glance:
     """Return what the text shows. Raises `SyntaxError`, `ValueError` for null bytes, `RecursionError`."""
     tree = ast.parse(text)
+    arguments: list[SeenArgument] = []
+    includes: list[SeenInclude] = []
     expressions = Expressions(tree, places)
-    found = list(_calls(tree, expressions, conditional=False))
-    return Glance(
-        tuple(item for item in found if isinstance(item, SeenArgument)),
-        tuple(item for item in found if isinstance(item, SeenInclude)),
-    )
+    for call, conditional in _calls(tree, expressions):
+        if expressions.original(callee(call)) == _DECLARE:
+            arguments += _argument(call, expressions, conditional=conditional)
+        else:
+            includes += _include(call, expressions, conditional=conditional)
+    return Glance(tuple(arguments), tuple(includes))
 
 
-def _calls(
-    node: ast.AST, expressions: Expressions, *, conditional: bool
-) -> Iterator[SeenArgument | SeenInclude]:
-    """Yield what the calls in a tree declare and include, whatever function they stand in."""
-    if isinstance(node, ast.Call):
-        conditional |= keyword(node, "condition") is not None
-        name = expressions.original(callee(node))
-        if name == "DeclareLaunchArgument":
-            yield from _argument(node, expressions, conditional=conditional)
-            return
-        if name == "IncludeLaunchDescription":
-            yield from _include(node, expressions, conditional=conditional)
-            return
-    elif isinstance(node, ast.If | ast.IfExp):
-        conditional = True
-    for values in _rounds(node, expressions):
-        with expressions.bound(values):
-            for child in ast.iter_child_nodes(node):
-                yield from _calls(child, expressions, conditional=conditional)
+def _calls(tree: ast.Module, expressions: Expressions) -> Iterator[tuple[ast.Call, bool]]:
+    """Yield the calls that count, whatever function they stand in, and whether a condition is around them.
+
+    While one is looked at, the names of the loops around it are bound.
+    """
+    waiting: list[tuple[ast.AST, bool, dict[str, ast.expr]]] = [(tree, False, {})]
+    while waiting:
+        node, conditional, bound = waiting.pop()
+        if isinstance(node, ast.Call):
+            conditional |= keyword(node, "condition") is not None
+            if expressions.original(callee(node)) in (_DECLARE, _INCLUDE):
+                with expressions.bound(bound):
+                    yield node, conditional
+                continue
+        elif isinstance(node, ast.If | ast.IfExp):
+            conditional = True
+        children = [child for child in ast.iter_child_nodes(node) if not isinstance(child, _LEAVES)]
+        with expressions.bound(bound):
+            rounds = _rounds(node, expressions)
+        for values in reversed(rounds):
+            inner = {**bound, **values} if values else bound
+            waiting += [(child, conditional, inner) for child in reversed(children)]
 
 
 def _rounds(node: ast.AST, expressions: Expressions) -> list[dict[str, ast.expr]]:
