@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -23,6 +24,8 @@ def exported(package: str, names: Mapping[str, str]) -> Callable[[str], Any]:
         if not place:
             return import_module(f"{package}.{name}")
         full = place if place.startswith("orchestra.") else f"{package}.{place}"
-        return getattr(import_module(full), name)
+        value = getattr(import_module(full), name)
+        setattr(sys.modules[package], name, value)  # also over a submodule of the same name, as an import would
+        return value
 
     return attribute

@@ -32,6 +32,7 @@ class InstalledPackages:
         self._ament = cache(self._look_in_ament)
         self._python = cache(python.folder)
         self._scripts = cache(scripts.console_scripts)
+        self._executables = cache(ament.executables)
 
     def prefix(self, package: str) -> str | None:
         """Return the install prefix, None for an unknown package."""
@@ -52,7 +53,7 @@ class InstalledPackages:
     def executable(self, package: str, executable: str) -> tuple[str, ...] | None:
         """Return the words of the command that starts it, None where the package has no such executable."""
         prefix = self._ament(package)
-        if prefix is not None and (path := ament.executables(prefix, package).get(executable)):
+        if prefix is not None and (path := self._executables(prefix, package).get(executable)):
             return (str(path),)
         folder = self._python(package)
         if folder is None:
@@ -71,7 +72,7 @@ class InstalledPackages:
     def executables(self, package: str) -> tuple[str, ...]:
         """Return the names of the package's executables, for suggestions."""
         prefix, folder = self._ament(package), self._python(package)
-        found = set() if prefix is None else set(ament.executables(prefix, package))
+        found = set() if prefix is None else set(self._executables(prefix, package))
         if folder is not None:
             found.update(python.nodes(folder))
             found.update(script for owner, script in self._scripts() if owner == package)
