@@ -61,7 +61,9 @@ def main() -> None:
         print("up", flush=True)
         signal.pause()
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
-    node = Node(name, {transition: manner for manner, _, transition in (word.partition("=") for word in words)})
+    node = Node(
+        name, {transition: manner for manner, _, transition in (word.partition("=") for word in words)}
+    )
     print("up", flush=True)
     rclpy.spin(node)
 

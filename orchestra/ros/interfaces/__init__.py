@@ -1,4 +1,4 @@
-"""Message classes by name, and the ones of packages that the package index lacks.
+"""Message classes by name, and the types of packages that the package index lacks: TFMessage and LoadNode.
 
 Nothing here needs rclpy to be imported first, and rclpy needs nothing from here. A node that only wants TFMessage
 does not pay for finding types by their names: what a name stands for is loaded when it is asked for.
@@ -10,14 +10,16 @@ import importlib
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from orchestra.ros.interfaces.composition_package import load_node_type
     from orchestra.ros.interfaces.names import UnknownMessageTypeError, message_type
     from orchestra.ros.interfaces.tf_package import install, tf_message_type
 
-__all__ = ["UnknownMessageTypeError", "install", "message_type", "tf_message_type"]
+__all__ = ["UnknownMessageTypeError", "install", "load_node_type", "message_type", "tf_message_type"]
 
 _MODULES = {
     "UnknownMessageTypeError": "names",
     "install": "tf_package",
+    "load_node_type": "composition_package",
     "message_type": "names",
     "tf_message_type": "tf_package",
 }

@@ -21,7 +21,7 @@ from orchestra.ros.interfaces.layouts import Bytes, String
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-_log = logging.getLogger(__name__)
+log = logging.getLogger(__name__)
 _HEADER = 4  # bytes of the encapsulation, which the middleware writes itself
 
 _Result = TypeVar("_Result")
@@ -112,7 +112,7 @@ def _from_py(source: Any, message: MessageInTransit) -> bool:  # noqa: ANN401  #
     try:
         uninterrupted(_prepare, source, message)
     except Exception:  # noqa: BLE001  # any field may be of any class; all is told below
-        _log.exception("this %s cannot be sent", message.type_name)
+        log.exception("this %s cannot be sent", message.type_name)
         return False
     return True
 

@@ -52,8 +52,7 @@ def type_hash(description: TypeDescription) -> TypeHash:
     content = {
         "type_description": _individual_type(description.type_description),
         "referenced_type_descriptions": [
-            _individual_type(item)
-            for item in items(description.referenced_type_descriptions, IndividualType)
+            _individual_type(item) for item in items(description.referenced_type_descriptions, IndividualType)
         ],
     }
     digest = hashlib.sha256(json.dumps(content).encode()).digest()

@@ -8,7 +8,13 @@ from __future__ import annotations
 
 from typing import Any
 
-from rosidl_parser.definition import AbstractGenericString, AbstractSequence, BasicType, BoundedSequence, NamespacedType
+from rosidl_parser.definition import (
+    AbstractGenericString,
+    AbstractSequence,
+    BasicType,
+    BoundedSequence,
+    NamespacedType,
+)
 
 from orchestra.ros.interfaces.layouts import Field, FieldType, Member, text
 

@@ -190,10 +190,11 @@ def description_functions(of_type: layouts.TypeDescription, sources: layouts.Str
 
 def _give_memory(transit: type[MessageInTransit], runtime: ctypes.PyDLL) -> None:
     """Let messages take what comes in, `cdr >> message`, and free it in the end."""
-    receive = runtime.rosidl_runtime_c__String__assignn
+    # By index: each time another object, with types of its own, where an attribute is always the same one.
+    receive = runtime["rosidl_runtime_c__String__assignn"]
     receive.restype = c_bool
     receive.argtypes = [POINTER(transit), _Buffer]  # type: ignore[list-item]  # converting is all it takes
-    free = runtime.rosidl_runtime_c__String__fini
+    free = runtime["rosidl_runtime_c__String__fini"]
     free.argtypes, free.restype = [POINTER(transit)], None
     transit.__rrshift__ = _method(receive)  # type: ignore[attr-defined]  # a method from a library
     transit.__del__ = _method(free)  # type: ignore[attr-defined]  # as above
@@ -232,7 +233,9 @@ def members(namespace: bytes, name: bytes, fields: Sequence[layouts.Member]) -> 
     """
     array = layouts.immortal((layouts.Member * len(fields))(*fields))
     return layouts.immortal(
-        layouts.Members(namespace, name, member_count=len(fields), members=ctypes.cast(array, POINTER(layouts.Member)))
+        layouts.Members(
+            namespace, name, member_count=len(fields), members=ctypes.cast(array, POINTER(layouts.Member))
+        )
     )
 
 
@@ -250,6 +253,4 @@ def _check_layout(fast_cdr: ctypes.PyDLL) -> None:
     reference = layouts.address(Cdr.from_buffer(cdr).buffer)
     expected = (ctypes.addressof(memory), len(memory), ctypes.addressof(buffer))
     if (found.data, found.size, reference) != expected:
-        raise UnsupportedInstallationError(
-            f"{_FAST_CDR} is laid out in another way than in ROS 2 Jazzy"
-        )
+        raise UnsupportedInstallationError(f"{_FAST_CDR} is laid out in another way than in ROS 2 Jazzy")

@@ -10,7 +10,7 @@ from rcl_interfaces.msg import Parameter as ParameterMessage
 from rcl_interfaces.srv import ListParameters
 from rclpy.parameter import Parameter
 
-from orchestra.ros.interfaces import UnavailableServiceTypeError, load_node_type
+from orchestra.ros.interfaces import load_node_type
 from orchestra.ros.observer.service import Service
 
 if TYPE_CHECKING:
@@ -39,12 +39,11 @@ class ComponentLoad:
         self._fields: Mapping[str, Any] = request["component"]
         self._services: list[Service] = []
         self._there_since: float | None = None
-        self._introduced = False
         self._begun = False
         container = request["container"]
         try:
             self._kind = load_node_type()
-        except UnavailableServiceTypeError as error:
+        except ImportError as error:
             self.looks = False
             say("impossible", reason=str(error))
             return
@@ -54,37 +53,28 @@ class ComponentLoad:
 
     def look(self) -> None:
         """Begin as soon as the container takes orders."""
-        if self._begun:
+        if self._begun or not self._load.ready:
             return
-        if self._introduced:
-            self._begin()
-        elif self._there_since is None:
-            self._greet()
-        elif not self._parameters.ready and time.monotonic() > self._there_since + _INTRODUCED_WITHIN:
-            self._introduced = True
-        else:
+        if self._there_since is None:
+            self._there_since = time.monotonic()
+            self._say("asking")
+        if self._parameters.asked:
             self._parameters.look()
-            self._greet()
+        elif self._parameters.ready:
+            self._parameters.ask(ListParameters.Request(), self._greeted, repeat=True)
+        elif time.monotonic() > self._there_since + _INTRODUCED_WITHIN:
+            self._begin()
 
     def close(self) -> None:
         """Give the clients back."""
         for service in self._services:
             service.close()
 
-    def _greet(self) -> None:
-        if self._there_since is None and self._load.ready:
-            self._there_since = time.monotonic()
-            self._say("asking")
-        if self._there_since is not None and self._parameters.ready and not self._parameters.asked:
-            self._parameters.ask(ListParameters.Request(), self._greeted, repeat=True)
-
     def _greeted(self, _response: object) -> None:
-        self._introduced = True
-        self._begin()
+        if not self._begun:
+            self._begin()
 
     def _begin(self) -> None:
-        if self._begun:
-            return
         self._begun = True
         request = self._kind.Request()
         for name, value in self._fields.items():

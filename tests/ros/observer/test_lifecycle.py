@@ -56,7 +56,8 @@ def test_a_node_is_brought_to_active(tmp_path: Path) -> None:
     assert run.popen.returncode == 0, run.stderr
     assert run.log("managed").splitlines()[:3] == ["up", "configure", "activate"]
     moves = [
-        (e.data["start_state"], e.data["goal_state"], e.data["transition"]) for e in run.of_kind("state_changed")
+        (e.data["start_state"], e.data["goal_state"], e.data["transition"])
+        for e in run.of_kind("state_changed")
     ]
     assert moves == [
         ("unconfigured", "configuring", "configure"),
@@ -156,6 +157,7 @@ def test_an_order_for_a_node_that_will_not_come_fails(tmp_path: Path) -> None:
     nobody = node(command=("/no/such/program",))
     triggers = (at_start(change(CONFIGURE)), when_ended("/managed", log("it is over")))
     run = finished(tmp_path, plan(nobody, triggers=triggers), environment=DOMAIN)
+    assert run.popen.returncode == 0, run.stderr
     (event,) = run.of_kind("transition_failed")
     assert "could not be started" in event.data["reason"]
     assert "it is over" in run.stderr
