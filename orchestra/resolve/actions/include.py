@@ -114,7 +114,8 @@ def _is_endless(frame: Frame, run: Resolution) -> bool:
         return False
     run.found.endless.add(frame.path)
     again = (*run.frames, frame)[around[1]] if len(around) > 1 else frame
-    message = "the file includes itself without end" if around else f"includes nest deeper than {_DEEPEST}"
+    deep = f"includes nest {len(run.frames)} files deep, which is too deep"
+    message = "the file includes itself without end" if around else deep
     run.problems.error(Code.INCLUDE_CYCLE, message, again.included_at)
     return True
 
