@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
 from orchestra.resolve.model import ResolvedComponent, ResolvedProcess
@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
     from orchestra.errors import Problems
     from orchestra.location import Location, Span
+
+_YAML: Final = (".yaml", ".yml")
 
 
 def identities(
@@ -58,7 +60,8 @@ def node_name(process: ResolvedProcess | ResolvedComponent) -> str | None:
 def check_names(processes: Sequence[ResolvedProcess | ResolvedComponent], problems: Problems) -> None:
     """Report nodes that were given the same full name.
 
-    It is only a warning where a condition stands on one of them, or one is a component, which its container may refuse.
+    It is only a warning where a condition stands on one of them, where one is a component, which its container may
+    refuse, and where one is written in Python or XML: files that exist already do this, and upstream starts both.
     """
     first: dict[str, ResolvedProcess | ResolvedComponent] = {}
     told: set[tuple[Location | Span, Location | Span]] = set()
@@ -71,9 +74,7 @@ def check_names(processes: Sequence[ResolvedProcess | ResolvedComponent], proble
         if earlier is process or mistake in told:
             continue
         told.add(mistake)
-        certain = all(
-            isinstance(item, ResolvedProcess) and not item.conditional for item in (earlier, process)
-        )
+        certain = all(map(_is_refused, (earlier, process)))
         report = problems.error if certain else problems.warning
         report(
             Code.DUPLICATE_NODE,
@@ -81,6 +82,13 @@ def check_names(processes: Sequence[ResolvedProcess | ResolvedComponent], proble
             process.name.location,
             notes=(f"the other one is at {_with_includes(earlier.location)}",),
         )
+
+
+def _is_refused(process: ResolvedProcess | ResolvedComponent) -> bool:
+    """Return whether there must not be another one of its name."""
+    if isinstance(process, ResolvedComponent) or process.conditional:
+        return False
+    return process.location.span.file.endswith(_YAML)
 
 
 def _mistake(
