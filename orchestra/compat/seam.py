@@ -94,6 +94,9 @@ class FrontEnd(Protocol):
     def template(self, written: Written) -> Template:
         """Return a text with its substitutions. Raises `ValueError` where it has faults."""
 
+    def close(self) -> None:
+        """Let what has added to the language be imported anew when it is next needed."""
+
 
 class Connection(Protocol):
     """The stage above, for objects that are used without a context of a resolution."""
@@ -129,6 +132,7 @@ def connected(connection: Connection) -> Iterator[None]:
         yield
     finally:
         _connections.remove(connection)
+        connection.front_end.close()
 
 
 def is_connected() -> bool:

@@ -9,7 +9,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 _SPECIAL = re.compile(r"([\\$])")
-_IN_ARGUMENT = re.compile(r"""([\\$'"()])""")
+_PIECE = re.compile(r"\\.|\$\(|.", re.DOTALL)
+_IN_ARGUMENT = frozenset("'\"()")
 
 
 def escaped(text: str) -> str:
@@ -18,6 +19,19 @@ def escaped(text: str) -> str:
 
 
 def called(name: str, arguments: Iterable[str]) -> str:
-    """Return a substitution as written, from the texts of its arguments as written."""
-    words = (f"'{argument}'" if not argument or " " in argument else argument for argument in arguments)
-    return f"$({' '.join((name, *words))})"
+    """Return a substitution as written, from the texts of its arguments as written alone."""
+    return f"$({' '.join((name, *map(_argument, arguments)))})"
+
+
+def _argument(text: str) -> str:
+    """Return how a text is written as an argument: in quotes where it is empty or has spaces outside of calls.
+
+    A call with quotes of its own cannot stand in quotes: there is no way to write that.
+    """
+    found, spaced, depth = [], not text, 0
+    for piece in _PIECE.findall(text):
+        spaced |= depth == 0 and " " in piece
+        found.append(f"\\{piece}" if depth == 0 and piece in _IN_ARGUMENT else piece)
+        depth += (piece == "$(") - (piece == ")" and depth > 0)
+    quote = "'" if spaced else ""
+    return f"{quote}{''.join(found)}{quote}"

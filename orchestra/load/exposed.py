@@ -5,14 +5,15 @@ What parses them is code of theirs, which hands back objects; these stand in the
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.seam import is_connected
+from orchestra.errors import Problems
 
 if TYPE_CHECKING:
     from orchestra.description.entity import Action
     from orchestra.description.text import Call, Part
-    from orchestra.errors import Problems
     from orchestra.location import Span
 
 # All imports inside functions: they bring in what Python launch files import, which few files need.
@@ -35,7 +36,6 @@ def exposed_action(
     included_from: tuple[Span, ...],
 ) -> Action | None:
     """Return the action that its own code makes of what stands in a file; None where that fails, which is reported."""
-    from orchestra.compat import faults  # noqa: PLC0415
     from orchestra.compat.building import model_of  # noqa: PLC0415
     from orchestra.compat.launch.frontend.parser import Parser  # noqa: PLC0415
     from orchestra.load.trees import entity_of  # noqa: PLC0415
@@ -43,7 +43,7 @@ def exposed_action(
     try:
         return model_of(Parser.parse_action(entity_of(name, content, at)))
     except (Exception, SystemExit) as error:  # noqa: BLE001 - the boundary of user code
-        faults.report(error, problems, included_from, at)
+        _report(error, problems, included_from, at)
         return None
 
 
@@ -54,7 +54,6 @@ def exposed_part(call: Call, problems: Problems) -> tuple[Part, ...] | None:
     """
     if not is_connected():
         return None
-    from orchestra.compat import faults  # noqa: PLC0415
     from orchestra.compat.launch.frontend import parse_substitution, parser  # noqa: PLC0415
 
     parse = parser.exposed_substitution(call.name)
@@ -64,5 +63,21 @@ def exposed_part(call: Call, problems: Problems) -> tuple[Part, ...] | None:
         arguments = [parse_substitution.substitutions_of(argument) for argument in call.arguments]
         return tuple(parse_substitution.called(parse, arguments, call.span)._parts(call.span))  # noqa: SLF001 - compat's own
     except (Exception, SystemExit) as error:  # noqa: BLE001 - the boundary of user code
-        faults.report(error, problems, (), call.span)
+        _report(error, problems, (), call.span)
         return ()
+
+
+def _report(error: BaseException, problems: Problems, included_from: tuple[Span, ...], at: Span) -> None:
+    """Report what parsing has raised where the launch file has it: the code's own line is beside the point."""
+    from orchestra.compat import faults  # noqa: PLC0415
+
+    found = Problems()
+    faults.report(error, found, included_from, at)
+    for problem in found:
+        if hasattr(error, "problems"):  # which know their places in the file
+            problems.report(replace(problem, included_from=problem.included_from or included_from))
+        elif problem.span == at:
+            problems.report(problem)
+        else:
+            notes = (f"raised at {problem.span}", *problem.notes)
+            problems.report(replace(problem, span=at, notes=notes))

@@ -88,7 +88,7 @@ def test_substitutions_are_described_as_upstream_does(substitution: Any, text: s
 
 
 _WRITTEN: dict[str, tuple[Any, str]] = {
-    "prefix": (FindPackagePrefix(["a", LC("b")]), "$(find-pkg-prefix 'a$(var b)')"),
+    "prefix": (FindPackagePrefix(["a", LC("b")]), "$(find-pkg-prefix a$(var b))"),
     "share": (FindPackageShare("a"), "$(find-pkg-share a)"),
     "executable": (ExecutableInPackage("e", "p"), "$(exec-in-pkg e p)"),
     "parameter": (Parameter("n"), "$(param n)"),

@@ -62,7 +62,7 @@ class LoadingFrontEnd:
             raise InvalidSubstitutionError(problems.errors)
         return template
 
-    def forget(self) -> None:
+    def close(self) -> None:
         """Let what has added to the language be imported anew by the next resolution."""
         packages = self.exposures.packages()
         for name in [name for name in sys.modules if name.partition(".")[0] in packages]:

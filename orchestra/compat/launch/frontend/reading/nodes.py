@@ -4,7 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from orchestra.compat.launch.frontend.reading.attributes import ENTITIES, condition, pairs, texts, values
+from orchestra.compat.launch.frontend.reading.attributes import (
+    ENTITIES,
+    condition,
+    pairs,
+    texts,
+    value_or_text,
+)
 from orchestra.compat.launch.frontend.reading.parameters import parameters
 from orchestra.compat.launch.frontend.reading.processes import execute_process
 from orchestra.compat.launch.frontend.reading.words import parse_cmdline
@@ -15,7 +21,8 @@ if TYPE_CHECKING:
 
 _OPTIONAL = {"pkg": "package", "name": "name", "namespace": "namespace", "exec_name": "exec_name"}
 _WORDS = {"args": "arguments", "ros_args": "ros_arguments"}
-_REQUIRED_OF_COMPONENT = {"pkg": "package", "plugin": "plugin", "name": "name"}
+_REQUIRED_OF_COMPONENT = {"pkg": "package", "plugin": "plugin"}
+_OPTIONAL_OF_COMPONENT = {"name": "name", "namespace": "namespace"}
 
 
 def node(entity: Entity, parser: Any, ignored: frozenset[str]) -> dict[str, Any]:
@@ -32,7 +39,7 @@ def node(entity: Entity, parser: Any, ignored: frozenset[str]) -> dict[str, Any]
 
 def lifecycle_node(entity: Entity, parser: Any, ignored: frozenset[str]) -> dict[str, Any]:
     """Return a lifecycle node, which newer releases may start by itself."""
-    return {**node(entity, parser, ignored), **values(entity, {"autostart": bool})}
+    return {**node(entity, parser, ignored), **value_or_text(entity, parser, "autostart", bool)}
 
 
 def container(entity: Entity, parser: Any, ignored: frozenset[str]) -> dict[str, Any]:
@@ -51,7 +58,7 @@ def load_composable_nodes(entity: Entity, parser: Any, _ignored: frozenset[str])
 def composable_node(entity: Entity, parser: Any) -> dict[str, Any]:
     """Return a component."""
     found = condition(entity, parser) | texts(entity, parser, _REQUIRED_OF_COMPONENT)
-    found |= texts(entity, parser, {"namespace": "namespace"}, optional=True)
+    found |= texts(entity, parser, _OPTIONAL_OF_COMPONENT, optional=True)
     found |= _settings(entity, parser)
     extra = pairs(entity, parser, "extra_arg")
     if extra:

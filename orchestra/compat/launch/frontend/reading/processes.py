@@ -34,6 +34,8 @@ def execute_local(entity: Entity, parser: Any, ignored: frozenset[str]) -> dict[
     names = {name: name for name in ("output", "respawn") if name not in ignored}
     found = texts(entity, parser, names, optional=True)
     found |= values(entity, {name: kind for name, kind in _VALUES.items() if name not in ignored})
+    if found.get("respawn_delay", 0.0) < 0:
+        raise ValueError(_negative(entity, "respawn_delay"))
     for name in _DURATIONS:
         if name not in ignored:
             found |= _duration(entity, parser, name)
@@ -49,8 +51,12 @@ def _duration(entity: Entity, parser: Any, name: str) -> dict[str, Any]:
     if not isinstance(value, float):
         return found
     if value < 0:
-        raise ValueError(f"'{name}' of '{entity.type_name}' is not negative")
+        raise ValueError(_negative(entity, name))
     return {name: str(value)}
+
+
+def _negative(entity: Entity, name: str) -> str:
+    return f"'{name}' of '{entity.type_name}' is a number of seconds, none below zero"
 
 
 def _on_exit(entity: Entity) -> dict[str, Any]:

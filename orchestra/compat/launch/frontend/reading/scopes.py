@@ -16,8 +16,11 @@ def push_namespace(entity: Entity, parser: Any, _ignored: frozenset[str]) -> dic
 
 
 def set_parameter(entity: Entity, parser: Any, _ignored: frozenset[str]) -> dict[str, Any]:
-    """Return a parameter; its value is read by its looks when it is evaluated."""
-    return texts(entity, parser, {"name": "name", "value": "value"})
+    """Return a parameter; a scalar is read by its looks when it is evaluated, a list here."""
+    name = texts(entity, parser, {"name": "name"})
+    if isinstance(entity._raw("value"), list):
+        return {**name, "value": parser.parse_if_substitutions(entity.get_attr("value", data_type=None))}
+    return {**name, **texts(entity, parser, {"value": "value"})}
 
 
 def set_parameters_from_file(entity: Entity, parser: Any, _ignored: frozenset[str]) -> dict[str, Any]:
