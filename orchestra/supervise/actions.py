@@ -46,16 +46,12 @@ class Actions:
         self._end = end
 
     def carry_out(self, action: TriggeredAction) -> None:
-        """Do it."""
+        """Do it; what tells something or asks the resolver is none of these."""
         match action:
             case StartAction(process):
                 self._beginning.release(self._units[process])
-            case StopAction(processes):
-                for process in processes:
-                    self._stop(self._units[process])
-            case SignalAction(processes, name):
-                for process in processes:
-                    self._units[process].signal(signal.Signals[name])
+            case StopAction() | SignalAction():
+                self._end_processes(action)
             case LoadAction(component):
                 self._nodes.load(component)
             case ChangeStateAction(processes, transitions):
@@ -66,6 +62,14 @@ class Actions:
                 self._triggers.unregister(trigger)
             case ShutdownAction(reason):
                 self._end(f"shut down: {reason}")
+
+    def _end_processes(self, action: StopAction | SignalAction) -> None:
+        for process in action.processes:
+            unit = self._units[process]
+            if isinstance(action, SignalAction):
+                unit.signal(signal.Signals[action.signal])
+            else:
+                self._stop(unit)
 
     def _stop(self, unit: Unit) -> None:
         """End a process that runs, or is about to; one that only a trigger starts may still be started."""

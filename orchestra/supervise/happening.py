@@ -6,10 +6,12 @@ import base64
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from orchestra.plan.reactions import EventName
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from orchestra.plan.reactions import EventName, Trigger, TriggerEvent
+    from orchestra.plan.reactions import Trigger, TriggerEvent
     from orchestra.supervise.ending import Ending
 
 
@@ -86,7 +88,8 @@ def in_order(triggers: Iterable[Trigger], happening: Happening) -> list[Trigger]
     if happening.event == "run_started":
         return found
     own = f"{happening.target}:on_exit"
-    return sorted(reversed(found), key=lambda trigger: not trigger.id.startswith(own))
+    found.reverse()
+    return sorted(found, key=lambda trigger: not trigger.id.startswith(own))
 
 
 def question(ref: int, happening: Happening) -> dict[str, Any]:

@@ -19,6 +19,18 @@ from orchestra.supervise.marks import PROCESS, RUN
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+_FOR_GROUPS = frozenset(
+    {
+        signal.SIGINT,
+        signal.SIGTERM,
+        signal.SIGHUP,
+        signal.SIGQUIT,
+        signal.SIGKILL,
+        signal.SIGSTOP,
+        signal.SIGCONT,
+    }
+)
+
 
 @dataclass(frozen=True, slots=True)
 class Adopted:
@@ -97,6 +109,14 @@ def send_to_groups(pids: Iterable[int], number: int) -> None:
         for pid in pids:
             for descendant in _tree(pid):
                 _quietly(os.kill, descendant, number)
+
+
+def send_as_asked(pid: int, number: int) -> None:
+    """Send a signal to a program that leads a group, and to all of the group where a terminal does so.
+
+    A program often has a handler for a signal that would end its children and the shell around it.
+    """
+    _quietly(os.killpg if number in _FOR_GROUPS else os.kill, pid, number)
 
 
 def _tree(root: int) -> list[int]:

@@ -6,17 +6,18 @@ the plan are expected to be there.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from orchestra.logs.names import shown
+from orchestra.plan.model import Component
 from orchestra.supervise.orders import Order
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable
 
-    from orchestra.plan.model import Component
     from orchestra.supervise.orders import Orders, Refusal
     from orchestra.supervise.surroundings import Surroundings
 

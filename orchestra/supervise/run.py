@@ -42,8 +42,8 @@ def run(prepare: Prepare) -> int:
             `text` (base64); of a state change `transition`, `start_state`, `goal_state`; of the shutdown `reason`,
             `due_to_sigint`.
         {"processes": [...], "components": [...], "triggers": [...], "do": [...], "problems": [...]}
-            a fragment of a plan: records as `orchestra.plan.codec.encode` makes them, each list may be left out. Ids are
-            new, `do` is carried out in place of the deferred action.
+            a fragment of a plan: records as `orchestra.plan.codec.encode` makes them; each list may be left out. Ids
+            are new, `do` is carried out in place of the deferred action.
         {"failure": TEXT, "location": LOCATION or null}
             the trigger fails. So it does where the function raises.
     """

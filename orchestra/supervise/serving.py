@@ -24,12 +24,14 @@ def hand_over(document: memoryview, descriptor: int, *, stays: bool) -> None:
 
 def serve(answer: Answer, descriptor: int) -> int:
     """Answer each question until there are no more, or nobody waits for the answer."""
-    with contextlib.suppress(BrokenPipeError, ConnectionResetError):
-        with os.fdopen(descriptor, "rb", closefd=False) as questions:
-            for line in questions:
-                reply = json.dumps(_answered(answer, json.loads(line)))
-                flush()
-                _send(descriptor, reply.encode() + b"\n")
+    with (
+        contextlib.suppress(BrokenPipeError, ConnectionResetError),
+        os.fdopen(descriptor, "rb", closefd=False) as questions,
+    ):
+        for line in questions:
+            reply = json.dumps(_answered(answer, json.loads(line)))
+            flush()
+            _send(descriptor, reply.encode() + b"\n")
     return 0
 
 

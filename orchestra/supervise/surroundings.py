@@ -5,17 +5,19 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from orchestra.logs.journal import Journal
 from orchestra.plan.model import Process
-from orchestra.supervise.ending import Ending
 from orchestra.supervise.kin import Kin
 from orchestra.supervise.loop import Loop
 from orchestra.supervise.observation import Observers
 from orchestra.supervise.options import RunOptions
 from orchestra.supervise.questions import Questions
 from orchestra.supervise.recorder import Recorder
+
+if TYPE_CHECKING:
+    from orchestra.supervise.ending import Ending
 
 
 class Listener(Protocol):
@@ -48,8 +50,7 @@ class Listener(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Surroundings:
-    """The loop, who is whose child, where output and events go, what looks into the ROS graph, who knows the
-    code of the description.
+    """The loop, our children, where output and events go, what looks into the ROS graph, and who knows the user's code.
 
     `environment` is that of a process; of None what every process has before its description adds to it. `folder` is
     the run directory.

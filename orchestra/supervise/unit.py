@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import signal
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -11,7 +10,7 @@ from orchestra.logs.names import shown
 from orchestra.logs.tail import Tail
 from orchestra.supervise import life
 from orchestra.supervise.ending import Ending, signal_name, unstartable
-from orchestra.supervise.kin import send_to_groups
+from orchestra.supervise.kin import send_as_asked, send_to_groups
 from orchestra.supervise.life import LIVE, Phase, Rules, State
 from orchestra.supervise.machine import ladder, succeeded, transition
 from orchestra.supervise.order import Life
@@ -27,8 +26,6 @@ if TYPE_CHECKING:
     from orchestra.supervise.loop import Timer
     from orchestra.supervise.spawn import Child
     from orchestra.supervise.surroundings import Listener, Surroundings
-
-_FOR_ALL = frozenset(signal.Signals[f"SIG{name}"] for name in "INT TERM HUP QUIT KILL STOP CONT".split())
 
 
 def rules_of(process: Process) -> Rules:
@@ -105,18 +102,11 @@ class Unit:
             self._listener.changed()
 
     def signal(self, number: int) -> None:
-        """Send a signal that somebody wants to be sent: to the program, or to all where a terminal does so.
-
-        A program often has a handler for a signal that would end its children and the shell around it.
-        """
-        if self._child is None:
-            return
-        name = signal_name(number)
-        self._around.recorder.record("signal_sent", self.id, pid=self.pid, signal=name)
-        if number in _FOR_ALL:
-            send_to_groups([self._child.pid], number)
-        else:
-            os.kill(self._child.pid, number)
+        """Send a signal that the plan wants to be sent, where it runs."""
+        if self._child:
+            record = self._around.recorder.record
+            record("signal_sent", self.id, pid=self.pid, signal=signal_name(number))
+            send_as_asked(self._child.pid, number)
 
     def adopted(self, adopted: Adopted) -> None:
         """Take note of a descendant that detached itself. While stopping, it gets the signal that the others had."""

@@ -28,7 +28,8 @@ from orchestra.ros.interfaces import load_node_type
 class Container:
     def __init__(self, full_name: str, words: list[str]) -> None:
         namespace, _, name = full_name.rpartition("/")
-        self.manners = dict(reversed(word.split("=")) for word in words if "=" in word)
+        pairs = (word.partition("=") for word in words)
+        self.manners = {plugin: manner for manner, _, plugin in pairs}
         self.node = Node(name, namespace=namespace, start_parameter_services="bare" not in words)
         self.executor = rclpy.executors.SingleThreadedExecutor()
         self.executor.add_node(self.node)
@@ -37,7 +38,7 @@ class Container:
         self.node.create_service(load_node_type(), f"{full_name}/_container/load_node", self.load)
 
     def load(self, request: Any, response: Any) -> Any:
-        print(json.dumps(plain(request)), flush=True)
+        os.write(1, f"{json.dumps(plain(request))}\n".encode())
         match self.manners.get(request.plugin_name):
             case "refuse":
                 response.error_message = f"no class {request.plugin_name}"

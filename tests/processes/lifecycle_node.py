@@ -12,11 +12,15 @@ import signal
 import sys
 
 import rclpy
-from lifecycle_msgs.msg import State as StateMessage
+from lifecycle_msgs.msg import State as StateMessage  # type: ignore[import-untyped]  # as every ROS package
 from rclpy.lifecycle import LifecycleNode, State, TransitionCallbackReturn
 from rclpy.signals import SignalHandlerOptions
 
 GOOD, BAD = TransitionCallbackReturn.SUCCESS, TransitionCallbackReturn.FAILURE
+
+
+def write(line: str) -> None:
+    os.write(1, f"{line}\n".encode())
 
 
 class Node(LifecycleNode):
@@ -25,7 +29,7 @@ class Node(LifecycleNode):
         super().__init__(name)
 
     def pass_through(self, transition: str) -> TransitionCallbackReturn:
-        print(transition, flush=True)
+        write(transition)
         match self.manners.get(transition):
             case "fail":
                 return BAD
@@ -58,13 +62,13 @@ def main() -> None:
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     name, *words = sys.argv[1:]
     if words == ["silent"]:
-        print("up", flush=True)
+        write("up")
         signal.pause()
     rclpy.init(args=[], signal_handler_options=SignalHandlerOptions.NO)
     node = Node(
         name, {transition: manner for manner, _, transition in (word.partition("=") for word in words)}
     )
-    print("up", flush=True)
+    write("up")
     rclpy.spin(node)
 
 

@@ -111,7 +111,7 @@ def _from_py(source: Any, message: MessageInTransit) -> bool:  # noqa: ANN401  #
     """
     try:
         uninterrupted(_prepare, source, message)
-    except Exception:  # noqa: BLE001  # any field may be of any class; all is told below
+    except Exception:  # any field may be of any class; all is told below
         log.exception("this %s cannot be sent", message.type_name)
         return False
     return True

@@ -2,8 +2,9 @@
 
 Sources: the headers `message_type_support_struct.h`, `type_hash.h` and `type_description/*__struct.h` of
 rosidl_runtime_c, `message_introspection.h` of rosidl_typesupport_introspection_c, `message_type_support.h` of
-rosidl_typesupport_fastrtps_cpp, their counterparts for services, `Cdr.h` and `FastBuffer.h` of Fast CDR 2. The private part of Fast CDR that is
-used here is checked against the library itself when a type support is made (see `typesupport`).
+rosidl_typesupport_fastrtps_cpp, their counterparts for services, `Cdr.h` and `FastBuffer.h` of Fast CDR 2. The private
+part of Fast CDR that is used here is checked against the library itself when a type support is made (see
+`typesupport`).
 """
 
 from __future__ import annotations
@@ -137,7 +138,7 @@ class Members(Structure):
 
 
 class ServiceHandle(Structure):
-    """`rosidl_service_type_support_t`; the two functions for events, which only service introspection needs, are null."""
+    """`rosidl_service_type_support_t`; what is there for events, which only service introspection needs, is null."""
 
     _fields_ = (
         ("typesupport_identifier", c_char_p),

@@ -11,7 +11,7 @@ _DEFAULTS: dict[str, Any] = {"string": "", "boolean": False, "uint8": 0, "uint64
 
 
 def _default(kind: str) -> Any:  # noqa: ANN401 - each field has a type of its own
-    return _DEFAULTS[kind] if kind in _DEFAULTS else []
+    return _DEFAULTS.get(kind, [])
 
 
 class MessageType(type):

@@ -145,7 +145,7 @@ def message_support(message: Message, transit: type[MessageInTransit], libraries
 def handles(
     kind: type[ctypes.Structure], data: dict[bytes, ctypes.Structure], functions: list[int], *others: int
 ) -> dict[bytes, int]:
-    """Make a handle for each type support, which lead to each other; `others` stand before the description functions."""
+    """Make a handle for each type support, which lead to each other; `others` come before the description functions."""
     table: dict[bytes, int] = {}
     dispatch = _callback(CFUNCTYPE(c_void_p, _handle_in(table), c_char_p), operator.getitem)
     for identifier, of_it in data.items():

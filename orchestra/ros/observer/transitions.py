@@ -1,14 +1,14 @@
 """Listens to the transitions of a lifecycle node.
 
-rcl_lifecycle of Jazzy publishes only the two states of a transition and leaves its label empty. It follows from them, by
-the state machine of rcl_lifecycle (`rcl_lifecycle/src/default_state_machine.c`).
+rcl_lifecycle of Jazzy publishes only the two states of a transition and leaves its label empty. It follows from them,
+by the state machine of rcl_lifecycle (`rcl_lifecycle/src/default_state_machine.c`).
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lifecycle_msgs.msg import TransitionEvent
+from lifecycle_msgs.msg import TransitionEvent  # type: ignore[import-untyped]  # as every ROS package
 
 if TYPE_CHECKING:
     from rclpy.node import Node
