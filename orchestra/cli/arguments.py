@@ -53,7 +53,9 @@ def show_arguments(options: Namespace) -> int:
     plan = pipeline.collect(path, replace(given, launching=False, required=False), problems)
     if plan is None:
         raise DescriptionError(problems.ordered)
-    shown = _shown(plan.arguments, declared(path, InstalledPackages(os.environ)))
+    shown = _shown(
+        [item for item in plan.arguments if not item.given], declared(path, InstalledPackages(os.environ))
+    )
     sys.stdout.write(arguments_text(displayed(path), shown))
     if not problems.errors:
         return boundary.OK

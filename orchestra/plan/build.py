@@ -47,7 +47,15 @@ def build(resolved: Resolved, problems: Problems, *, triggers_before: int = 0) -
         VERSION,
         resolved.file,
         tuple(
-            Argument(item.name, item.default, item.value, item.description, item.choices, item.location)
+            Argument(
+                item.name,
+                item.default,
+                item.value,
+                item.description,
+                item.choices,
+                item.location,
+                item.given,
+            )
             for item in resolved.arguments
         ),
         processes,

@@ -22,7 +22,10 @@ SkipReason: TypeAlias = Literal["if", "unless"]
 
 @dataclass(frozen=True, slots=True)
 class Argument:
-    """A launch argument that the description declares. `value` is None where the run needs one and has none."""
+    """A launch argument that the description declares. `value` is None where the run needs one and has none.
+
+    `given`: the include of the file that declares it sets it, so that no caller can.
+    """
 
     name: str
     default: str | None
@@ -30,6 +33,7 @@ class Argument:
     description: str | None
     choices: tuple[str, ...] | None
     location: Location
+    given: bool = False
 
 
 @dataclass(frozen=True, slots=True)

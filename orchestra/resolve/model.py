@@ -18,7 +18,10 @@ Kind: TypeAlias = Literal["process", "node", "lifecycle_node", "container"]
 
 @dataclass(frozen=True, slots=True)
 class ResolvedArgument:
-    """A declared launch argument; `value` is None where it is required and was not given."""
+    """A declared launch argument; `value` is None where it is required and was not given.
+
+    `given`: the include of its file sets it, so that no caller can.
+    """
 
     name: str
     default: str | None
@@ -26,6 +29,7 @@ class ResolvedArgument:
     description: str | None
     choices: tuple[str, ...] | None
     location: Location
+    given: bool = False
 
 
 @dataclass(frozen=True, slots=True)

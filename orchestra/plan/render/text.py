@@ -26,7 +26,7 @@ def render(plan: Plan) -> str:
     """Return the plan as text."""
     sections = [
         _heading(plan),
-        _section("arguments", _arguments(plan.arguments)),
+        _section("arguments", _arguments(tuple(item for item in plan.arguments if not item.given))),
         _section("processes", _processes(plan.processes)),
         _section("components", map(_component, plan.components)),
         _section("triggers", (trigger_line(trigger) for trigger in plan.triggers)),

@@ -25,8 +25,7 @@ def visit(action: Arg, run: Resolution) -> None:
     if isinstance(value, Value) and choices is not None and value.text not in choices:
         _refuse(name, value, choices, run)
         run.scope.set(name, POISON, at)
-    if name not in run.frame.given:
-        _record(action, name, value, choices, run)
+    _record(action, name, value, choices, run)
 
 
 def _value(action: Arg, name: str, run: Resolution) -> Evaluated:
@@ -77,8 +76,11 @@ def _record(
     default = action.default.raw if action.default is not None else None
     text = value.text if isinstance(value, Value) else None
     description = _text(action.description) if action.description is not None else None
-    argument = ResolvedArgument(name, default, text, description, choices, run.at(action.span))
-    run.found.arguments.setdefault(name, argument)
+    given, at = name in run.frame.given, run.at(action.span)
+    known = run.found.arguments.get(name)
+    if known is None or (known.given and not given):
+        found = ResolvedArgument(name, default, text, description, choices, at, given)
+        run.found.arguments[name] = found
 
 
 def _choices(action: Arg) -> tuple[str, ...] | None:
