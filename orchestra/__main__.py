@@ -8,7 +8,7 @@ TYPE_CHECKING = False  # `typing` itself costs more than this module
 if TYPE_CHECKING:
     from typing import BinaryIO
 
-    from orchestra.supervise.resolver import Answer
+    from orchestra.supervise.serving import Answer
 
 _ONLY_SHOWING = {"--help", "--show-args", "--show-arguments", "--print", "--print-description"}
 _WITH_A_VALUE = {"--prefix", "--name"}  # of `run`

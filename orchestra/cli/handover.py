@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from typing import BinaryIO
 
     from orchestra.plan.model import Plan
-    from orchestra.supervise.resolver import Answer
+    from orchestra.supervise.serving import Answer
 
 
 def hand_over(

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from typing import Any, BinaryIO
 
-    from orchestra.supervise.resolver import Answer
+    from orchestra.supervise.serving import Answer
 
 _ResultT = TypeVar("_ResultT")
 

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code, Problems
-from orchestra.location import Location
+from orchestra.location import Location, is_yaml
 from orchestra.nearest import is_slip, nearest
 from orchestra.resolve.mentions import names_behind, names_in
 
@@ -41,7 +41,8 @@ def settle(
     """Report arguments that the file neither declares nor reads, and those that it lacks.
 
     A lacking one for which a given name is misspelt is reported as that. An include may give more than a file takes,
-    as upstream: then what is not a slip for something that it could have given is only a warning.
+    as upstream: then what is not a slip for something that it could have given is only a warning, as is all such
+    outside YAML files.
     """
     others = ledger.declared - {item.name for item in given if included_at is not None}
     misspelt = set()
@@ -94,7 +95,8 @@ def _refuse_in_include(
     item: Given, meant: str | None, description: Description, ledger: Ledger, run: Resolution
 ) -> None:
     message = f"{description.file} has no argument '{item.name}'"
-    if meant is not None and (is_slip(item.name, meant) or meant in ledger.missing):
+    slip = meant is not None and is_slip(item.name, meant) and is_yaml(item.location)
+    if slip or meant in ledger.missing:
         run.problems.error(Code.UNKNOWN_ARGUMENT, message, item.location, suggestion=meant)
     elif not ledger.incomplete:
         message += " and reads no variable of that name"

@@ -31,11 +31,15 @@ def file_parameters(
 ) -> FileParameters | None:
     """Return what a parameter file holds, None where it cannot be found or read (which has been reported).
 
-    With `substitute`, `$(...)` in it is evaluated; with `plain`, it may be one without sections.
+    With `substitute`, `$(...)` in it is evaluated; with `plain`, it may be one without sections. An empty path is no
+    file: how files make one optional, with an argument whose default is empty.
     """
     value = run.evaluate(written)
     if not isinstance(value, Value):
         return None
+    if not value.text:
+        run.problems.warning(Code.MISSING_FILE, "the path of the parameter file is empty", value.location)
+        return FileParameters("", (), value.location, everywhere=everywhere)
     path = existing_file(value, written, "parameter file", run)
     if path is None:
         return None

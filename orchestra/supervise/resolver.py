@@ -18,10 +18,10 @@ from orchestra.supervise.signals import reset_signals
 TYPE_CHECKING = False  # `typing` costs more than this module, which the keeper carries
 if TYPE_CHECKING:
     from collections.abc import Callable
-    from typing import Any, BinaryIO, TypeAlias
+    from typing import BinaryIO, TypeAlias
 
-    # From one question to its answer, both JSON data; `orchestra.supervise.run.run` says which.
-    Answer: TypeAlias = Callable[[dict[str, Any]], dict[str, Any]]
+    from orchestra.supervise.serving import Answer
+
     Prepare: TypeAlias = Callable[[BinaryIO], int | Answer]
 
 BUG = 3

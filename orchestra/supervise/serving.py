@@ -12,7 +12,11 @@ from typing import TYPE_CHECKING, Any
 from orchestra.supervise.keeper import flush
 
 if TYPE_CHECKING:
-    from orchestra.supervise.resolver import Answer
+    from collections.abc import Callable
+    from typing import TypeAlias
+
+    # From one question to its answer, both JSON data; `orchestra.supervise.run.run` says which.
+    Answer: TypeAlias = Callable[[dict[str, Any]], dict[str, Any]]
 
 
 def hand_over(document: memoryview, descriptor: int, *, stays: bool) -> None:

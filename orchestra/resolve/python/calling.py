@@ -8,9 +8,10 @@ from typing import TYPE_CHECKING
 
 from orchestra.compat import faults
 from orchestra.location import Location
+from orchestra.resolve.python.environ import put_environment
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator
 
     from orchestra.location import Span
     from orchestra.resolve.resolution import Resolution
@@ -37,17 +38,6 @@ def our_code(run: Resolution, span: Span) -> Iterator[None]:
         yield
     finally:
         put_environment(run.scope.environment)
-
-
-def put_environment(environment: Mapping[str, str]) -> None:
-    """Make the environment of this process that of a scope."""
-    if os.environ == environment:
-        return
-    for name in os.environ.keys() - environment.keys():
-        del os.environ[name]
-    for name, value in environment.items():
-        if os.environ.get(name) != value:
-            os.environ[name] = value
 
 
 def take_environment(run: Resolution, span: Span) -> None:

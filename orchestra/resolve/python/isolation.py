@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.compat.hook import served
-from orchestra.resolve.python.calling import put_environment
+from orchestra.resolve.python.environ import put_environment
 from orchestra.resolve.python.files import Files
 
 if TYPE_CHECKING:

@@ -13,7 +13,7 @@ from orchestra.compat.expressions import visible
 from orchestra.errors import Code
 from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON
-from orchestra.resolve.python.calling import put_environment
+from orchestra.resolve.python.environ import put_environment
 from orchestra.resolve.substitutions.arguments import made, texts
 
 if TYPE_CHECKING:
