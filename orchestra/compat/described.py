@@ -7,10 +7,8 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from orchestra.compat.launch.substitution import Substitution
 
-
-def described(subs: Iterable[Substitution]) -> str:
+def described(subs: Iterable[Any]) -> str:
     """Return the descriptions of substitutions that are concatenated, with ` + ` between them as upstream."""
     return " + ".join(item.describe() for item in subs)
 
