@@ -89,10 +89,12 @@ class Questions:
     def ask(
         self, question: dict[str, Any], answered: Callable[[Fragment | Failure], None], *, droppable: bool
     ) -> bool:
-        """Ask when those before have been answered. False where the question was dropped."""
+        """Ask when those before have been answered; where nobody is there, `answered` hears so at once.
+
+        False where the question was dropped.
+        """
         if self._gone is not None:
-            reason = self._gone
-            self._loop.call_later(0.0, lambda: answered(Failure(reason)))
+            answered(Failure(self._gone))
             return True
         line = json.dumps(question).encode() + b"\n"
         if droppable and self._size + len(line) > BACKLOG:

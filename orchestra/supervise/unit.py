@@ -97,8 +97,6 @@ class Unit:
         for effect in effects:
             self._perform(effect)
         if self.state.phase is not before.phase:
-            if self.over and self.state.ending:
-                self._listener.completed(self.id, self.state.ending)
             self._listener.changed()
 
     def signal(self, number: int) -> None:
@@ -254,6 +252,8 @@ class Unit:
     def _entered(self, event: life.Event) -> None:
         """Record the new phase, and tell the user what he should know."""
         phase, ending = self.state.phase, self.state.ending
+        if self.over and ending:
+            self._listener.completed(self.id, ending)
         data = _facts(ending) if ending and phase in life.FINAL else {}
         if phase is Phase.RUNNING:
             data = {"start": self.state.starts}

@@ -108,9 +108,9 @@ def deferred(ref: int, line: int = 1) -> DeferredAction:
     return DeferredAction(ref, Location(point("by_hand.yaml", line)))
 
 
-def when_ended(target: str, *actions: Any, delay: float | None = None) -> Trigger:
+def when_ended(target: str, *actions: Any, **changes: Any) -> Trigger:
     """Return a trigger on the end of a process."""
-    return when(TriggerEvent("process_exited", target), *actions, delay=delay)
+    return when(TriggerEvent("process_exited", target), *actions, **changes)
 
 
 def at_start(*actions: Any, delay: float | None = None) -> Trigger:
@@ -269,24 +269,26 @@ def launched(
     *,
     environment: dict[str, str] | None = None,
     through: tuple[str, ...] = (),
+    answers: Path | None = None,
     **popen: Any,
 ) -> Iterator[Launched]:
     """Run a plan, or the launcher with words, and kill at the end what may be left of it.
 
-    `through` are words before the command, such as those of a shell that executes it.
+    `through` are words before the command, such as those of a shell that executes it. With `answers` the resolver stays
+    and decides by that file (`deciding.py`).
     """
     home = folder / "home"
     if isinstance(what, Plan):
         path = folder / "document.json"
         path.write_bytes(document.dumps(what, options))
-        words = [str(path)]
+        words = ["launcher.py", str(path)] if answers is None else ["deciding.py", str(path), str(answers)]
     else:
-        words = ["-", *what]
+        words = ["launcher.py", "-", *what]
     out, err = folder / "out", folder / "err"
     with out.open("wb") as out_file, err.open("wb") as err_file:
         streams = {"stdin": subprocess.DEVNULL, "stdout": out_file, "stderr": err_file}
         started = subprocess.Popen(
-            [*through, sys.executable, str(PROCESSES / "launcher.py"), *words],
+            [*through, sys.executable, str(PROCESSES / words[0]), *words[1:]],
             env={**os.environ, "ORCHESTRA_HOME": str(home), **(environment or {})},
             **{**streams, **popen},
         )
