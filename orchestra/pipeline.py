@@ -175,6 +175,6 @@ def _loading(path: str, inputs: Inputs, load: LoadFile, packages: InstalledPacka
     words = (f"{item.name}:={item.value}" for item in inputs.arguments)
     with (
         isolated(inputs.environment, ("ros2", "launch", path, *words)) as isolation,
-        connected(LoadingConnection(packages, begin_alone, isolation.prepare)),
+        connected(LoadingConnection(packages, begin_alone, isolation.prepare, debug=inputs.debug)),
     ):
         yield isolation

@@ -52,7 +52,9 @@ def file_and_inputs(options: Namespace) -> tuple[str, Inputs]:
     launch_prefix.check(options)
     file, words = pipeline.find_launch_file(options.words)
     words = (*words, *launch_prefix.words(options))
-    return file, pipeline.inputs_from(words, environment=os.environ, params_files=options.params_file)
+    given = pipeline.inputs_from(words, environment=os.environ, params_files=options.params_file)
+    debug, noninteractive = getattr(options, "debug", False), getattr(options, "noninteractive", True)
+    return file, dataclasses.replace(given, debug=debug, noninteractive=noninteractive)
 
 
 def plan_from(options: Namespace, *, launching: bool) -> Plan:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import sysconfig
+from traceback import format_exception
 from typing import TYPE_CHECKING
 
 from orchestra.compat.place import is_own, shown, span_of
+from orchestra.compat.seam import debugging
 from orchestra.errors import Code, Problem, Severity
 from orchestra.location import Span
 from orchestra.nearest import nearest
@@ -39,6 +41,8 @@ def report(error: BaseException, problems: Problems, chain: tuple[Span, ...], fa
         spans.append(_syntax(error))
     at = spans[-1] if spans else fallback
     notes = tuple(f"called at {span}" for span in spans[-2 : -2 - _MOST_CALLS : -1])
+    if debugging():
+        notes = ("".join(format_exception(error)).rstrip(),)
     code = Code.SYNTAX if isinstance(error, SyntaxError) else Code.USER_CODE
     problems.report(
         Problem(code, Severity.ERROR, _message(error), at, chain, suggestion=_suggestion(error), notes=notes)

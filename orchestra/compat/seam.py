@@ -105,6 +105,10 @@ class Connection(Protocol):
     def front_end(self) -> FrontEnd:
         """The languages of XML and YAML files."""
 
+    @property
+    def debug(self) -> bool:
+        """Whether what code of launch files raises is told with all calls on the way."""
+
     def prepare(self) -> None:
         """Get ready for code of a launch file."""
 
@@ -145,3 +149,8 @@ def connection() -> Connection:
     if not _connections:
         raise RuntimeError("launch files are only understood while Orchestra loads one")
     return _connections[-1]
+
+
+def debugging() -> bool:
+    """Return whether what code of launch files raises is told with all calls on the way."""
+    return bool(_connections) and _connections[-1].debug

@@ -40,7 +40,8 @@ class Inputs:
     """The command line and the environment of one resolution.
 
     `launching` tells that processes will be started here: then a missing package is an error, not a warning about
-    this host. `required` tells whether a required argument without a value is an error.
+    this host. `required` tells whether a required argument without a value is an error. `noninteractive` is what code
+    of launch files is told: whether no terminal is assumed. With `debug` what that code raises is told with all calls.
     """
 
     environment: Mapping[str, str]
@@ -49,3 +50,5 @@ class Inputs:
     parameter_files: tuple[GivenFile, ...] = ()
     launching: bool = True
     required: bool = True
+    noninteractive: bool = True
+    debug: bool = False

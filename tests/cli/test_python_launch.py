@@ -114,3 +114,12 @@ def test_a_plan_names_temporary_files_as_every_plan_does_and_leaves_none(
     assert plans[0].stdout == plans[1].stdout
     assert '"${run}/files/tmp0001.txt"' in plans[0].stdout
     assert not list(elsewhere.iterdir())
+
+
+def test_with_debug_the_calls_inside_libraries_are_told_too(orchestra: Command, folder: Path) -> None:
+    (folder / "broken.launch.py").write_text("import json\njson.loads('{')\n")
+    plain, debug = orchestra("launch", "broken.launch.py"), orchestra("launch", "broken.launch.py", "-d")
+    assert (plain.returncode, debug.returncode) == (2, 2)
+    assert "broken.launch.py:2:1: error: JSONDecodeError" in plain.stderr
+    assert "decoder.py" not in plain.stderr
+    assert "decoder.py" in debug.stderr

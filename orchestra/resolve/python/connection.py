@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class LoadingConnection:
     """Serves the launch files of one resolution. `begin` makes a state of its own for a context that users build.
 
-    `prepare` gets ready for their code.
+    `prepare` gets ready for their code; with `debug` what that raises is told with all calls.
     """
 
     def __init__(
@@ -26,7 +26,10 @@ class LoadingConnection:
         packages: InstalledPackages,
         begin: Callable[[Problems], Resolution],
         prepare: Callable[[], None] = lambda: None,
+        *,
+        debug: bool = False,
     ) -> None:
+        self.debug = debug
         self.front_end = LoadingFrontEnd()
         self.prepare = prepare
         self._packages = packages

@@ -51,7 +51,7 @@ class ResolvingEngine:
         self._environment = Environment(run)
         self.happening: list[tuple[Any, Location]] = []
         self._handlers: list[Any] = []
-        self.context = LaunchContext(argv=argv, noninteractive=True, _engine=self)
+        self.context = LaunchContext(argv=argv, noninteractive=run.inputs.noninteractive, _engine=self)
 
     @property
     def configurations(self) -> Configurations:
