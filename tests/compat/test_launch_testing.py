@@ -76,7 +76,7 @@ def generate_test_description():
     assert suite.command[0].endswith("/python3")
     assert (idle.command[0], idle.location.span.line) == (sys.executable, 17)
     after = [(trigger.delay, [type(step).__name__ for step in trigger.do]) for trigger in plan.triggers]
-    assert after == [(3.0, ["StopAction"]), (1.0, [])]
+    assert after == [(3.0, ["StopAction"])]
     assert {trigger.location.span.file for trigger in plan.triggers} == {str(path)}
 
 
