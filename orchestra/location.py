@@ -36,6 +36,15 @@ def point(file: str, line: int = 1, column: int = 1) -> Span:
     return Span(file, line, column, line, column)
 
 
+def is_yaml(place: Span | Location) -> bool:
+    """Return whether a place is in a YAML file: strictness that files of others cannot stand is kept to these.
+
+    Nearly all launch files that exist are in Python and XML; what upstream lets pass in them is told, not refused.
+    """
+    span = place.span if isinstance(place, Location) else place
+    return span.file.endswith((".yaml", ".yml"))
+
+
 def displayed(path: str) -> str:
     """Return the path as it is shown to people: relative where it is below the working directory."""
     absolute = os.path.realpath(path)

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
+from orchestra.location import is_yaml
 from orchestra.resolve.model import ResolvedComponent, ResolvedProcess
 from orchestra.resolve.names import full_name
 
@@ -14,8 +15,6 @@ if TYPE_CHECKING:
 
     from orchestra.errors import Problems
     from orchestra.location import Location, Span
-
-_YAML: Final = (".yaml", ".yml")
 
 
 def identities(
@@ -88,7 +87,7 @@ def _is_refused(process: ResolvedProcess | ResolvedComponent) -> bool:
     """Return whether there must not be another one of its name."""
     if isinstance(process, ResolvedComponent) or process.conditional:
         return False
-    return process.location.span.file.endswith(_YAML)
+    return is_yaml(process.location)
 
 
 def _mistake(
