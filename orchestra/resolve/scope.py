@@ -180,6 +180,16 @@ class Scope:
             self.parameters, self.remaps = parameters, remaps
             del self.saved_environments[heights[0] :], self.saved_settings[heights[1] :]
 
+    @contextmanager
+    def reading(self) -> Iterator[set[str]]:
+        """Note which variables are read meanwhile."""
+        ledger, before = self.ledger, self.ledger.read
+        ledger.read = set()
+        try:
+            yield ledger.read
+        finally:
+            ledger.read = before | ledger.read
+
     def mark(self) -> int:
         """Return a mark of the present state."""
         return len(self._journal)

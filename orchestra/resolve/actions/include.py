@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from orchestra.errors import Code
 from orchestra.load.files import PYTHON
 from orchestra.resolve.arguments import Given, settle
-from orchestra.resolve.context import POISON, Evaluated, Poison, Value
+from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.dependencies import dependencies
 from orchestra.resolve.interpret import visit_file
 from orchestra.resolve.mentions import is_fixed
@@ -20,7 +20,6 @@ from orchestra.resolve.resolution import Frame
 if TYPE_CHECKING:
     from orchestra.description.actions.include import Include
     from orchestra.description.launch import Description
-    from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
 
 # How deep includes and groups may nest: far more than anybody writes, far from the interpreter's recursion limit.
@@ -43,16 +42,14 @@ def visit(action: Include, run: Resolution) -> None:
 def _include(action: Include, path: str, description: Description, run: Resolution) -> None:
     location = run.at(action.span)
     before = run.scope.mark()
-    given = _arguments(action, run)
-    for item, value, at in given:
-        run.scope.set(item.name, value, at)
-    frame = _frame(action, path, frozenset(item.name for item, _, _ in given), run)
+    given, used = _arguments(action, run)
+    frame = _frame(action, path, frozenset(item.name for item in given), run)
     if _is_endless(frame, run):
         run.scope.ledger.incomplete = True
         return
     with run.inside(frame) as ledger:
         visit_file(description, run)
-    settle([item for item, _, _ in given], description, ledger, run, location)
+    settle([item for item in given if item.name not in used], description, ledger, run, location)
     for name in ledger.missing:
         run.scope.forget(name)
     if path not in run.found.endless:
@@ -77,15 +74,18 @@ def _frame(action: Include, path: str, given: frozenset[str], run: Resolution) -
     )
 
 
-def _arguments(action: Include, run: Resolution) -> list[tuple[Given, Evaluated, Location]]:
-    """Evaluate the arguments in order: a later one sees nothing of an earlier one, as both are outside the file."""
-    given = []
+def _arguments(action: Include, run: Resolution) -> tuple[list[Given], set[str]]:
+    """Set the arguments in order, and return them with the names of those that a later one reads, as upstream."""
+    given: list[Given] = []
+    used: set[str] = set()
     for pair in (*action.arg, *action.let):
-        name, value = run.evaluate(pair.name), run.evaluate(pair.value)
+        with run.scope.reading() as read:
+            name, value = run.evaluate(pair.name), run.evaluate(pair.value)
+        used |= read.intersection(item.name for item in given)
         if isinstance(name, Value):
-            item = Given(name.text, name.location)
-            given.append((item, value or POISON, run.at(pair.value.span)))
-    return given
+            given.append(Given(name.text, name.location))
+            run.scope.set(name.text, value or POISON, run.at(pair.value.span))
+    return given, used
 
 
 def _description(path: str, action: Include, run: Resolution) -> Description | None:
