@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from orchestra.nearest import nearest
-from orchestra.plan.reactions import StartAction
+from orchestra.supervise.triggers import held
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -63,10 +63,5 @@ def _up_by(process: Process) -> tuple[str, ...]:
 
 
 def _starting_with_the_run(plan: Plan) -> list[str]:
-    triggered = {
-        action.process
-        for trigger in plan.triggers
-        for action in trigger.do
-        if isinstance(action, StartAction)
-    }
+    triggered = held(plan.triggers)
     return [process.id for process in plan.processes if process.id not in triggered]

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.logs.journal import Journal, Sheet, Sheets
-from orchestra.logs.outputs import on_screen
+from orchestra.logs.outputs import Output, forced_output, on_screen
 from orchestra.logs.screen import Screen
 
 if TYPE_CHECKING:
@@ -42,3 +42,74 @@ def test_output_goes_to_its_file_the_merged_file_and_the_screen(tmp_path: Path) 
 def test_an_unknown_output_word_is_refused() -> None:
     with pytest.raises(ValueError, match="unknown output 'loud'"):
         on_screen("loud")
+
+
+OUT, ERR = "stdout", "stderr"
+
+
+@pytest.mark.parametrize(
+    ("output", "shown"),
+    [
+        (None, {OUT, ERR}),
+        ("screen", {OUT, ERR}),
+        ("both", {OUT, ERR}),
+        ("full", {OUT, ERR}),
+        ("log", {ERR}),
+        ("own_log", set()),
+        ({}, set()),
+        ({OUT: ("screen",)}, {OUT}),
+        ({OUT: ("log", "own_log"), ERR: ("screen", "log")}, {ERR}),
+        ({"both": ("screen",)}, {OUT, ERR}),
+        ({"both": ("log",), ERR: ("screen",)}, {ERR}),
+    ],
+)
+def test_what_reaches_the_screen(output: Output, shown: set[str]) -> None:
+    assert on_screen(output) == shown
+
+
+@pytest.mark.parametrize(
+    ("variable", "show_all", "word"),
+    [
+        (None, False, None),
+        ("", False, None),
+        ("log", False, "log"),
+        ("log", True, "both"),
+        (None, True, "both"),
+    ],
+)
+def test_what_counts_for_every_process(variable: str | None, show_all: bool, word: str | None) -> None:
+    environment = {} if variable is None else {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": variable}
+    assert forced_output(environment, show_all=show_all) == word
+
+
+def test_a_wish_that_is_no_word_is_refused() -> None:
+    with pytest.raises(ValueError, match="unknown output 'loud'"):
+        forced_output({"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "loud"}, show_all=False)
+
+
+def test_processes_may_be_added_and_notes_are_not_shown(tmp_path: Path) -> None:
+    readable, writable = os.pipe()
+    sheet = Sheet(Screen(writable, lambda _wanted: None), colour=False)
+    told: list[str] = []
+    journal = Journal(
+        tmp_path,
+        {"/a": "own_log"},
+        Sheets(sheet, sheet),
+        lambda *_: None,
+        told.append,
+        lambda: 1.0,
+        forced="both",
+    )
+    journal.output("/a", "stdout", "one\n")
+    journal.add({"a": None, "/longer": "log"})
+    journal.output("a", "stdout", "two\n")
+    journal.output("/a", "stdout", "three\n")
+    journal.note("kept")
+    journal.close()
+    assert (tmp_path / "a.log").read_text() == "one\nthree\n"
+    assert (tmp_path / "a~2.log").read_text() == "two\n"
+    assert told == ["kept"]
+    assert "1.000000 [orchestra] kept\n" in (tmp_path / "all.log").read_text()
+    assert os.read(readable, 65536).decode() == "[a] one\n[a]      two\n[a]      three\n"
+    os.close(readable)
+    os.close(writable)

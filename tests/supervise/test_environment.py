@@ -3,11 +3,15 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from typing import TYPE_CHECKING
 
 import pytest
 
 from orchestra.supervise.environment import Host, middleware, node_environment
 from orchestra.supervise.host import this_host
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 BARE = Host("/env", None, (), ament=False)
 WHEELS = Host("/env", "/env/bin", ("/env/lib", "/env/site/ros_a.libs"), ament=True)
@@ -18,6 +22,7 @@ def environment(
     description: dict[str, str | None] | None = None,
     host: Host = BARE,
     colour: bool = False,
+    inherit: bool = True,
 ) -> dict[str, str]:
     return node_environment(
         caller,
@@ -26,6 +31,7 @@ def environment(
         log_folder="/run/logs/ros",
         colour=colour,
         marks=("1f-7", "/robot1/ekf"),
+        inherit=inherit,
     )
 
 
@@ -122,3 +128,27 @@ def test_no_interpreter_of_a_node_starts_twice_and_rclpy_is_there() -> None:
         [sys.executable, "-c", code], env=result, capture_output=True, text=True, timeout=60, check=True
     )
     assert done.stdout.strip() == result["LD_LIBRARY_PATH"]
+
+
+def test_a_process_that_inherits_nothing_gets_what_a_ros_process_cannot_start_without() -> None:
+    caller = {"HOME": "/home/me", "PATH": "/usr/bin", "ROS_DOMAIN_ID": "7", "LD_LIBRARY_PATH": "/opt/lib"}
+    assert environment(caller, {"A": "1", "B": None}, inherit=False) == {
+        "A": "1",
+        "ROS_LOG_DIR": "/run/logs/ros",
+        "ORCHESTRA_RUN": "1f-7",
+        "ORCHESTRA_PROCESS": "/robot1/ekf",
+    }
+    assert environment(caller, {"ROS_LOG_DIR": "/mine"}, host=WHEELS, inherit=False) == {
+        "LD_LIBRARY_PATH": "/env/lib:/env/site/ros_a.libs",
+        "AMENT_PREFIX_PATH": "/env",
+        "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",
+        "ROS_LOG_DIR": "/mine",
+        "ORCHESTRA_RUN": "1f-7",
+        "ORCHESTRA_PROCESS": "/robot1/ekf",
+    }
+
+
+def test_a_node_that_inherits_nothing_can_be_made(tmp_path: Path) -> None:
+    result = environment(dict(os.environ), {"ROS_LOG_DIR": str(tmp_path)}, host=this_host(), inherit=False)
+    code = "import rclpy; rclpy.init(args=[], domain_id=37); rclpy.create_node('a').destroy_node(); rclpy.shutdown()"
+    subprocess.run([sys.executable, "-c", code], env=result, timeout=60, check=True)

@@ -17,6 +17,12 @@ CODE = ("driver", Ending(code=7))
         (Facts(), 0, "every process has ended"),
         (Facts(ended_by="required process a has ended"), 0, "required process a has ended"),
         (Facts(failed=(CRASH,)), 0, "every process has ended; failed: camera (SIGSEGV)"),
+        (Facts(mishaps=("a did not activate: x",)), 0, "every process has ended; a did not activate: x"),
+        (
+            Facts(mishaps=("a did not activate: x",), fail_on_any=True),
+            1,
+            "every process has ended, and something went wrong; a did not activate: x",
+        ),
         (
             Facts(failed=(CRASH,), fail_on_any=True),
             1,
