@@ -90,6 +90,7 @@ FAULTS: dict[str, tuple[str | bytes, list[tuple[Code, int, int, str | None]]]] =
 }
 
 
+@pytest.mark.conforms("2.1 root", "2.1 empty", "2.1 child", "D7", "D8")
 @pytest.mark.parametrize("case", FAULTS)
 def test_a_fault_is_reported_once_at_its_place(case: str, tmp_path: Path) -> None:
     text, faults = FAULTS[case]
@@ -97,6 +98,7 @@ def test_a_fault_is_reported_once_at_its_place(case: str, tmp_path: Path) -> Non
     assert _faults(problems) == faults
 
 
+@pytest.mark.conforms("2.1 parse order")
 def test_all_faults_of_a_file_are_reported_in_one_pass(tmp_path: Path) -> None:
     text = "launch:\n- node: {exce: a}\n- lgo: {message: a}\n- let: {name: a, value: $(nix)}\n"
     _, problems = _load(text, tmp_path)
@@ -147,6 +149,7 @@ def test_a_mistyped_key_counts_as_what_was_meant(tmp_path: Path) -> None:
     assert isinstance(description.actions[0], Node)
 
 
+@pytest.mark.conforms("D6", "D7")
 @pytest.mark.parametrize(
     "text",
     [
@@ -196,6 +199,7 @@ _NAMES = {
 }
 
 
+@pytest.mark.conforms("2.1 extensions", "2.1 empty", "2.1 file open order")
 @pytest.mark.parametrize(("text", "name"), [(text, name) for text, names in _NAMES.items() for name in names])
 def test_the_end_of_its_name_tells_the_format_of_a_file(text: str, name: str, tmp_path: Path) -> None:
     description, problems = _load(text, tmp_path, name)
@@ -204,6 +208,7 @@ def test_the_end_of_its_name_tells_the_format_of_a_file(text: str, name: str, tm
     assert description.actions == ()
 
 
+@pytest.mark.conforms("2.1 root attribute")
 @pytest.mark.parametrize(
     ("text", "name"),
     [

@@ -165,6 +165,7 @@ def test_what_is_sound_in_a_faulty_text_stays_to_be_evaluated() -> None:
     assert _shape(template) == ["x ", ["var", ["a"]], " ", ["var", ["c"]]]
 
 
+@pytest.mark.conforms("3.2 wrong arguments")
 def test_a_wrong_number_of_arguments_is_told_with_the_usage() -> None:
     assert _one_error("$(if true)").notes == ("it is written $(if CONDITION VALUE [ELSE])",)
 

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from orchestra.description.actions import ACTIONS, model_of
+from tests.conformance.marks import conforming
 from tests.load.planning import Planned, installed, planned
 from tests.load.written import WRITERS, Actions
 
@@ -67,6 +68,10 @@ def _one(key: str) -> Callable[[Planned], Any]:
         return process[key]
 
     return value
+
+
+def _of_one(*keys: str) -> Callable[[Planned], Any]:
+    return lambda plan: [plan.processes[0][key] for key in keys]
 
 
 def _of(key: str, *names: str) -> Callable[[Planned], Any]:
@@ -158,7 +163,7 @@ ROWS: dict[str, Row] = {
     "2.4 executable launch-prefix": (
         [{"executable": {"cmd": "prog", "launch-prefix": "nice -n $(eval 2+3)"}}], _one("prefix"), ["nice", "-n", "5"],
     ),
-    "2.4 executable launch_prefix": (_program(launch_prefix="nice"), _one("prefix"), ["nice"]),
+    "2.4 executable launch-prefix, underscore": (_program(launch_prefix="nice"), _one("prefix"), ["nice"]),
     "2.4 executable output": (_program(output="$(if true log screen)"), _one("output"), "log"),
     "2.4 executable respawn": (
         _program(respawn=True, respawn_delay=2, respawn_max_retries=3),
@@ -169,6 +174,10 @@ ROWS: dict[str, Row] = {
         lambda plan: [plan.processes[0]["restart"][key] for key in ("policy", "delay", "budget")], ["always", 2.0, None],
     ),
     "2.4 executable respawn_delay, negative": (_program(respawn=True, respawn_delay=-1), _problems, ["error"]),
+    "2.4 executable respawn_max_retries": (
+        _program(respawn=True, respawn_max_retries="2"), lambda plan: plan.processes[0]["restart"]["budget"], 2,
+    ),
+    "2.4 executable respawn_max_retries, a text": (_program(respawn_max_retries="two"), _problems, ["error"]),
     "2.4 executable sigterm_timeout, sigkill_timeout": (
         _program(sigterm_timeout=1, sigkill_timeout="0.5"), _of("stop", "timeout", "kill_timeout"), [1.0, 0.5],
     ),
@@ -195,6 +204,18 @@ ROWS: dict[str, Row] = {
         lambda plan: plan.processes[0]["command"][1:], ["--ros-args", "--log-level", "debug", "--ros-args"],
     ),
     "2.4 node node-name": ([{"node": {"exec": "exe", "node-name": "n"}}], _problems, ["error"]),
+    "2.4 node keys of executable": (
+        _node(**{
+            "cwd": "/", "on_exit": "shutdown", "launch-prefix": "nice", "output": "screen", "shell": True,
+            "emulate_tty": True, "env": [{"name": "A", "value": "b"}],
+        }),
+        _of_one("cwd", "required", "prefix", "output", "shell", "emulate_tty", "environment"),
+        ["/", True, ["nice"], "screen", True, True, {"A": "b"}],
+    ),
+    "2.4 node param": (
+        _node(name="n", param=[{"name": "a", "value": 1}, {"from": "p.yaml"}, {"name": "a", "value": 2}]),
+        _one("parameters"), {"a": 2, "from_file": "$(var a)"},
+    ),
     "2.4 node remap": (
         _node(name="n", remap=[{"from": "a", "to": "$(not true)"}, {"from": "~/b", "to": "/c"}]),
         _one("remappings"), [["a", "false"], ["~/b", "/c"]],
@@ -237,6 +258,10 @@ ROWS: dict[str, Row] = {
     "2.4 timer cancel_on_shutdown": (
         [{"timer": {"period": 1, "cancel_on_shutdown": "$(not true)", "children": []}}], _problems, [],
     ),
+    "2.4 timer children": (
+        [{"timer": {"period": 1.0, "children": [{"log": {"message": "a"}}, {"log": {"message": "b"}}]}}],
+        _delays, [(1.0, ["a", "b"])],
+    ),
     "2.4 timer period, missing": ([{"timer": {"children": []}}], _problems, ["error"]),
     "2.4 shutdown reason": (
         [{"shutdown": {"reason": "$(not true)"}}],
@@ -245,7 +270,7 @@ ROWS: dict[str, Row] = {
     "2.4 push_ros_namespace": (
         [{"push_ros_namespace": {"namespace": "$(not true)"}}, *_node(name="n")], _one("id"), "/false/n",
     ),
-    "2.4 push-ros-namespace": ([{"push-ros-namespace": {"namespace": "a"}}, *_node(name="n")], _one("id"), "/a/n"),
+    "2.4 push_ros_namespace, hyphens": ([{"push-ros-namespace": {"namespace": "a"}}, *_node(name="n")], _one("id"), "/a/n"),
     "2.4 set_parameter": (
         [{"set_parameter": {"name": "$(not true)", "value": "$(eval 1+1)"}}, *_node(name="n")],
         _one("parameters"), {"false": 2},
@@ -269,13 +294,13 @@ ROWS: dict[str, Row] = {
         [{"node_container": {"exec": "exe", "name": "c", "namespace": "ns", "param": [{"name": "a", "value": 1}]}}],
         lambda plan: [plan.processes[0][key] for key in ("kind", "id", "parameters")], ["container", "/ns/c", {"a": 1}],
     ),
-    "2.4 node_container name, missing": (
+    "2.4 node_container, name missing": (
         [{"node_container": {"exec": "exe", "namespace": ""}}], _problems, ["error"],
     ),
-    "2.4 node_container namespace, missing": (
+    "2.4 node_container, namespace missing": (
         [{"node_container": {"exec": "exe", "name": "c"}}], _problems, ["error"],
     ),
-    "2.4 node_container namespace, empty": (
+    "2.4 node_container, namespace empty": (
         [{"node_container": {"exec": "exe", "name": "c", "namespace": ""}}], _one("id"), "/c",
     ),
     "2.4 node_container composable_node": (_container(), _component("container", "package", "plugin"), ["/c", "p", "P"]),
@@ -295,7 +320,7 @@ ROWS: dict[str, Row] = {
         _container(param=[{"name": "a", "param": [{"name": "b", "value": 1}]}, {"from": "p.yaml"}]),
         _component("parameters"), [{"a.b": 1, "from_file": "$(var a)"}],
     ),
-    "2.4 composable_node remap": (
+    "2.4 composable_node param, remap": (
         _container(remap=[{"from": "a", "to": "b"}]), _component("remappings"), [[["a", "b"]]],
     ),
     "2.4 composable_node extra_arg": (
@@ -303,8 +328,8 @@ ROWS: dict[str, Row] = {
         _component("extra_arguments"), [{"use_intra_process_comms": True, "b": False}],
     ),
     "2.4 composable_node if": (_container(**{"if": "$(not true)"}), lambda plan: plan.content["components"], []),
-    "2.4 composable_node unless": (_container(unless="true"), lambda plan: plan.content["components"], []),
-    "2.4 composable_node if and unless": (_container(unless="true", **{"if": "true"}), lambda plan: plan.failed, True),
+    "2.4 composable_node if, unless": (_container(unless="true"), lambda plan: plan.content["components"], []),
+    "2.4 composable_node if, and unless": (_container(unless="true", **{"if": "true"}), lambda plan: plan.failed, True),
     # 2.5 param
     "2.5 value": (
         _node(name="n", param=[{"name": "$(not true)", "value": 1}, {"name": "b", "value": 2.5}]),
@@ -337,18 +362,20 @@ ROWS: dict[str, Row] = {
     ),
     "2.5 errors, another type": (_node(param=[{"name": "a", "value": 1, "type": "integer"}]), _problems, ["error"]),
     # 2.8 Splitting
+    "2.8 shell words": ([{"executable": {"cmd": "ls -l \"a b\" 'c d'e"}}], _one("command"), ["ls", "-l", "a b", "c de"]),
     "2.8 quotes around a substitution": (
         [{"let": {"name": "a", "value": "A"}}, {"executable": {"cmd": "x \"a $(var a) b\" --x='$(var a)'"}}],
         _one("command"), ["x", "a A b", "--x=A"],
     ),
-    "2.8 a value is never split": (
+    "2.8 substitutions in words, never split": (
         [{"let": {"name": "a", "value": "b c"}}, {"executable": {"cmd": "x $(var a)y"}}], _one("command"), ["x", "b cy"],
     ),
 }  # fmt: skip
 
 
+@pytest.mark.conforms("D11")
 @both
-@pytest.mark.parametrize("row", ROWS)
+@pytest.mark.parametrize("row", conforming(ROWS))
 def test_a_row_does_what_it_says(row: str, language: str, tmp_path: Path) -> None:
     (tmp_path / "p.yaml").write_text("/**: {ros__parameters: {from_file: $(var a)}}")
     actions, view, expected = ROWS[row]
@@ -387,6 +414,7 @@ _NEEDED: dict[str, dict[str, Any]] = {
 }
 
 
+@pytest.mark.conforms("2.4 names")
 def test_no_action_is_forgotten() -> None:
     assert set(_NEEDED) == set(ACTIONS)
     for name, keys in _NEEDED.items():
@@ -395,6 +423,7 @@ def test_no_action_is_forgotten() -> None:
         assert model.required_keys() <= set(keys)
 
 
+@pytest.mark.conforms("2.3 every action", "2.4 all actions")
 @both
 @pytest.mark.parametrize("action", _NEEDED)
 @pytest.mark.parametrize("condition", [{"if": "$(not true)"}, {"unless": True}])
@@ -411,6 +440,7 @@ def test_every_action_has_a_condition(
     assert not plan.content["components"]
 
 
+@pytest.mark.conforms("2.3 both")
 @both
 @pytest.mark.parametrize("action", _NEEDED)
 def test_no_action_has_two_conditions(action: str, language: str, tmp_path: Path) -> None:
@@ -418,6 +448,7 @@ def test_no_action_has_two_conditions(action: str, language: str, tmp_path: Path
     assert planned(tmp_path, language, [{action: keys}], _ENVIRONMENT, inner=_INNER).failed
 
 
+@pytest.mark.conforms("2.3 parts of an action")
 @both
 @pytest.mark.parametrize(
     "actions",

@@ -79,11 +79,13 @@ def _problems(text: str, path: Path) -> Problems:
     return problems
 
 
+@pytest.mark.conforms("2.1 root", "D6", "D7", "D10", "D62", "D63", "D64", "D65")
 @pytest.mark.parametrize(("text", "accepted"), _records("yaml"))
 def test_upstreams_judgement_of_yaml_is_kept(text: str, accepted: bool, tmp_path: Path) -> None:
     _judge(text, accepted, _problems(f"launch:\n{text}\n", tmp_path / "probe.launch.yaml"))
 
 
+@pytest.mark.conforms("2.1 root")
 @pytest.mark.parametrize(("text", "accepted"), _records("xml"))
 def test_upstreams_judgement_of_xml_is_kept(text: str, accepted: bool, tmp_path: Path) -> None:
     _judge(text, accepted, _problems(text, tmp_path / "probe.launch.xml"))

@@ -53,6 +53,9 @@ PLAIN: dict[str, Any] = {
     ".inf": math.inf,
     "1e3": 1000.0,  # text to upstream, which rcl types again
     "1e-6": 1e-6,
+    "inf": math.inf,
+    "y": True,  # text to upstream as well
+    "n": False,
     **dict.fromkeys(("true", "True", "TRUE", "yes", "on"), True),
     **dict.fromkeys(("false", "no", "off"), False),
     "abc": "abc",
@@ -83,6 +86,7 @@ ONLY_YAML: dict[str, Any] = {
     '"5"': "5",
     "'true'": "true",
     "'1e3'": "1e3",
+    "'y'": "y",
     "'[1, 2]'": "[1, 2]",
     "{a: 1}": _ERROR,
     "['$(var x)', 1]": (7, 1),
@@ -103,16 +107,48 @@ def _rows(*tables: dict[str, Any]) -> Any:
     return pytest.mark.parametrize(("text", "expected"), rows)
 
 
+@pytest.mark.conforms(
+    "2.5 value",
+    "2.5 integers",
+    "2.5 floats",
+    "2.5 floats without a point",
+    "2.5 booleans",
+    "2.5 texts",
+    "2.5 quoted",
+    "2.5 other values",
+    "2.5 lists",
+    "2.5 mixed lists",
+    "2.5 substitutions",
+    "2.5 substitutions in lists",
+    "2.6 no type",
+    "2.5 one letter",
+)
 @_rows(PLAIN, ONLY_XML, SUBSTITUTED)
 def test_the_text_of_an_attribute(text: str, expected: Any, tmp_path: Path) -> None:
     _same(_value(tmp_path, "xml", value=text), expected)
 
 
+@pytest.mark.conforms(
+    "2.5 value",
+    "2.5 integers",
+    "2.5 floats",
+    "2.5 floats without a point",
+    "2.5 booleans",
+    "2.5 texts",
+    "2.5 quoted",
+    "2.5 other values",
+    "2.5 lists",
+    "2.5 mixed lists",
+    "2.5 substitutions in lists",
+    "2.5 one letter",
+    "D15",
+)
 @_rows(PLAIN, ONLY_YAML)
 def test_a_native_value(text: str, expected: Any, tmp_path: Path) -> None:
     _same(_value(tmp_path, "yaml", value=text), expected)
 
 
+@pytest.mark.conforms("2.5 substitutions")
 @_rows(SUBSTITUTED)
 def test_a_substitution_in_quotes(text: str, expected: Any, tmp_path: Path) -> None:
     _same(_value(tmp_path, "yaml", value=f'"{text}"'), expected)
@@ -157,6 +193,9 @@ _TYPED_IN = [
 ]
 
 
+@pytest.mark.conforms(
+    "2.5 type", "2.5 with a type", "2.6 str", "2.6 int", "2.6 float", "2.6 bool", "2.6 lists", "D65"
+)
 @pytest.mark.parametrize(("language", "type_word", "text"), _TYPED_IN)
 def test_a_type_reads_the_text(language: str, type_word: str, text: str, tmp_path: Path) -> None:
     written = text if language == "xml" else "'" + text.replace("'", "''") + "'"
@@ -174,11 +213,13 @@ SEPARATED: dict[tuple[str, str], Any] = {
 }
 
 
+@pytest.mark.conforms("2.5 lists", "2.2 list-valued attribute")
 @pytest.mark.parametrize(("text", "separator"), SEPARATED)
 def test_a_separator_makes_a_list(text: str, separator: str, tmp_path: Path) -> None:
     _same(_value(tmp_path, "xml", value=text, **{"value-sep": separator}), SEPARATED[text, separator])
 
 
+@pytest.mark.conforms("2.5 with a type")
 @pytest.mark.parametrize(
     ("type_word", "expected"),
     [

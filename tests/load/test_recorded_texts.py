@@ -42,6 +42,7 @@ def _recorded(kind: str) -> Any:
     return pytest.mark.parametrize(("text", "result"), list(records.items()))
 
 
+@pytest.mark.conforms("3.2 names", "D12", "D43", "D66")
 @_both
 @_recorded("subst")
 def test_substitutions(tmp_path: Path, language: str, text: str, result: str | None) -> None:
@@ -58,6 +59,9 @@ def test_substitutions(tmp_path: Path, language: str, text: str, result: str | N
         assert plan.messages == [result]
 
 
+@pytest.mark.conforms(
+    "2.8 shell words", "2.8 substitutions in words", "2.8 an empty word", "2.8 a backslash", "2.8 nothing"
+)
 @_both
 @_recorded("argv")
 def test_words_of_a_command(tmp_path: Path, language: str, text: str, result: list[str]) -> None:
@@ -65,6 +69,7 @@ def test_words_of_a_command(tmp_path: Path, language: str, text: str, result: li
     assert [process["command"] for process in plan.processes] == [result]
 
 
+@pytest.mark.conforms("2.7 words", "D13")
 @_both
 @_recorded("if")
 @pytest.mark.parametrize("key", ["if", "unless"])
@@ -76,6 +81,7 @@ def test_conditions(tmp_path: Path, language: str, key: str, text: str, result: 
         assert plan.messages == (["said"] if result is (key == "if") else [])
 
 
+@pytest.mark.conforms("2.6 bool", "D13")
 @_both
 @_recorded("bool")
 @pytest.mark.parametrize("form", ["{}", "$(var none '{}')"])

@@ -128,6 +128,7 @@ _rich = st.one_of(
 )
 
 
+@pytest.mark.conforms("2.9 pair")
 @given(st.lists(ordinary | _rich, max_size=6), inner_actions)
 @_quickly
 def test_a_description_gives_the_same_plan_in_both_formats(

@@ -133,6 +133,7 @@ SAME = {
 }
 
 
+@pytest.mark.conforms("2.1 child", "2.2 order")
 @pytest.mark.parametrize("case", SAME)
 def test_a_tree_is_the_same_as_in_yaml(case: str) -> None:
     xml, yaml = SAME[case]
@@ -229,6 +230,7 @@ def test_a_file_that_ends_in_launch_is_what_it_begins_with(text: str, tmp_path: 
     assert _loaded(text, tmp_path, "a.launch") == []
 
 
+@pytest.mark.conforms("2.1 file open order", "D5", "7 17")
 @pytest.mark.parametrize(("name", "text"), [("a.launch.xml", "launch: []"), ("a.launch.yaml", "<launch/>")])
 def test_no_format_is_tried_for_another(name: str, text: str, tmp_path: Path) -> None:
     assert [code for code, *_ in _loaded(text, tmp_path, name)] in ([Code.SYNTAX], [Code.WRONG_TYPE])
