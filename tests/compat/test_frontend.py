@@ -493,3 +493,23 @@ def test_calls_are_written_as_they_are_read() -> None:
     ):
         (read,) = parse_substitution(text)
         assert read._raw() == text
+
+
+@_LANGUAGES
+def test_sources_give_the_same_objects(language: str, tmp_path: Path) -> None:
+    """Keys that only Orchestra knows make actions that have no class: they are carried out all the same."""
+    declared = {"arg": {"name": "a", "default": "1"}}
+    upstreams: list[dict[str, Any]] = [declared, {"executable": {"cmd": "prog"}}]
+    ours: list[dict[str, Any]] = [declared, {"executable": {"cmd": "prog", "required": True}}]
+    path = tmp_path / f"a.launch.{language}"
+    context = LaunchContext()
+    path.write_text(WRITERS[language](upstreams))
+    found = AnyLaunchDescriptionSource(str(path)).get_launch_description(context)
+    assert [type(entity).__name__ for entity in found.entities] == ["DeclareLaunchArgument", "ExecuteProcess"]
+    assert [argument.name for argument in found.get_launch_arguments()] == ["a"]
+    path.write_text(WRITERS[language](ours))
+    found = AnyLaunchDescriptionSource(str(path)).get_launch_description(context)
+    assert [type(entity).__name__ for entity in found.entities] == ["Described", "Described"]
+    for entity in found.entities:
+        entity.visit(context)
+    assert context.launch_configurations["a"] == "1"

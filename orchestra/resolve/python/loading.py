@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from typing import TYPE_CHECKING
 
 from orchestra.compat.building import Described
@@ -12,9 +13,15 @@ from orchestra.errors import Problems
 from orchestra.resolve.paths import beside
 
 if TYPE_CHECKING:
+    from orchestra.compat.launch.frontend.parser import Parser
     from orchestra.resolve.resolution import Resolution
 
 ENDINGS = {"python": ".py", "xml": ".xml", "yaml": ".yaml"}
+_PARSERS = {
+    None: "orchestra.compat.launch.frontend",
+    "xml": "orchestra.compat.launch_xml",
+    "yaml": "orchestra.compat.launch_yaml",
+}
 
 
 def load_description(path: str, language: str | None, run: Resolution) -> LaunchDescription:
@@ -31,4 +38,19 @@ def load_description(path: str, language: str | None, run: Resolution) -> Launch
     for action in description.actions:
         if isinstance(action, OpaqueAction) and isinstance(action.target, LaunchDescription):
             return action.target
-    return LaunchDescription([Described(action) for action in description.actions])
+    return _parsed(there, language) or LaunchDescription(
+        [Described(action) for action in description.actions]
+    )
+
+
+def _parsed(path: str, language: str | None) -> LaunchDescription | None:
+    """Return what a file in XML or YAML describes as the objects that Python files are made of.
+
+    None where that says less than the file does: it has keys that only Orchestra knows.
+    """
+    parser: type[Parser] = import_module(_PARSERS[language]).Parser
+    try:
+        root, found = parser.load(path)
+        return found.parse_description(root)
+    except (AttributeError, RuntimeError, TypeError, ValueError):
+        return None

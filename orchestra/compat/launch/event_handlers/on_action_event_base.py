@@ -84,7 +84,7 @@ class OnActionEventBase(BaseEventHandler):
         if not isinstance(event, self.__target_event_cls):
             return False
         target, action = self.__action_matcher, getattr(event, "action", None)
-        if callable(target):
+        if callable(target) and not isinstance(target, self.__target_action_cls):
             return bool(target(action))
         return target is None or action is target
 
