@@ -17,6 +17,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from orchestra.compat.borrowed import borrowing
 from orchestra.compat.place import is_own
 
 if TYPE_CHECKING:
@@ -39,6 +40,8 @@ class _Alias(Loader):
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:  # noqa: ARG002 - the protocol
         module = importlib.import_module(self._name)
+        if not hasattr(module, "__path__"):
+            vars(module).setdefault("__getattr__", borrowing(self._name))
         self._spec = module.__spec__
         return module
 
