@@ -189,5 +189,10 @@ class EvaluationFailure(SubstitutionFailure):
     """A text that cannot be evaluated; `problems` say why, none where that has been reported."""
 
     def __init__(self, problems: tuple[Problem, ...]) -> None:
-        super().__init__(problems[0].message if problems else "a value has a fault that is reported")
+        told = (
+            (problems[0].message, *problems[0].notes)
+            if problems
+            else ("a value has a fault that is reported",)
+        )
+        super().__init__("\n".join(told))
         self.problems = problems
