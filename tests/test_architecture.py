@@ -21,7 +21,7 @@ _LONGEST_FUNCTION = 50
 
 # Each row may import from its own rooms and from the rows above it: the order of docs/design.md.
 _ROWS = (
-    ("errors", "location", "events", "nearest", "values"),
+    ("errors", "location", "events", "nearest", "values", "wheels"),
     ("description",),
     ("compat",),
     ("compat",),
@@ -38,6 +38,7 @@ _LEVELS = {room: level for level, row in enumerate(_ROWS) for room in row}
 _CLIENTS = {"cli", "tui", "testing"}  # they share a row, but know nothing of each other
 _SMALL_CORE = {
     *("orchestra.errors", "orchestra.location", "orchestra.events", "orchestra.nearest", "orchestra.values"),
+    "orchestra.wheels",
     *(
         "orchestra.plan.model",
         "orchestra.plan.reactions",

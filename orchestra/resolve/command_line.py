@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from orchestra.errors import UsageError
 from orchestra.location import Span
 from orchestra.resolve.inputs import GivenArgument, GivenFile, GivenParameter, Inputs
+from orchestra.wheels import as_called
 
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
@@ -20,7 +21,8 @@ def inputs_from(
 ) -> Inputs:
     """Read `NAME:=VALUE` and `NODE:NAME:=VALUE`; the last of a repeated launch argument counts, as upstream.
 
-    Places are those on a line of the words and after them the parameter files, each behind its option.
+    The environment is made the one in which the interpreter was called. Places are those on a line of the words and
+    after them the parameter files, each behind its option.
 
     Raises `UsageError` for a word of another form.
     """
@@ -44,7 +46,7 @@ def inputs_from(
         column = start + len(path)
         files.append(GivenFile(path, Span(COMMAND_LINE, 1, start, 1, column)))
         column += 1
-    return Inputs(environment, tuple(arguments.values()), tuple(parameters), tuple(files))
+    return Inputs(as_called(environment), tuple(arguments.values()), tuple(parameters), tuple(files))
 
 
 def _hint(word: str) -> str:

@@ -19,11 +19,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from orchestra.supervise.marks import PROCESS, RUN
+from orchestra.wheels import DONE, LIBRARY_PATH
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-_WHEELS_GUARD = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
 # Whoever sets one of these has said where discovery is to reach.
 _DISCOVERY = ("ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY", "ROS_DISCOVERY_SERVER")
 # The variables that decide with whom a participant talks, and how.
@@ -65,6 +65,9 @@ def node_environment(
             environment.pop(name, None)
         else:
             environment[name] = value
+    if LIBRARY_PATH in description and DONE not in description:
+        # The folders of the wheels are gone: each interpreter starts itself a second time and puts them there.
+        environment.pop(DONE, None)
     environment[RUN], environment[PROCESS] = marks
     return environment
 
@@ -89,8 +92,8 @@ def _for_wheels(caller: Mapping[str, str], host: Host) -> dict[str, str]:
     """Do what `ros_wheels_bootstrapper` does, so that it need not start each interpreter a second time."""
     found: dict[str, str] = {}
     if host.libraries:
-        found["LD_LIBRARY_PATH"] = _joined(host.libraries, caller.get("LD_LIBRARY_PATH"))
-        found[_WHEELS_GUARD] = "1"
+        found[LIBRARY_PATH] = _joined(host.libraries, caller.get(LIBRARY_PATH))
+        found[DONE] = "1"
     if host.ament:
         # Last: packages that the user has sourced come before those of the wheels.
         prefixes = [entry for entry in caller.get("AMENT_PREFIX_PATH", "").split(":") if entry]

@@ -130,6 +130,16 @@ def test_no_interpreter_of_a_node_starts_twice_and_rclpy_is_there() -> None:
     assert done.stdout.strip() == result["LD_LIBRARY_PATH"]
 
 
+def test_a_library_path_of_the_description_does_not_keep_rclpy_from_nodes() -> None:
+    """The plan knows nothing of the wheels' folders: the interpreter of the node adds them to what it says."""
+    result = environment(dict(os.environ), {"LD_LIBRARY_PATH": "/of/the/description"}, host=this_host())
+    code = "import os, rclpy\nprint('/of/the/description' in os.environ['LD_LIBRARY_PATH'].split(':'))"
+    done = subprocess.run(
+        [sys.executable, "-c", code], env=result, capture_output=True, text=True, timeout=60, check=True
+    )
+    assert done.stdout.strip() == "True"
+
+
 def test_a_process_that_inherits_nothing_gets_what_a_ros_process_cannot_start_without() -> None:
     caller = {"HOME": "/home/me", "PATH": "/usr/bin", "ROS_DOMAIN_ID": "7", "LD_LIBRARY_PATH": "/opt/lib"}
     assert environment(caller, {"A": "1", "B": None}, inherit=False) == {

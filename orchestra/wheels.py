@@ -1,0 +1,37 @@
+"""What `ros_wheels_bootstrapper` 0.1, which comes with ROS as Python packages, does to an interpreter that starts.
+
+It starts the interpreter a second time, with the folders of the wheels' shared libraries on LD_LIBRARY_PATH, in an
+order that differs from start to start, and with a variable that tells that this is done.
+"""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+DONE: Final = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
+LIBRARY_PATH: Final = "LD_LIBRARY_PATH"
+
+
+def library_folders(prefix: Path) -> tuple[str, ...]:
+    """Return the folders that it puts on LD_LIBRARY_PATH, in an order that stays; none where it is not installed."""
+    version = f"python{sys.version_info.major}.{sys.version_info.minor}"
+    packages = prefix / "lib" / version / "site-packages"
+    if not (packages / "ros_wheels_bootstrapper").is_dir():
+        return ()
+    folders = sorted(str(folder.resolve()) for folder in packages.glob("ros_*.libs") if folder.is_dir())
+    return (str(prefix / "lib"), *folders)
+
+
+def as_called(environment: Mapping[str, str]) -> Mapping[str, str]:
+    """Return the environment in which this interpreter was called, given the one that it has."""
+    if DONE not in environment:
+        return environment
+    called = {name: value for name, value in environment.items() if name not in {DONE, LIBRARY_PATH}}
+    added = frozenset(library_folders(Path(sys.prefix)))
+    before = [entry for entry in environment.get(LIBRARY_PATH, "").split(":") if entry and entry not in added]
+    return {**called, LIBRARY_PATH: ":".join(before)} if before else called
