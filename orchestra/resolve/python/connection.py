@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Problems
-from orchestra.resolve.python.frontend import LoadingFrontEnd
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from orchestra.compat.seam import Engine
+    from orchestra.compat.seam import Engine, FrontEnd
     from orchestra.resolve.packages import InstalledPackages
     from orchestra.resolve.resolution import Resolution
 
@@ -30,10 +30,17 @@ class LoadingConnection:
         debug: bool = False,
     ) -> None:
         self.debug = debug
-        self.front_end = LoadingFrontEnd()
         self.prepare = prepare
         self._packages = packages
         self._begin = begin
+
+    @cached_property
+    def front_end(self) -> FrontEnd:
+        """The languages of XML and YAML files."""
+        # Here, because few launch files ask for it.
+        from orchestra.resolve.python.frontend import LoadingFrontEnd  # noqa: PLC0415
+
+        return LoadingFrontEnd()
 
     def engine(self, argv: Sequence[str]) -> Engine:
         """Return an engine with a state of its own, for a context that a user builds."""
