@@ -86,12 +86,22 @@ def _text(subs: Any) -> str:
     return perform_substitutions(LaunchContext(), subs)
 
 
+@pytest.mark.conforms("1.3 exported names", "1.12.1 later names")
 @pytest.mark.parametrize("name", [*_JAZZY, "ForEach", "ForLoop", "LogDebug", "LogWarning", "LogError"])
 def test_every_action_is_there(name: str) -> None:
     assert issubclass(getattr(names, name), Action)
     assert name in names.__all__
 
 
+@pytest.mark.conforms(
+    "1.2 Action constructor",
+    "1.3.1 no choices",
+    "1.3.1 default among the choices",
+    "1.3 EmitEvent",
+    "1.3 OpaqueCoroutine",
+    "1.3.2 cmd",
+    "D52",
+)
 @pytest.mark.parametrize(
     ("make", "error"),
     [
@@ -124,6 +134,7 @@ def test_what_cannot_be_is_refused_where_it_is_made(make: Callable[[], Any], err
         make()
 
 
+@pytest.mark.conforms("D16", "D45")
 @pytest.mark.parametrize(
     "make",
     [
@@ -141,6 +152,7 @@ def test_what_is_plainly_meant_is_taken(make: Callable[[], Any]) -> None:
     assert isinstance(make(), Action)
 
 
+@pytest.mark.conforms("1.3.2 properties", "1.3.2 sigterm_timeout")
 def test_a_process_tells_what_it_was_given() -> None:
     process = ExecuteProcess(  # noqa: S604 - it is not started
         cmd=["ls", ["-", TextSubstitution(text="l")]],
@@ -165,6 +177,7 @@ def test_a_process_tells_what_it_was_given() -> None:
     assert process.return_code is None
 
 
+@pytest.mark.conforms("1.3.2 properties")
 def test_a_process_that_was_told_nothing_has_the_usual_values() -> None:
     process = ExecuteProcess(cmd=["ls"])
     assert (process.name, process.cwd, process.env, process.additional_env) == (None, None, None, None)
@@ -172,6 +185,7 @@ def test_a_process_that_was_told_nothing_has_the_usual_values() -> None:
     assert _text(process.process_description.prefix) == ""
 
 
+@pytest.mark.conforms("1.3.2 properties", "1.3.2 prefix", "D35", "D53")
 def test_a_prepared_process_has_texts() -> None:
     context = LaunchContext()
     context.launch_configurations["launch-prefix"] = "gdb -ex 'run now'"
@@ -186,6 +200,7 @@ def test_a_prepared_process_has_texts() -> None:
     assert "pid" not in one.process_details
 
 
+@pytest.mark.conforms("1.3.2 launch-prefix-filter", "1.3.2 Executable")
 def test_the_prefix_of_all_processes_is_for_those_that_the_filter_chooses() -> None:
     context = LaunchContext()
     context.launch_configurations.update({"launch-prefix": "gdb", "launch-prefix-filter": "tal"})
@@ -197,23 +212,29 @@ def test_the_prefix_of_all_processes_is_for_those_that_the_filter_chooses() -> N
     assert found == [["gdb", "/bin/talker", "x"], ["/bin/listener", "x"]]
 
 
+@pytest.mark.conforms("1.3.2 cached_output")
 def test_output_is_only_kept_where_that_was_asked_for() -> None:
     with pytest.raises(RuntimeError, match="cached_output"):
         ExecuteProcess(cmd=["ls"]).get_stdout()
     assert ExecuteProcess(cmd=["ls"], cached_output=True).get_stderr() == ""
 
 
+@pytest.mark.conforms("1.3.2 output", "4.10 OVERRIDE_LAUNCH_PROCESS_OUTPUT")
 def test_an_environment_variable_stands_for_every_output(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "full")
     assert _text(ExecuteProcess(cmd=["ls"], output="log").output) == "full"
 
 
+@pytest.mark.conforms("1.3.2 on_exit", "1.2 Action.get_sub_entities")
 def test_what_follows_the_end_of_a_process_is_known_where_it_is_a_list() -> None:
     follows = [LogInfo(msg="x")]
     assert ExecuteProcess(cmd=["ls"], on_exit=follows).get_sub_entities() == follows
     assert ExecuteProcess(cmd=["ls"], on_exit=print).get_sub_entities() == []
 
 
+@pytest.mark.conforms(
+    "1.3.1 no description", "1.3.1 choices without a description", "1.3.1 choices with a description"
+)
 @pytest.mark.parametrize(
     ("arguments", "description"),
     [
@@ -228,6 +249,11 @@ def test_an_argument_describes_its_choices(arguments: dict[str, Any], descriptio
     assert DeclareLaunchArgument("x", **arguments).description == description
 
 
+@pytest.mark.conforms(
+    "1.2 LaunchDescription.get_launch_arguments",
+    "1.2 LaunchDescription.get_launch_arguments_with_include_launch_description_actions",
+    "1.2 Action.get_sub_entities",
+)
 def test_arguments_are_found_without_a_visit(tmp_path: Path) -> None:
     inner = plans.write(
         tmp_path / "inner.launch.py", "DeclareLaunchArgument('inside'), DeclareLaunchArgument('a')"
@@ -263,6 +289,7 @@ def test_arguments_are_found_without_a_visit(tmp_path: Path) -> None:
     assert found[0][0] is first
 
 
+@pytest.mark.conforms("1.3 TimerAction")
 def test_a_timer_can_be_cancelled_before_it_is_visited(tmp_path: Path) -> None:
     before = "timer = TimerAction(period=1.0, actions=[LogInfo(msg='x')])\ntimer.cancel()\n"
     assert plans.python(tmp_path, "timer", before).triggers == []
@@ -383,6 +410,33 @@ _SAME: list[tuple[str, list[dict[str, Any]]]] = [
 ]
 
 
+@pytest.mark.conforms(
+    "1.3 AppendEnvironmentVariable",
+    "1.3 DeclareLaunchArgument",
+    "1.3 ExecuteLocal",
+    "1.3 ExecuteProcess",
+    "1.3 GroupAction",
+    "1.3 IncludeLaunchDescription",
+    "1.3 LogInfo",
+    "1.3 ResetEnvironment",
+    "1.3 ResetLaunchConfigurations",
+    "1.3 SetEnvironmentVariable",
+    "1.3 SetLaunchConfiguration",
+    "1.3 Shutdown",
+    "1.3 TimerAction",
+    "1.3 UnsetEnvironmentVariable",
+    "1.3.2 cmd",
+    "1.3.2 name",
+    "1.3.2 cwd",
+    "1.3.2 additional_env",
+    "1.3.2 shell",
+    "1.3.2 emulate_tty",
+    "1.3.2 output",
+    "1.3.2 respawn",
+    "1.3.2 respawn_delay",
+    "1.3.2 respawn_max_retries",
+    "1.3.2 sigterm_timeout",
+)
 @pytest.mark.parametrize(("actions", "written"), _SAME)
 def test_what_is_written_in_python_and_in_yaml_is_the_same_plan(
     actions: str, written: list[dict[str, Any]], tmp_path: Path
@@ -412,6 +466,19 @@ _SCOPES = [
 ]  # fmt: skip
 
 
+@pytest.mark.conforms(
+    "1.1 texts are literal",
+    "1.3 PushEnvironment",
+    "1.3 PopEnvironment",
+    "1.3 PushLaunchConfigurations",
+    "1.3 PopLaunchConfigurations",
+    "1.3 UnsetLaunchConfiguration",
+    "1.3 OpaqueFunction",
+    "1.3 GroupAction",
+    "4.2 scoped without forwarding",
+    "4.2 not scoped",
+    "1.12.1 later names",
+)
 @pytest.mark.parametrize(("actions", "messages"), _SCOPES)
 def test_actions_do_what_they_say(actions: str, messages: list[str], tmp_path: Path) -> None:
     found = plans.python(tmp_path, actions)
@@ -453,6 +520,7 @@ class Declared(DeclareLaunchArgument):
 """
 
 
+@pytest.mark.conforms("1.2 Action.visit", "1.2 Action.execute")
 @pytest.mark.parametrize(
     ("actions", "commands", "messages"),
     [
@@ -473,6 +541,9 @@ def test_subclasses_of_users_do_what_their_code_says(
     assert (found.commands, found.messages, found.problems) == (commands, messages, [])
 
 
+@pytest.mark.conforms(
+    "1.3.1 no default", "1.3.1 value that is no choice", "1.3 PopEnvironment", "4.10 by stream"
+)
 @pytest.mark.parametrize(
     ("actions", "message"),
     [
@@ -489,6 +560,7 @@ def test_what_goes_wrong_in_a_visit_is_said(actions: str, message: str, tmp_path
     assert message in problem
 
 
+@pytest.mark.conforms("1.3 OpaqueCoroutine")
 def test_a_coroutine_runs_during_the_run(tmp_path: Path) -> None:
     (trigger,) = plans.python(
         tmp_path, "OpaqueCoroutine(coroutine=c)", "async def c(context): raise AssertionError"
@@ -496,6 +568,7 @@ def test_a_coroutine_runs_during_the_run(tmp_path: Path) -> None:
     assert (trigger["on"]["event"], trigger["deferred"]) == ("run_started", True)
 
 
+@pytest.mark.conforms("1.3 OpaqueCoroutine")
 def test_a_coroutine_gets_its_arguments() -> None:
     seen = []
 

@@ -45,6 +45,12 @@ def prefixes(tmp_path: Path) -> Iterator[tuple[str, str]]:
         yield str(over), str(under)
 
 
+@pytest.mark.conforms(
+    "1.17 get_package_prefix",
+    "1.17 get_package_share_directory",
+    "1.17 get_package_share_path",
+    "4.10 AMENT_PREFIX_PATH",
+)
 def test_the_first_prefix_that_has_a_package_counts(prefixes: tuple[str, str]) -> None:
     over, under = prefixes
     assert ament.get_package_prefix("lower") == over
@@ -52,6 +58,7 @@ def test_the_first_prefix_that_has_a_package_counts(prefixes: tuple[str, str]) -
     assert ament.get_package_share_path("only_under") == Path(under, "share", "only_under")
 
 
+@pytest.mark.conforms("1.17 get_packages_with_prefixes")
 def test_all_packages_are_known_with_their_prefixes(prefixes: tuple[str, str]) -> None:
     over, under = prefixes
     found = ament.get_packages_with_prefixes()
@@ -63,6 +70,7 @@ def test_all_packages_are_known_with_their_prefixes(prefixes: tuple[str, str]) -
     assert ".hidden" not in found
 
 
+@pytest.mark.conforms("1.17 get_package_prefix")
 @pytest.mark.parametrize("name", ["_package", "a package", "a/package", "a.package", "/a", "", "x"])
 def test_what_cannot_be_a_name_is_a_value_error(prefixes: tuple[str, str], name: str) -> None:
     del prefixes
@@ -70,6 +78,7 @@ def test_what_cannot_be_a_name_is_a_value_error(prefixes: tuple[str, str], name:
         ament.get_package_prefix(name)
 
 
+@pytest.mark.conforms("1.17 PackageNotFoundError")
 def test_a_missing_package_is_a_key_error_that_names_what_was_meant(prefixes: tuple[str, str]) -> None:
     del prefixes
     for look_up in (
@@ -83,6 +92,7 @@ def test_a_missing_package_is_a_key_error_that_names_what_was_meant(prefixes: tu
         assert str(raised.value) == "there is no package 'loewr' here, did you mean 'lower'?"
 
 
+@pytest.mark.conforms("1.17 get_package_share_directory", "1.17 get_package_share_path")
 def test_a_share_folder_that_does_not_exist_is_warned_of(prefixes: tuple[str, str]) -> None:
     over, _ = prefixes
     with pytest.warns(UserWarning, match="does not exist"):
@@ -100,6 +110,7 @@ def test_python_packages_are_found_without_ament(prefixes: tuple[str, str]) -> N
     assert (folder / "__init__.py").is_file()
 
 
+@pytest.mark.conforms("1.17 get_resource")
 def test_resources_are_those_of_the_first_prefix(prefixes: tuple[str, str]) -> None:
     over, under = prefixes
     assert ament.get_resource("robots", "arm") == ("six joints", over)
@@ -112,6 +123,7 @@ def test_resources_are_those_of_the_first_prefix(prefixes: tuple[str, str]) -> N
         ament.get_resource("robots", "wing")
 
 
+@pytest.mark.conforms("1.17 InvalidResourceTypeNameError")
 @pytest.mark.parametrize("name", ["a/b", "/a", "a\\b", ""])
 def test_names_of_resources_have_no_slashes(prefixes: tuple[str, str], name: str) -> None:
     del prefixes
@@ -124,10 +136,12 @@ def test_names_of_resources_have_no_slashes(prefixes: tuple[str, str], name: str
             look_up(name)
 
 
+@pytest.mark.conforms("1.17 get_search_paths")
 def test_prefixes_that_do_not_exist_are_not_searched(prefixes: tuple[str, str]) -> None:
     assert ament.get_search_paths() == list(prefixes)
 
 
+@pytest.mark.conforms("1.17 get_search_paths")
 def test_without_the_variable_there_is_the_interpreter_s_prefix_or_an_error(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -140,6 +154,7 @@ def test_without_the_variable_there_is_the_interpreter_s_prefix_or_an_error(
     assert ament.has_resource("packages", "wheel") == str(tmp_path)
 
 
+@pytest.mark.conforms("1.17 RESOURCE_INDEX_SUBFOLDER")
 def test_the_submodules_have_the_names_too() -> None:
     from orchestra.compat.ament_index_python import constants, packages, resources, search_paths  # noqa: PLC0415
 

@@ -47,6 +47,7 @@ def _holds_in_a_plan(condition: Condition, context: LaunchContext) -> bool:
     return (text in {"true", "1", "yes", "on"}) is (field == "if")
 
 
+@pytest.mark.conforms("1.5 IfCondition", "1.5 UnlessCondition", "D13")
 @pytest.mark.parametrize(
     ("text", "true"),
     [
@@ -70,6 +71,7 @@ def test_a_text_that_is_a_boolean_decides(text: Any, true: bool, context: Launch
         assert _holds_in_a_plan(condition, context) is holds
 
 
+@pytest.mark.conforms("1.5 IfCondition", "1.5 InvalidConditionExpressionError")
 @pytest.mark.parametrize("text", ["", " ", "typo", "2", "y", LaunchConfiguration("empty")])
 def test_anything_else_is_refused(text: Any, context: LaunchContext) -> None:
     for condition in (IfCondition(text), UnlessCondition(text)):
@@ -78,11 +80,13 @@ def test_anything_else_is_refused(text: Any, context: LaunchContext) -> None:
     assert issubclass(InvalidConditionExpressionError, ValueError)
 
 
+@pytest.mark.conforms("1.5 evaluate_condition_expression")
 def test_an_expression_is_a_list_of_substitutions(context: LaunchContext) -> None:
     parts = [TextSubstitution(text="tr"), TextSubstitution(text="ue")]
     assert evaluate_condition_expression(context, parts) is True
 
 
+@pytest.mark.conforms("1.5 IfCondition")
 @pytest.mark.parametrize("value", [True, None, 1, [True]])
 def test_a_boolean_of_python_is_no_condition(value: Any) -> None:
     with pytest.raises(TypeError):
@@ -95,6 +99,7 @@ def test_the_plan_has_the_condition_as_written() -> None:
     assert isinstance(template.parts[0], Call)
 
 
+@pytest.mark.conforms("1.5 LaunchConfigurationEquals", "1.5 LaunchConfigurationNotEquals", "D48")
 @pytest.mark.parametrize(
     ("name", "value", "equal"),
     [
@@ -140,6 +145,7 @@ class Never(IfCondition):
         return super().evaluate(context) and False
 
 
+@pytest.mark.conforms("1.5 Condition.evaluate", "1.2 Condition")
 def test_users_may_decide_otherwise(context: LaunchContext) -> None:
     assert not _holds_in_a_plan(Never("true"), context)
     assert not Condition().evaluate(context)

@@ -73,6 +73,17 @@ def test_all_names_are_there() -> None:
     assert all(callable(getattr(names, name)) for name in names.__all__)
 
 
+@pytest.mark.conforms(
+    "1.7 OnExecutionComplete",
+    "1.7 OnProcessStart",
+    "1.7 OnProcessExit",
+    "1.7 OnProcessIO",
+    "1.7 OnShutdown",
+    "1.7 OnIncludeLaunchDescription",
+    "1.7 event_named",
+    "1.7 target_action",
+    "1.7 EventHandler",
+)
 @pytest.mark.parametrize(
     ("handler", "event", "matches"),
     [
@@ -99,6 +110,7 @@ def test_handlers_want_their_events(handler: BaseEventHandler, event: Event, *, 
     assert handler.matches(event) is matches
 
 
+@pytest.mark.conforms("1.7 target_action", "1.7 OnActionEventBase")
 @pytest.mark.parametrize(
     "make",
     [
@@ -123,6 +135,7 @@ def test_what_cannot_be_is_refused_where_it_is_made(make: Callable[[], Any]) -> 
         make()
 
 
+@pytest.mark.conforms("1.7 what a handler returns", "1.7 BaseEventHandler", "1.7 EventHandler")
 @pytest.mark.parametrize(
     ("handler", "event"),
     [
@@ -145,6 +158,7 @@ def test_handling_gives_what_follows_and_makes_the_event_known(
     assert context.locals.event is event
 
 
+@pytest.mark.conforms("1.7 OnProcessIO")
 def test_output_is_handled_by_stream() -> None:
     seen = []
     handler = OnProcessIO(
@@ -157,12 +171,14 @@ def test_output_is_handled_by_stream() -> None:
     assert seen == [("in", b"x"), ("out", b"x"), ("err", b"x")]
 
 
+@pytest.mark.conforms("1.7 OnIncludeLaunchDescription")
 def test_a_description_that_an_event_brings_is_visited() -> None:
     description = LaunchDescription()
     event = IncludeLaunchDescription(description)
     assert OnIncludeLaunchDescription().handle(event, LaunchContext()) == [description]
 
 
+@pytest.mark.conforms("1.7 handle_once", "1.2 LaunchContext.would_handle_event")
 def test_a_handler_for_one_event_is_no_longer_registered_after_it() -> None:
     context = LaunchContext()
     handler = OnShutdown(on_shutdown=_LOG, handle_once=True)
@@ -236,6 +252,7 @@ def test_a_model_says_what_can_be_known_before_the_run(
     assert {model.span.file for model in models} == {"tests/compat/test_event_handlers.py"}
 
 
+@pytest.mark.conforms("1.3.2 on_exit", "1.3.2 cached_output")
 def test_the_handlers_of_a_process_are_registered_before_it() -> None:
     process = ExecuteProcess(cmd=["ls"], on_exit=[_LOG], cached_output=True)
     group: Any = process._to_model({"origin": process})
@@ -249,6 +266,7 @@ def test_the_handlers_of_a_process_are_registered_before_it() -> None:
     assert executable.origin is process
 
 
+@pytest.mark.conforms("1.3.2 cached_output", "1.3.2 events")
 def test_kept_output_is_what_came_through_the_streams() -> None:
     process = ExecuteProcess(cmd=["ls"], cached_output=True)
     group: Any = process._to_model({})
@@ -271,6 +289,18 @@ class Custom(Event):
 """
 
 
+@pytest.mark.conforms(
+    "1.3 RegisterEventHandler",
+    "1.3 EmitEvent",
+    "4.12 after a start",
+    "4.12 after an end",
+    "4.12 on output",
+    "4.12 any action",
+    "4.12 everything down",
+    "4.12 at shutdown",
+    "4.12 stop one process",
+    "1.3.2 events",
+)
 @pytest.mark.parametrize(
     ("actions", "event", "steps"),
     [
@@ -302,15 +332,18 @@ def test_event_handlers_become_triggers(
     assert [step["action"] for step in trigger["do"]] == steps
 
 
+@pytest.mark.conforms("1.3 UnregisterEventHandler")
 def test_a_handler_that_is_unregistered_again_is_not_in_the_plan(tmp_path: Path) -> None:
     actions = "process, RegisterEventHandler(handler), UnregisterEventHandler(handler)"
     assert plans.python(tmp_path, actions, _HEAD).triggers == []
 
 
+@pytest.mark.conforms("1.3 UnregisterEventHandler")
 def test_to_unregister_what_is_not_registered_is_an_error(tmp_path: Path) -> None:
     assert plans.python(tmp_path, "UnregisterEventHandler(handler)", _HEAD).problems
 
 
+@pytest.mark.conforms("1.3 EmitEvent", "1.7 EventHandler")
 def test_events_of_users_reach_their_handlers_after_the_visit(tmp_path: Path) -> None:
     actions = (
         "RegisterEventHandler(EventHandler(matcher=event_named('custom'), entities=[LogInfo(msg='handled')])), "

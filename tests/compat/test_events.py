@@ -20,6 +20,22 @@ def _process() -> ExecuteProcess:
     return ExecuteProcess(cmd=["ls"])
 
 
+@pytest.mark.conforms(
+    "1.6 ExecutionComplete",
+    "1.6 IncludeLaunchDescription",
+    "1.6 Shutdown",
+    "1.6 TimerEvent",
+    "1.6 process.ProcessStarted",
+    "1.6 process.ProcessExited",
+    "1.6 process.ProcessIO",
+    "1.6 process.ProcessStdin",
+    "1.6 process.ProcessStdout",
+    "1.6 process.ProcessStderr",
+    "1.6 process.SignalProcess",
+    "1.6 process.ShutdownProcess",
+    "1.6 process.ProcessTargetedEvent",
+    "1.2 Event",
+)
 @pytest.mark.parametrize(
     ("event", "name", "values"),
     [
@@ -88,22 +104,26 @@ def test_all_names_are_there() -> None:
         assert all(getattr(package, name) is not None for name in package.__all__)
 
 
+@pytest.mark.conforms("1.6 process.RunningProcessEvent")
 def test_an_event_of_a_process_knows_its_action() -> None:
     action = _process()
     event = process.ProcessStarted(action=action, **_RUNNING)
     assert event.action is event.execute_process_action is action
 
 
+@pytest.mark.conforms("1.6 process.SignalProcess")
 @pytest.mark.parametrize("number", [9, "SIGNONE", None])
 def test_a_signal_has_a_name(number: Any) -> None:
     with pytest.raises(TypeError):
         process.SignalProcess(signal_number=number, process_matcher=bool)
 
 
+@pytest.mark.conforms("1.6 process.SignalProcess")
 def test_a_signal_may_be_given_by_its_name() -> None:
     assert process.SignalProcess(signal_number="SIGKILL", process_matcher=bool).signal is signal.SIGKILL
 
 
+@pytest.mark.conforms("1.6 process.matches_pid", "1.6 process.matches_name", "1.6 process.matches_executable")
 @pytest.mark.parametrize(
     ("matcher", "matches"),
     [
@@ -122,6 +142,7 @@ def test_matchers_compare_the_running_process(matcher: ActionMatcher, *, matches
     assert matcher(action) is matches
 
 
+@pytest.mark.conforms("1.6 matches_action")
 def test_an_action_matches_itself_alone() -> None:
     action = _process()
     assert events.matches_action(action)(action)
@@ -129,6 +150,7 @@ def test_an_action_matches_itself_alone() -> None:
     assert events.matches_action(action).target is action
 
 
+@pytest.mark.conforms("1.3.2 properties", "1.3.2 events")
 def test_a_process_knows_how_it_ended() -> None:
     action = _process()
     action._observe(process.ProcessExited(returncode=3, action=action, **_RUNNING))

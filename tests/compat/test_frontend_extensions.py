@@ -131,6 +131,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.conforms("1.10 expose_action", "1.10 expose_substitution", "1.2 Action.parse")
 @pytest.mark.parametrize(
     ("language", "text", "name_at", "inner_at"),
     [
@@ -159,6 +160,7 @@ def test_what_is_exposed_can_be_written(
     assert _messages(plan) == ["hi"]
 
 
+@pytest.mark.conforms("1.10 expose_action")
 @pytest.mark.parametrize(
     ("text", "place", "message", "raised"),
     [
@@ -198,6 +200,7 @@ def test_one_resolution_leaves_nothing_to_the_next(folder: Path) -> None:
     assert [problem.message for problem in problems] == ["unknown action 'say'"]
 
 
+@pytest.mark.conforms("1.10 expose_action", "1.10 expose_substitution")
 @pytest.mark.parametrize(
     ("code", "message"),
     [
@@ -251,6 +254,7 @@ def _install(folder: Path, name: str, code: str) -> None:
     (info / "entry_points.txt").write_text(f"[launch.frontend.launch_extension]\n{name} = {name}\n")
 
 
+@pytest.mark.conforms("1.10 entry points")
 def test_installed_extensions_are_found_when_a_name_is_unknown(
     folder: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -270,6 +274,7 @@ def test_installed_extensions_are_found_when_a_name_is_unknown(
         assert _messages(plan) == ["xx"]
 
 
+@pytest.mark.conforms("1.10 entry points")
 def test_an_extension_that_fails_is_warned_of(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     site = folder / "site-packages"
     site.mkdir()

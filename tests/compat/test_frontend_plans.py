@@ -54,6 +54,7 @@ def _comparable(plan: Planned) -> Planned:
     return replace(plan, content={**plan.content, "file": None})
 
 
+@pytest.mark.conforms("1.10 Parser", "1.10 Entity")
 @pytest.mark.parametrize("language", ["xml", "yaml"])
 @given(written=st.lists(actions, max_size=6), inner=inner_actions)
 @settings(

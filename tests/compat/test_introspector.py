@@ -32,6 +32,7 @@ class Own(Action):
     """An action of a user."""
 
 
+@pytest.mark.conforms("1.2 LaunchIntrospector", "5.4 -p")
 def test_a_description_is_drawn_as_a_tree() -> None:
     words = ["ls", [LaunchConfiguration("a"), "b"]]
     process = ExecuteProcess(cmd=words, cwd="c", env={"N": "v"}, shell=True)  # noqa: S604 - a text of the test
@@ -73,6 +74,7 @@ def test_a_place_is_a_line_of_the_users() -> None:
     assert Path(Own()._place.span.file).name == Path(__file__).name
 
 
+@pytest.mark.conforms("1.2 InvalidLaunchFileError")
 @pytest.mark.parametrize(
     ("arguments", "expected"),
     [

@@ -39,6 +39,7 @@ def _transition(action: Any, start: str, transition: str, goal: str) -> StateTra
     return StateTransition(action=action, msg=message)
 
 
+@pytest.mark.conforms("1.15 numbers")
 def test_ids_are_those_of_lifecycle_msgs() -> None:
     messages = pytest.importorskip("lifecycle_msgs.msg", reason="needs ROS")
     for number, name in ChangeState.valid_transitions.items():
@@ -48,6 +49,7 @@ def test_ids_are_those_of_lifecycle_msgs() -> None:
     assert (len(ChangeState.valid_transitions), len(ChangeState.valid_states)) == (9, 11)
 
 
+@pytest.mark.conforms("1.15 events.lifecycle.ChangeState")
 def test_a_change_of_state_tells_what_is_asked_of_whom() -> None:
     node = _lifecycle_node()
     event = ChangeState(lifecycle_node_matcher=matches_action(node), transition_id=3)
@@ -57,12 +59,14 @@ def test_a_change_of_state_tells_what_is_asked_of_whom() -> None:
     assert not event.lifecycle_node_matcher(_lifecycle_node())
 
 
+@pytest.mark.conforms("1.15 events.lifecycle.ChangeState")
 @pytest.mark.parametrize("transition", [9, -1, "1", None])
 def test_another_transition_is_refused(transition: Any) -> None:
     with pytest.raises(ValueError, match="no transition of a lifecycle node"):
         ChangeState(lifecycle_node_matcher=lambda _: True, transition_id=transition)
 
 
+@pytest.mark.conforms("1.15 events.lifecycle.StateTransition")
 def test_a_transition_tells_what_the_message_says() -> None:
     node = _lifecycle_node()
     event = _transition(node, "configuring", "on_configure_success", "inactive")
@@ -75,12 +79,14 @@ def test_a_transition_tells_what_the_message_says() -> None:
     )
 
 
+@pytest.mark.conforms("1.15 events.matches_node_name")
 @pytest.mark.parametrize(("asked", "holds"), [("/a/n", True), ("a/n", True), ("n", False), ("/n", False)])
 def test_nodes_are_told_by_their_full_names(asked: str, holds: bool) -> None:
     assert matches_node_name(asked)(SimpleNamespace(node_name="/a/n")) is holds
     assert events.matchers.matches_node_name is matches_node_name
 
 
+@pytest.mark.conforms("1.15 events.lifecycle.matches_node_name")
 def test_the_older_matcher_warns() -> None:
     with pytest.warns(UserWarning, match="deprecated"):
         matcher = lifecycle.matches_node_name("n")
@@ -101,6 +107,7 @@ _MATCHES: dict[str, tuple[dict[str, Any], bool]] = {
 }
 
 
+@pytest.mark.conforms("1.15 event_handlers.OnStateTransition")
 @pytest.mark.parametrize(("filters", "matches"), _MATCHES.values(), ids=_MATCHES)
 def test_a_handler_waits_for_what_is_asked(filters: dict[str, Any], matches: bool) -> None:
     handler = OnStateTransition(entities=[LogInfo(msg="x")], **filters)
@@ -110,6 +117,7 @@ def test_a_handler_waits_for_what_is_asked(filters: dict[str, Any], matches: boo
     )
 
 
+@pytest.mark.conforms("1.15 event_handlers.OnStateTransition")
 def test_a_handler_waits_for_its_node() -> None:
     one, other = _lifecycle_node("a"), _lifecycle_node("b")
     handler = OnStateTransition(target_lifecycle_node=one, goal_state="active", entities=[])
@@ -119,6 +127,7 @@ def test_a_handler_waits_for_its_node() -> None:
     assert "LifecycleNode" in handler.matcher_description
 
 
+@pytest.mark.conforms("1.15 event_handlers.OnStateTransition")
 def test_only_lifecycle_nodes_have_states() -> None:
     with pytest.raises(RuntimeError, match="waits for a LifecycleNode"):
         OnStateTransition(target_lifecycle_node=Node(executable="x"), entities=[])
@@ -149,6 +158,7 @@ def _orders(trigger: dict[str, Any]) -> list[tuple[Any, ...]]:
     ]
 
 
+@pytest.mark.conforms("4.11 usual pattern", "1.12 LifecycleNode")
 def test_the_usual_way_up_is_two_triggers(tmp_path: Path) -> None:
     handler = "RegisterEventHandler(OnStateTransition(target_lifecycle_node=n, goal_state='inactive', entities=[change(3)]))"
     start, up = _triggers(tmp_path, f"change(1), {handler}")
@@ -198,6 +208,7 @@ def test_a_handler_of_a_user_is_left_for_the_run(tmp_path: Path) -> None:
     assert (trigger["on"]["event"], trigger["on"]["target"]) == ("state_changed", "/a/n")
 
 
+@pytest.mark.conforms("1.12 LifecycleTransition", "4.11 LifecycleTransition")
 def test_transitions_are_made_in_order(tmp_path: Path) -> None:
     action = "LifecycleTransition(lifecycle_node_names=['/a/n', ['a/', 'n']], transition_ids=[1, ['', '3']])"
     triggers = _triggers(tmp_path, action)
@@ -207,6 +218,7 @@ def test_transitions_are_made_in_order(tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.conforms("1.12 LifecycleTransition")
 @pytest.mark.parametrize("number", ["12", "'configure'"])
 def test_a_transition_that_is_none_is_an_error(number: str, tmp_path: Path) -> None:
     body = f"[LifecycleTransition(lifecycle_node_names=['n'], transition_ids=[{number}])]"

@@ -44,6 +44,7 @@ def _loading() -> Iterator[None]:
         yield
 
 
+@pytest.mark.conforms("1.12 exported names")
 def test_every_exported_name_is_there() -> None:
     assert len(names.__all__) == 14
     assert all(getattr(names, name).__module__.startswith("orchestra.compat.") for name in names.__all__)
@@ -105,12 +106,25 @@ _WRONG: dict[str, Callable[[], Any]] = {
 }
 
 
+@pytest.mark.conforms(
+    "1.12 Node",
+    "1.12 LifecycleNode",
+    "1.12 ComposableNodeContainer",
+    "1.12 LoadComposableNodes",
+    "1.12.1 parameters",
+    "1.12.1 remappings",
+    "1.12.1 ros_arguments",
+    "1.1 SomeRemapRules",
+    "1.1 SomeParameters",
+    "4.6.1 None",
+)
 @pytest.mark.parametrize("make", _WRONG.values(), ids=_WRONG)
 def test_what_is_of_a_wrong_type_is_refused_where_it_is_made(make: Callable[[], Any]) -> None:
     with pytest.raises(TypeError):
         make()
 
 
+@pytest.mark.conforms("1.12 LifecycleTransition")
 @pytest.mark.parametrize(
     ("names", "ids"), [([], [1]), (["n"], [])], ids=["without a node", "without a transition"]
 )
@@ -124,6 +138,7 @@ def test_a_lifecycle_node_has_a_name() -> None:
         LifecycleNode(executable="tool", name=None, namespace="")
 
 
+@pytest.mark.conforms("1.12.1 executable", "1.12.1 exec_name")
 def test_a_node_tells_what_it_was_given() -> None:
     package, executable = ["de", LC("x")], LC("y")
     node = Node(package=package, executable=executable, exec_name="label", arguments=["a"])
@@ -159,6 +174,18 @@ _NAMES: dict[str, tuple[list[str], dict[str, Any], str, str]] = {
 }
 
 
+@pytest.mark.conforms(
+    "1.12.1 node_name",
+    "4.4 relative",
+    "4.4 absolute",
+    "4.4 no namespace",
+    "4.4 empty",
+    "4.4 made absolute",
+    "4.4 root",
+    "4.4 full name",
+    "1.12 PushROSNamespace",
+    "D49",
+)
 @pytest.mark.parametrize(("pushed", "keywords", "namespace", "full"), _NAMES.values(), ids=_NAMES)
 def test_a_node_that_was_executed_knows_its_name(
     pushed: list[str], keywords: dict[str, Any], namespace: str, full: str
@@ -181,6 +208,7 @@ def test_a_node_that_was_executed_knows_its_name(
     assert node.expanded_remapping_rules == [("x", "y"), ("a", "bc")]
 
 
+@pytest.mark.conforms("1.13 ComposableNode")
 def test_a_component_tells_what_it_was_given() -> None:
     condition = IfCondition("true")
     component = _component(
@@ -222,6 +250,7 @@ def _without_span(value: Any) -> Any:
     return getattr(value, "raw", None) or getattr(value, "value", None)
 
 
+@pytest.mark.conforms("1.12.1 later names", "4.11 autostart", "D40")
 def test_newer_releases_start_lifecycle_nodes_by_themselves() -> None:
     component = ComposableLifecycleNode(package="demo", plugin="demo::Arm", autostart=True)
     node = LifecycleNode(executable="tool", name="n", namespace="", autostart=True)
@@ -231,6 +260,14 @@ def test_newer_releases_start_lifecycle_nodes_by_themselves() -> None:
     assert LifecycleNode(executable="tool", name="n", namespace="").node_autostart is False
 
 
+@pytest.mark.conforms(
+    "1.12 PushROSNamespace",
+    "1.12 SetRemap",
+    "1.12 SetParameter",
+    "1.12 SetROSLogDir",
+    "1.12 SetUseSimTime",
+    "1.12 ROSTimer",
+)
 def test_actions_tell_what_they_were_given() -> None:
     name = PushROSNamespace(LC("robot")).namespace
     assert name[0].describe() == "LaunchConfig('robot')"

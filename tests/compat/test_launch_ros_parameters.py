@@ -95,6 +95,24 @@ _VALUES: dict[str, tuple[Any, Any]] = {
 }
 
 
+@pytest.mark.conforms(
+    "1.16 normalize_parameters",
+    "4.6.1 dict",
+    "4.6.1 str",
+    "4.6.1 scalars",
+    "4.6.1 substitutions",
+    "4.6.1 lists of scalars",
+    "4.6.1 lists of texts",
+    "4.6.1 lists of lists",
+    "4.6.1 lists of substitutions",
+    "4.6.1 ParameterValue",
+    "4.6.2 as text",
+    "4.6.2 as number or boolean",
+    "4.6.2 without a type",
+    "4.6.2 as list",
+    "1.13 ParameterValue",
+    "D17",
+)
 @pytest.mark.parametrize(("written", "value"), _VALUES.values(), ids=_VALUES)
 def test_user_code_evaluates_values(written: Any, value: Any) -> None:
     (found,) = evaluate_parameters(LaunchContext(), normalize_parameters([{"a": {"b": written}}]))
@@ -129,12 +147,14 @@ _MIXED: dict[str, Any] = {
 }
 
 
+@pytest.mark.conforms("4.6.1 other mixes", "4.6.1 empty list", "D17")
 @pytest.mark.parametrize("written", _MIXED.values(), ids=_MIXED)
 def test_a_value_without_one_type_is_refused_when_it_is_evaluated(written: Any) -> None:
     with pytest.raises(TypeError):
         evaluate_parameters(LaunchContext(), normalize_parameters([{"a": written}]))
 
 
+@pytest.mark.conforms("4.6.1 other mixes", "4.6.1 empty list")
 @pytest.mark.parametrize("written", ["{a: 3}", "[1, 2.0]", "[]", "a: b: c", "null"])
 def test_such_a_value_is_an_error_in_a_plan_too(written: str, tmp_path: Path) -> None:
     found = of_python(
@@ -150,11 +170,13 @@ def _last_line(folder: Path) -> int:
     return (folder / "a.launch.py").read_text("utf-8").count("\n")
 
 
+@pytest.mark.conforms("4.6.1 names")
 def test_names_are_texts_and_substitutions() -> None:
     parameters = normalize_parameters([{("a", T("b")): 1, T("c"): {"d": {("e", "f"): 2}}}])
     assert evaluate_parameters(LaunchContext(), parameters) == ({"ab": 1, "c.d.ef": 2},)
 
 
+@pytest.mark.conforms("1.1 SomeParameters", "1.13 ParameterFile", "1.1 FilePath")
 def test_files_are_paths(tmp_path: Path) -> None:
     written = [
         "/a.yaml",
@@ -169,11 +191,13 @@ def test_files_are_paths(tmp_path: Path) -> None:
     del tmp_path
 
 
+@pytest.mark.conforms("4.6.1 bytes")
 def test_binary_data_stays_as_it_is() -> None:
     data = bytes([0xFF, 0x5C])
     assert evaluate_parameters(LaunchContext(), normalize_parameters([{"a": data}])) == ({"a": data},)
 
 
+@pytest.mark.conforms("1.12.1 parameters", "1.16 normalize_parameters")
 @pytest.mark.parametrize("parameters", ["/a.yaml", {"a": 1}, 5, [5], [{"a": 1}, object()]])
 def test_parameters_are_a_list(parameters: Any) -> None:
     with pytest.raises(TypeError):
@@ -187,6 +211,7 @@ def test_what_is_not_normalised_is_refused() -> None:
         evaluate_parameter_dict(LaunchContext(), [1])
 
 
+@pytest.mark.conforms("1.13 Parameter")
 def test_a_parameter_is_evaluated_to_name_and_value() -> None:
     parameter = Parameter(["a.", T("b")], [[T("x")], "_y"], value_type=List[str])  # noqa: UP006
     assert [item.describe() for item in parameter.name] == ["'a.'", "'b'"]
@@ -198,6 +223,7 @@ def test_a_parameter_is_evaluated_to_name_and_value() -> None:
     assert "a.b" in str(parameter)
 
 
+@pytest.mark.conforms("4.6.2 literal of another type", "4.6.2 as number or boolean", "1.13 ParameterValue")
 def test_a_value_that_does_not_fit_is_a_value_error() -> None:
     with pytest.raises(ValueError, match="x"):
         ParameterValue(T("x"), value_type=int).evaluate(LaunchContext())
@@ -205,6 +231,7 @@ def test_a_value_that_does_not_fit_is_a_value_error() -> None:
         ParameterValue(1, value_type=str)
 
 
+@pytest.mark.conforms("1.13 ParameterFile")
 def test_a_parameter_file_is_evaluated_into_a_file_of_its_own(tmp_path: Path) -> None:
     written = tmp_path / "given.yaml"
     written.write_text("/$(var ns)/n:\n  ros__parameters: {a: '$(var a)', b: \\$x}\n", "utf-8")
@@ -231,6 +258,7 @@ def test_a_parameter_file_without_substitutions_is_used_as_it_is(tmp_path: Path)
     assert written.exists()
 
 
+@pytest.mark.conforms("1.13 ParameterFile")
 def test_a_parameter_file_that_is_no_yaml_afterwards_is_refused(tmp_path: Path) -> None:
     written = tmp_path / "given.yaml"
     written.write_text("a: $(var x)", "utf-8")
@@ -240,6 +268,7 @@ def test_a_parameter_file_that_is_no_yaml_afterwards_is_refused(tmp_path: Path) 
         ParameterFile(written, allow_substs=True).evaluate(context)
 
 
+@pytest.mark.conforms("1.13 ParameterFile")
 def test_whether_a_file_is_evaluated_is_a_truth_value() -> None:
     with pytest.raises(TypeError):
         ParameterFile("/a.yaml", allow_substs=LaunchConfiguration("x"))
@@ -266,6 +295,7 @@ _NAMESPACES = [
 ]
 
 
+@pytest.mark.conforms("1.16 prefix_namespace", "4.4 relative", "4.4 absolute", "4.4 made absolute")
 @pytest.mark.parametrize(("base", "namespace", "together", "absolute"), _NAMESPACES)
 def test_namespaces_join(
     base: str | None, namespace: str | None, together: str | None, absolute: str | None
@@ -274,6 +304,7 @@ def test_namespaces_join(
     assert make_namespace_absolute(together) == absolute
 
 
+@pytest.mark.conforms("1.16 prefix_namespace")
 def test_namespaces_are_told_apart() -> None:
     assert is_root_namespace("/")
     assert not is_root_namespace("")
@@ -281,6 +312,7 @@ def test_namespaces_are_told_apart() -> None:
     assert not is_namespace_absolute("a/b")
 
 
+@pytest.mark.conforms("1.16 add_node_name")
 def test_node_names_are_counted() -> None:
     context = LaunchContext()
     assert get_node_name_count(context, "/a") == 0
@@ -290,6 +322,7 @@ def test_node_names_are_counted() -> None:
     assert (get_node_name_count(context, "/a"), get_node_name_count(context, "/c")) == (2, 0)
 
 
+@pytest.mark.conforms("1.16 normalize_remap_rules")
 def test_remapping_rules_have_two_sides() -> None:
     ((source, target),) = normalize_remap_rules([("a", [T("b"), "c"])])
     assert ([item.describe() for item in source], [item.describe() for item in target]) == (
@@ -298,10 +331,12 @@ def test_remapping_rules_have_two_sides() -> None:
     )
 
 
+@pytest.mark.conforms("D50")
 def test_every_exported_function_is_what_its_name_means() -> None:
     assert all(callable(getattr(utilities, name)) for name in utilities.__all__)
 
 
+@pytest.mark.conforms("1.16 to_parameters_list")
 def test_parameters_of_rclpy_are_made_of_values_and_files(tmp_path: Path) -> None:
     pytest.importorskip("rclpy", reason="needs ROS")
     file = tmp_path / "p.yaml"

@@ -205,6 +205,21 @@ _SAME: dict[str, tuple[str, list[dict[str, Any]]]] = {
 }  # fmt: skip
 
 
+@pytest.mark.conforms(
+    "1.12 Node",
+    "1.12 SetParameter",
+    "1.12 SetParametersFromFile",
+    "1.12 SetRemap",
+    "1.12 SetROSLogDir",
+    "1.12 SetUseSimTime",
+    "1.12 ROSTimer",
+    "1.12 ComposableNodeContainer",
+    "1.12 LoadComposableNodes",
+    "1.12.1 package",
+    "1.12.1 arguments",
+    "1.12.1 other keywords",
+    "1.13 ComposableNode",
+)
 @pytest.mark.parametrize(("body", "actions"), _SAME.values(), ids=_SAME)
 def test_both_give_one_plan(body: str, actions: list[dict[str, Any]], tmp_path: Path) -> None:
     environment = installed(tmp_path)
@@ -254,6 +269,7 @@ _FAULTS: dict[str, tuple[str, str]] = {
 }
 
 
+@pytest.mark.conforms("D18", "4.4 invalid")
 @pytest.mark.parametrize(("action", "message"), _FAULTS.values(), ids=_FAULTS)
 def test_a_fault_is_told_at_the_user_s_line(action: str, message: str, tmp_path: Path) -> None:
     body = f"""
@@ -288,6 +304,7 @@ def test_words_appended_to_the_command_are_ros_arguments(tmp_path: Path) -> None
     ]
 
 
+@pytest.mark.conforms("4.7 target")
 def test_a_component_is_loaded_into_the_container_of_an_action(tmp_path: Path) -> None:
     body = """
         container = ComposableNodeContainer(
@@ -302,6 +319,7 @@ def test_a_component_is_loaded_into_the_container_of_an_action(tmp_path: Path) -
     assert [(item["id"], item["container"]) for item in found.content["components"]] == [("/x", "/a/c")]
 
 
+@pytest.mark.conforms("4.6.2 Parameter")
 def test_parameter_is_for_every_node_in_the_process(tmp_path: Path) -> None:
     """`Parameter` is `-p` upstream: what an exact section said before counts all the same."""
     body = "[Node(executable='/bin/true', name='n', namespace='', parameters=[{'a': 1}, Parameter('a', 2)])]"
@@ -329,6 +347,7 @@ def test_a_subclass_of_a_node_is_a_node(tmp_path: Path) -> None:
     assert [step["message"] for step in trigger["do"]] == ["started /b"]
 
 
+@pytest.mark.conforms("1.12.1 node_name")
 def test_user_code_that_comes_later_knows_the_names(tmp_path: Path) -> None:
     body = """
         node = Node(executable='/bin/true', name='n', remappings=[('a', 'b')])

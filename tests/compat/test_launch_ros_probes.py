@@ -18,6 +18,16 @@ _REFUSED = {"[],{'name':'n','parameters':['/nope.yaml']}": "a parameter file tha
 _ACCEPTED = {"[],{'name':'/n1'}": "the slash before a node's name is taken away"}
 
 
+@pytest.mark.conforms(
+    "4.5 order",
+    "4.5 --ros-args",
+    "4.5 arguments and ROS arguments",
+    "4.6.1 str",
+    "4.6.3 content",
+    "D18",
+    "D49",
+    "1.12.1 name",
+)
 @pytest.mark.parametrize("record", _records(), ids=lambda record: record["in"])
 def test_a_node_is_started_as_by_upstream(record: dict[str, Any], tmp_path: Path) -> None:
     body = f"""

@@ -48,6 +48,7 @@ def _context(**configurations: str) -> LaunchContext:
     return context
 
 
+@pytest.mark.conforms("1.14 FindPackagePrefix", "1.14 FindPackageShare", "1.14 ExecutableInPackage")
 def test_places_of_packages_are_found(prefix: str) -> None:
     context = _context(p="demo", e="tool")
     assert FindPackagePrefix("demo").perform(context) == prefix
@@ -58,6 +59,9 @@ def test_places_of_packages_are_found(prefix: str) -> None:
     assert FindPackageShare("x").find("demo") == f"{prefix}/share/demo"
 
 
+@pytest.mark.conforms(
+    "1.14 FindPackage", "1.14 FindPackagePrefix", "1.14 FindPackageShare", "1.14 ExecutableInPackage"
+)
 def test_what_is_not_there_is_told_as_upstream_does() -> None:
     context = _context()
     for finder in (FindPackagePrefix("gone"), FindPackageShare("gone")):
@@ -82,6 +86,7 @@ _DESCRIBED: dict[str, tuple[Any, str]] = {
 }
 
 
+@pytest.mark.conforms("1.4 describe")
 @pytest.mark.parametrize(("substitution", "text"), _DESCRIBED.values(), ids=_DESCRIBED)
 def test_substitutions_are_described_as_upstream_does(substitution: Any, text: str) -> None:
     assert substitution.describe() == text
@@ -115,6 +120,7 @@ def test_a_finder_of_a_user_is_only_known_to_its_code() -> None:
     assert finder.perform(_context(b="mo")) == "/src/demo"
 
 
+@pytest.mark.conforms("1.14 Parameter", "1.12 SetParameter", "D25", "D59")
 def test_parameters_of_all_nodes_are_read_as_text() -> None:
     context = _context()
     PushLaunchConfigurations().execute(context)
@@ -141,6 +147,7 @@ launch:
 """
 
 
+@pytest.mark.conforms("1.10 Entity", "1.10 Parser")
 def test_classes_read_entities_for_actions_of_third_parties() -> None:
     root, parser = Parser.load(io.StringIO(_FILE))
     (entity,) = root.children

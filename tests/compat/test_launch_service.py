@@ -33,6 +33,13 @@ def _service(*entities: Any) -> LaunchService:
     return service
 
 
+@pytest.mark.conforms(
+    "1.2 LaunchService constructor",
+    "1.2 LaunchService.include_launch_description",
+    "1.2 LaunchService.run",
+    "1.2 LaunchService.context",
+    "D51",
+)
 def test_descriptions_are_visited_in_a_state_of_their_own() -> None:
     service = _service(SetLaunchConfiguration("a", "1"))
     assert "a" not in service.context.launch_configurations
@@ -42,6 +49,7 @@ def test_descriptions_are_visited_in_a_state_of_their_own() -> None:
     assert "a" not in LaunchService().context.launch_configurations
 
 
+@pytest.mark.conforms("1.2 LaunchService.emit_event")
 def test_events_are_handled_in_order_after_what_was_included() -> None:
     class Custom(Event):
         name = "custom"
@@ -61,10 +69,12 @@ def _fail(_: Any) -> None:
     raise RuntimeError("broken")
 
 
+@pytest.mark.conforms("1.2 LaunchService return value")
 def test_an_exception_ends_the_run_with_1() -> None:
     assert _service(OpaqueFunction(function=_fail)).run() == 1
 
 
+@pytest.mark.conforms("1.2 LaunchService.run", "1.2 LaunchService.run_async")
 def test_run_is_for_the_main_thread_and_run_async_is_not() -> None:
     errors: list[Exception] = []
     results: list[int] = []
@@ -83,6 +93,7 @@ def test_run_is_for_the_main_thread_and_run_async_is_not() -> None:
     assert results == [0]
 
 
+@pytest.mark.conforms("1.2 LaunchService second run")
 def test_a_service_does_not_run_twice_at_once() -> None:
     found: list[Exception] = []
 
@@ -97,6 +108,7 @@ def test_a_service_does_not_run_twice_at_once() -> None:
     assert len(found) == 1
 
 
+@pytest.mark.conforms("1.2 LaunchService.shutdown")
 def test_shutdown_ends_the_run_from_inside() -> None:
     service = _service()
 

@@ -26,6 +26,7 @@ def _fresh(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
     launch_logging.reset()
 
 
+@pytest.mark.conforms("1.11 get_logger", "D57")
 def test_messages_go_to_standard_error(capsys: pytest.CaptureFixture[str]) -> None:
     logger = launch_logging.get_logger("some.name")
     assert launch_logging.get_logger("some.name") is logger
@@ -37,6 +38,7 @@ def test_messages_go_to_standard_error(capsys: pytest.CaptureFixture[str]) -> No
     assert shown.out == ""
 
 
+@pytest.mark.conforms("1.11 launch_config")
 def test_the_level_is_that_of_all_loggers(capsys: pytest.CaptureFixture[str]) -> None:
     launch_config.level = logging.DEBUG
     launch_logging.get_logger("a").debug("seen")
@@ -46,6 +48,7 @@ def test_the_level_is_that_of_all_loggers(capsys: pytest.CaptureFixture[str]) ->
     assert capsys.readouterr().err.splitlines() == ["[DEBUG] [a]: seen"]
 
 
+@pytest.mark.conforms("1.11 launch_config")
 @pytest.mark.parametrize(
     ("form", "style", "line"),
     [
@@ -62,6 +65,9 @@ def test_messages_look_as_set(form: str, style: Any, line: str, capsys: pytest.C
     assert re.fullmatch(line, capsys.readouterr().err.splitlines()[1])
 
 
+@pytest.mark.conforms(
+    "4.10 OVERRIDE_LAUNCH_SCREEN_FORMAT", "4.10 OVERRIDE_LAUNCH_LOG_FORMAT", "1.11 get_logger"
+)
 def test_the_environment_has_the_last_word(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], tmp_path: Path
 ) -> None:
@@ -82,6 +88,7 @@ def test_a_named_format_has_a_style_of_its_own() -> None:
         launch_config.set_log_format("default", log_style="%")
 
 
+@pytest.mark.conforms("1.11 launch_config", "1.4 LaunchLogDir")
 def test_the_folder_is_that_of_the_run_unless_another_is_set(tmp_path: Path) -> None:
     assert launch_config.get_log_file_path("a.log") == "${run}/logs/a.log"
     with pytest.raises(ValueError, match="no folder"):
@@ -97,6 +104,7 @@ def test_the_folder_is_that_of_the_run_unless_another_is_set(tmp_path: Path) -> 
         assert LaunchLogDir().perform(context) == "${run}/logs"
 
 
+@pytest.mark.conforms("D57")
 def test_nothing_is_written_outside_the_run_unasked(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.chdir(tmp_path)
     launch_logging.get_logger("a").error("said")
@@ -107,6 +115,7 @@ def test_nothing_is_written_outside_the_run_unasked(tmp_path: Path, monkeypatch:
     assert launch_config.given_log_dir is None
 
 
+@pytest.mark.conforms("1.11 get_output_loggers")
 @pytest.mark.parametrize(
     ("config", "screen", "files"),
     [
@@ -154,6 +163,7 @@ def test_other_words_for_output_are_refused(config: Any) -> None:
         launch_logging.get_output_loggers("node", config)
 
 
+@pytest.mark.conforms("1.11 launch_config", "1.11 handlers")
 def test_files_may_be_written_by_the_users_own_handlers(tmp_path: Path) -> None:
     said: list[str] = []
 
@@ -176,6 +186,7 @@ def test_files_may_be_written_by_the_users_own_handlers(tmp_path: Path) -> None:
     assert said == [f"{tmp_path / 'launch.log'} utf-8", "!one", "two"]
 
 
+@pytest.mark.conforms("1.11 handlers")
 def test_handlers_are_those_of_python() -> None:
     assert issubclass(handlers.RotatingFileHandler, logging.handlers.RotatingFileHandler)
     assert handlers.NullHandler is handlers.NullHandler
@@ -183,6 +194,7 @@ def test_handlers_are_those_of_python() -> None:
         handlers.LogRecord  # noqa: B018
 
 
+@pytest.mark.conforms("1.11 log_launch_config")
 def test_the_settings_are_told(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
     launch_config.log_dir = str(tmp_path)
     launch_logging.log_launch_config(logger=launch_logging.get_logger("launch"))
@@ -192,6 +204,7 @@ def test_the_settings_are_told(capsys: pytest.CaptureFixture[str], tmp_path: Pat
     ]
 
 
+@pytest.mark.conforms("1.11 propagation", "1.11 reset")
 def test_the_loggers_of_python_are_left_alone() -> None:
     before = (logging.root.level, list(logging.root.handlers), set(logging.root.manager.loggerDict))
     launch_config.level = logging.DEBUG

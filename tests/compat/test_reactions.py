@@ -7,6 +7,8 @@ import subprocess
 import sys
 from typing import TYPE_CHECKING
 
+import pytest
+
 from tests.compat import plans
 
 if TYPE_CHECKING:
@@ -45,6 +47,19 @@ _ACTIONS = """
 """
 
 
+@pytest.mark.conforms(
+    "7 6",
+    "4.1 4",
+    "4.8 on_exit",
+    "4.9 8",
+    "1.7 OnProcessIO",
+    "1.7 OnShutdown",
+    "1.3.2 on_exit",
+    "1.3.2 cached_output",
+    "D26",
+    "4.12 on output",
+    "4.12 at shutdown",
+)
 def test_handlers_are_called_newest_first_with_the_scope_they_were_written_in(tmp_path: Path) -> None:
     path = plans.write(tmp_path / "a.launch.py", _ACTIONS, _BEFORE)
     run = subprocess.run(

@@ -52,6 +52,7 @@ def test_all_names_are_there() -> None:
     assert all(callable(getattr(names, name)) for name in names.__all__)
 
 
+@pytest.mark.conforms("1.2 LaunchDescriptionSource")
 @pytest.mark.parametrize(
     ("source", "method"),
     [
@@ -65,6 +66,7 @@ def test_a_source_says_how_it_is_read(source: LaunchDescriptionSource, method: s
     assert source.method == method
 
 
+@pytest.mark.conforms("1.8 paths")
 def test_a_location_is_known_when_the_description_is(python_file: str) -> None:
     context = LaunchContext()
     context.launch_configurations["file"] = python_file
@@ -75,22 +77,28 @@ def test_a_location_is_known_when_the_description_is(python_file: str) -> None:
     assert source.get_launch_description(context) is description
 
 
+@pytest.mark.conforms("1.2 LaunchDescriptionSource")
 def test_a_source_without_a_description_says_so() -> None:
     with pytest.raises(RuntimeError, match="no launch description"):
         LaunchDescriptionSource().get_launch_description(LaunchContext())
 
 
+@pytest.mark.conforms("1.8 PythonLaunchDescriptionSource", "1.8 AnyLaunchDescriptionSource")
 @pytest.mark.parametrize("kind", [PythonLaunchDescriptionSource, AnyLaunchDescriptionSource])
 def test_a_python_file_is_read(kind: Callable[[str], Any], python_file: str) -> None:
     (entity,) = kind(python_file).get_launch_description(LaunchContext()).entities
     assert isinstance(entity, LogInfo)
 
 
+@pytest.mark.conforms("1.8 FrontendLaunchDescriptionSource", "1.8 AnyLaunchDescriptionSource")
 @pytest.mark.parametrize("kind", [FrontendLaunchDescriptionSource, AnyLaunchDescriptionSource])
 def test_a_file_of_a_front_end_is_read(kind: Callable[[str], Any], yaml_file: str) -> None:
     assert len(kind(yaml_file).get_launch_description(LaunchContext()).entities) == 2
 
 
+@pytest.mark.conforms(
+    "1.8 get_launch_description_from_any_launch_file", "1.8 load_python_launch_file_as_module"
+)
 def test_functions_read_files_too(python_file: str, yaml_file: str) -> None:
     assert len(get_launch_description_from_any_launch_file(python_file).entities) == 1
     assert len(get_launch_description_from_any_launch_file(yaml_file).entities) == 2
@@ -99,6 +107,7 @@ def test_functions_read_files_too(python_file: str, yaml_file: str) -> None:
     assert load_python_launch_file_as_module(python_file).here == 1
 
 
+@pytest.mark.conforms("1.8 PythonLaunchDescriptionSource", "1.8 errors")
 def test_a_python_file_without_the_function_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "other.py"
     path.write_text("x = 1\n", "utf-8")
@@ -127,6 +136,7 @@ memory = LaunchDescription([LogInfo(msg=[LC('a'), '!'])])
 """
 
 
+@pytest.mark.conforms("1.3 IncludeLaunchDescription", "1.2 LaunchDescriptionSource")
 @pytest.mark.parametrize(
     ("source", "messages"),
     [

@@ -77,6 +77,7 @@ class Shouted(Substitution):
         return perform_substitutions(context, self._inner).upper()
 
 
+@pytest.mark.conforms("1.4 describe")
 @pytest.mark.parametrize(
     ("substitution", "described", "written"),
     [
@@ -122,6 +123,22 @@ def test_describes_itself_and_says_how_it_is_written(
     assert template(substitution, _SPAN).raw == written
 
 
+@pytest.mark.conforms(
+    "1.4 TextSubstitution",
+    "1.4 LaunchConfiguration",
+    "1.4 EnvironmentVariable",
+    "1.4 PathJoinSubstitution",
+    "1.4 PythonExpression",
+    "1.4 Command",
+    "1.4 NotSubstitution",
+    "1.4 AndSubstitution",
+    "1.4 AnySubstitution",
+    "1.4 IfElseSubstitution",
+    "1.4 LaunchLogDir",
+    "1.2 Substitution",
+    "1.12.1 later names",
+    "D43",
+)
 @pytest.mark.parametrize(
     ("substitution", "text"),
     [
@@ -175,6 +192,7 @@ def test_performs(substitution: Substitution, text: str, context: LaunchContext)
     assert context._engine.evaluate(template(["<", substitution, ">"], _SPAN)) == f"<{text}>"
 
 
+@pytest.mark.conforms("1.4 EqualsSubstitution")
 @pytest.mark.parametrize(
     ("left", "right", "equal"),
     [
@@ -203,6 +221,19 @@ def test_compares(left: Any, right: Any, equal: bool, context: LaunchContext) ->
         assert NotEqualsSubstitution(*sides).perform(context) == str(not equal).lower()
 
 
+@pytest.mark.conforms(
+    "1.4 LaunchConfiguration",
+    "1.4 EnvironmentVariable",
+    "1.4 FindExecutable",
+    "1.4 FileContent",
+    "1.4 Command",
+    "1.4 NotSubstitution",
+    "1.4 AndSubstitution",
+    "1.4 AnySubstitution",
+    "1.4 IfElseSubstitution",
+    "1.4 ThisLaunchFile",
+    "1.4 ThisLaunchFileDir",
+)
 @pytest.mark.parametrize(
     "substitution",
     [
@@ -231,6 +262,7 @@ def test_says_that_it_cannot_be_performed(substitution: Substitution, context: L
         substitution.perform(context)
 
 
+@pytest.mark.conforms("1.4 PythonExpression")
 @pytest.mark.parametrize(
     ("expression", "modules", "error"),
     [
@@ -248,6 +280,7 @@ def test_an_expression_raises_what_it_raises(
         PythonExpression(expression, modules).perform(context)
 
 
+@pytest.mark.conforms("1.4 LocalSubstitution", "1.2 LaunchContext.locals", "1.2 LaunchContext.extend_locals")
 def test_locals_are_what_the_context_knows(context: LaunchContext, tmp_path: Path) -> None:
     with pytest.raises(AttributeError, match="reason"):
         LocalSubstitution("reason").perform(context)
@@ -261,12 +294,14 @@ def test_locals_are_what_the_context_knows(context: LaunchContext, tmp_path: Pat
         ForEachVar("other").perform(context)
 
 
+@pytest.mark.conforms("1.4 ThisLaunchFile", "1.4 ThisLaunchFileDir")
 def test_a_launch_file_may_be_put_among_the_locals(context: LaunchContext) -> None:
     context.extend_locals({"current_launch_file_directory": "d", "current_launch_file_path": "d/f"})
     assert ThisLaunchFileDir().perform(context) == "d"
     assert ThisLaunchFile().perform(context) == "d/f"
 
 
+@pytest.mark.conforms("1.4 AnonName")
 def test_the_same_name_is_made_unique_once(context: LaunchContext) -> None:
     first = AnonName(["fo", "o"]).perform(context)
     assert first.startswith("foo_")
@@ -274,6 +309,7 @@ def test_the_same_name_is_made_unique_once(context: LaunchContext) -> None:
     assert AnonName("bar").perform(context) != first
 
 
+@pytest.mark.conforms("1.4 TextSubstitution", "D55")
 @pytest.mark.parametrize(
     "make",
     [
@@ -303,6 +339,7 @@ def test_other_types_are_refused(make: Any) -> None:
         make()
 
 
+@pytest.mark.conforms("1.4 IfElseSubstitution")
 def test_one_value_of_two_is_needed() -> None:
     with pytest.raises(RuntimeError, match="if_value"):
         IfElseSubstitution("true")

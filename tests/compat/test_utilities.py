@@ -54,6 +54,16 @@ def context() -> Iterator[LaunchContext]:
         yield context
 
 
+@pytest.mark.conforms(
+    "1.9 type_utils.coerce_to_type",
+    "2.6 str",
+    "2.6 int",
+    "2.6 float",
+    "2.6 bool",
+    "2.6 lists",
+    "2.6 no type",
+    "1.1 AllowedTypes",
+)
 @pytest.mark.parametrize(
     ("text", "data_type", "value"),
     [
@@ -89,6 +99,7 @@ def test_a_text_is_read_as_a_type(text: str, data_type: Any, value: Any) -> None
         assert type(read) is type(value)
 
 
+@pytest.mark.conforms("1.9 type_utils.coerce_to_type", "1.1 AllowedTypes")
 @pytest.mark.parametrize(
     ("text", "data_type"),
     [
@@ -135,6 +146,7 @@ def test_texts_may_pass_unread(value: Any, data_type: Any, read: Any) -> None:
     assert get_typed_value(value, data_type, can_be_str=True) == read
 
 
+@pytest.mark.conforms("1.9 type_utils")
 @pytest.mark.parametrize(
     ("texts", "data_type", "values"),
     [
@@ -164,6 +176,7 @@ def test_several_texts_of_several_types_are_refused() -> None:
         coerce_to_type(["a"])  # type: ignore[arg-type]
 
 
+@pytest.mark.conforms("1.9 type_utils")
 @pytest.mark.parametrize(
     ("value", "data_type", "can_be_str", "is_one"),
     [
@@ -191,6 +204,7 @@ def test_knows_what_is_of_a_type(value: Any, data_type: Any, can_be_str: bool, i
         assert is_instance_of_valid_type(value, can_be_str) is is_one
 
 
+@pytest.mark.conforms("1.9 type_utils", "1.1 AllowedTypes")
 def test_knows_what_is_a_type() -> None:
     assert [extract_type(kind) for kind in (int, List[bool])] == [(int, False), (bool, True)]
     assert is_typing_list(List)
@@ -203,6 +217,7 @@ def test_knows_what_is_a_type() -> None:
             extract_type(wrong)
 
 
+@pytest.mark.conforms("1.9 type_utils")
 def test_knows_what_is_a_substitution() -> None:
     assert all(map(is_substitution, (Text(text="a"), ["a", Text(text="b")], (Text(text="a"),))))
     assert not any(map(is_substitution, ([], "a", ["a"], 1, [1, Text(text="a")], iter([Text(text="a")]))))
@@ -210,6 +225,7 @@ def test_knows_what_is_a_substitution() -> None:
     assert not any(map(is_normalized_substitution, ([], Text(text="a"), [Text(text="a"), "b"], "a")))
 
 
+@pytest.mark.conforms("1.9 type_utils", "1.1 SomeValueType")
 @pytest.mark.parametrize(
     ("value", "data_type", "performed"),
     [
@@ -242,6 +258,7 @@ def test_values_may_be_substitutions(
     assert repr(found) == repr(performed)
 
 
+@pytest.mark.conforms("1.9 type_utils", "1.1 SomeValueType")
 @pytest.mark.parametrize(
     ("value", "data_type", "error"),
     [
@@ -300,6 +317,7 @@ class Waiting(LaunchDescriptionEntity):
         return self._future
 
 
+@pytest.mark.conforms("1.9 visit_all_entities_and_collect_futures", "1.2 LaunchDescriptionEntity")
 def test_entities_are_visited_depth_first(context: LaunchContext) -> None:
     innermost, plain, last = Waiting(future=1), Waiting(), Waiting(future=2)
     outer = Waiting(LaunchDescription([plain, innermost]), last, future=0)
@@ -307,6 +325,7 @@ def test_entities_are_visited_depth_first(context: LaunchContext) -> None:
     assert [entity.visited for entity in (outer, plain, innermost, last)] == [[context]] * 4
 
 
+@pytest.mark.conforms("1.9 normalize_to_list_of_entities")
 def test_entities_are_flattened() -> None:
     one, two, three = Waiting(), Waiting(), Waiting()
     assert normalize_to_list_of_entities([one, [two, three]]) == [one, two, three]
@@ -316,6 +335,9 @@ def test_entities_are_flattened() -> None:
             normalize_to_list_of_entities(wrong)
 
 
+@pytest.mark.conforms(
+    "1.9 normalize_to_list_of_substitutions", "1.9 perform_substitutions", "1.1 SomeSubstitutionsType"
+)
 def test_texts_become_substitutions_and_texts_again(context: LaunchContext) -> None:
     found = normalize_to_list_of_substitutions(["a", LaunchConfiguration("one"), Text(text="b")])
     assert [type(item).__name__ for item in found] == [
@@ -329,6 +351,7 @@ def test_texts_become_substitutions_and_texts_again(context: LaunchContext) -> N
             normalize_to_list_of_substitutions(wrong)
 
 
+@pytest.mark.conforms("1.9 ensure_argument_type")
 def test_arguments_are_checked_by_type() -> None:
     ensure_argument_type("a", str, "name")
     ensure_argument_type(1, (kind for kind in (str, int)), "name")
@@ -339,6 +362,7 @@ def test_arguments_are_checked_by_type() -> None:
             ensure_argument_type("a", types, name)
 
 
+@pytest.mark.conforms("1.9 is_a")
 def test_classes_are_told_apart() -> None:
     assert is_a(True, int)
     assert not is_a("a", int)
@@ -378,6 +402,7 @@ def _take(number: int, frame: Any) -> None:
     """A handler of Python, without which nobody hears of a signal."""
 
 
+@pytest.mark.conforms("1.9 AsyncSafeSignalManager")
 @pytest.mark.usefixtures("_caught")
 def test_signals_come_to_the_loop_while_the_manager_is_entered() -> None:
     heard: asyncio.Queue[int] = asyncio.Queue()

@@ -39,7 +39,7 @@ def marked_tests() -> dict[str, list[str]]:
     files = [str(path) for path in sorted(_TESTS.rglob("test_*.py")) if _speaks(path)]
     marked, said = _Marked(), io.StringIO()
     with contextlib.redirect_stdout(said):
-        status = pytest.main(["--collect-only", "-q", "-p", "no:cacheprovider", *files], plugins=[marked])
+        status = pytest.main(["--collect-only", "-qqq", "-p", "no:cacheprovider", *files], plugins=[marked])
     if status != pytest.ExitCode.OK:
         raise RuntimeError(said.getvalue())
     return {row: sorted(tests) for row, tests in marked.tests.items()}
