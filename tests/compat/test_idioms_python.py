@@ -1,0 +1,167 @@
+"""What public launch files do, each idiom in a file of our own: they resolve as upstream resolves them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from tests.compat.idioms import planned
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+INNER = """
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument("x_pose", default_value="a"),
+        DeclareLaunchArgument("y_pose", default_value="b"),
+        Node(package="demo", executable="talker", arguments=[LaunchConfiguration("x_pose")]),
+    ])
+"""
+
+# What is unusual: the file, its command lines.
+COMMANDS: dict[str, tuple[str, list[str]]] = {
+    "a share folder is found while the file is loaded": (
+        "return LaunchDescription([Node(package='demo', executable='talker', "
+        "arguments=[FindPackageShare(package='demo').find('demo').rpartition('/')[2]])])",
+        ["talker demo --ros-args"],
+    ),
+    "a prefix is a script of a shell": (
+        """[Node(package="demo", executable="talker", prefix='bash -c "sleep 5; $0 $@"')]""",
+        ["bash -c sleep 5; $0 $@ {demo}/talker --ros-args"],
+    ),
+    "remappings are a set, or the items of a mapping": (
+        "[Node(package='demo', executable='talker', remappings={('a', 'b')}),"
+        "Node(package='demo', executable='talker', remappings={'c': 'd'}.items())]",
+        ["talker --ros-args -r a:=b", "talker --ros-args -r c:=d"],
+    ),
+    "arguments come out of a generator": (
+        "[Node(package='demo', executable='talker', arguments=(str(item) for item in range(2)))]",
+        ["talker 0 1 --ros-args"],
+    ),
+    "expressions use all of Python": (
+        """[DeclareLaunchArgument("x", default_value="1.5"), Node(package="demo", executable="talker", arguments=[
+            PythonExpression(["__import__('os').path.basename('/a/b')"]),
+            PythonExpression(["(lambda value: value * 2)(", LC("x"), ")"]),
+            PythonExpression(["os.path.basename('/a/c')"], ["os"]),
+            PythonExpression(["f'{", LC("x"), ":.3f}'"]),
+        ])]""",
+        ["talker b 3.0 c 1.500 --ros-args"],
+    ),
+    "a context of one's own performs substitutions while the file is loaded": (
+        """
+        context = LaunchContext()
+        context.launch_configurations["q"] = "w"
+        known = [Command(["echo ", "hello"]).perform(context), LC("q").perform(context)]
+        return LaunchDescription([Node(package="demo", executable="talker", arguments=known)])
+        """,
+        ["talker hello w --ros-args"],
+    ),
+    "a function yields actions": (
+        """
+        def made(context):
+            yield Node(package="demo", executable="talker", name=LC("n").perform(context))
+            yield LaunchDescription([Node(package="demo", executable="listener")])
+        return LaunchDescription([DeclareLaunchArgument("n", default_value="m"), OpaqueFunction(function=made)])
+        """,
+        ["talker --ros-args -r __node:=m", "listener --ros-args"],
+    ),
+    "the list of entities is edited": (
+        """
+        ld = LaunchDescription()
+        ld.entities.append(Node(package="demo", executable="talker"))
+        ld.entities.insert(0, Node(package="demo", executable="listener"))
+        return ld
+        """,
+        ["listener --ros-args", "talker --ros-args"],
+    ),
+    "an included file is given more than it takes, with names like those that it has": (
+        """[IncludeLaunchDescription(PythonLaunchDescriptionSource([ThisLaunchFileDir(), "/inner.launch.py"]),
+            launch_arguments={"x_pose": "1", "z_pose": "2", "rviz": "no"}.items())]""",
+        ["talker 1 --ros-args"],
+    ),
+    "two nodes have one name": (
+        "[Node(package='demo', executable='talker', name='n'), Node(package='demo', executable='listener', name='n')]",
+        ["talker --ros-args -r __node:=n", "listener --ros-args -r __node:=n"],
+    ),
+    "a substitution cannot describe itself": (
+        """
+        class Odd(Substitution):
+            def describe(self):
+                return "".join(item.describe() for item in ["text"])
+            def perform(self, context):
+                return "performed"
+        return LaunchDescription([Node(package="demo", executable="talker", arguments=[Odd()])])
+        """,
+        ["talker performed --ros-args"],
+    ),
+    "a condition cannot describe itself": (
+        """
+        class Odd(launch.Condition):
+            def describe(self):
+                raise RuntimeError("no words")
+        holds = Odd(predicate=lambda context: context.launch_configurations["x"] == "y")
+        return LaunchDescription([DeclareLaunchArgument("x", default_value="y"),
+                                  Node(package="demo", executable="talker", condition=holds)])
+        """,
+        ["talker --ros-args"],
+    ),
+    "modules have the names that upstream's import, and submodules their place": (
+        """
+        from launch_ros.actions.node import ParameterFile as File, SomeRemapRules
+        from launch.actions.execute_process import ExecuteProcess as Process
+        made: launch.some_substitutions_type.SomeSubstitutionsType = ["a", "b"]
+        assert launch.launch_context.LaunchContext is LaunchContext
+        assert launch_ros.parameter_descriptions.ParameterFile is File
+        return LaunchDescription([Process(cmd=["ls", made])])
+        """,
+        ["ls ab"],
+    ),
+}
+
+
+@pytest.mark.parametrize(("code", "commands"), COMMANDS.values(), ids=list(COMMANDS))
+def test_files_resolve_that_upstream_resolves(tmp_path: Path, code: str, commands: list[str]) -> None:
+    plan = planned(tmp_path, code, files={"inner.launch.py": INNER})
+    assert plan.errors == []
+    assert plan.commands == [
+        command.replace("{demo}", f"{tmp_path}/install/lib/demo") for command in commands
+    ]
+
+
+def test_what_is_launched_may_depend_on_the_words_of_the_command_line(tmp_path: Path) -> None:
+    code = """
+    given = dict(word.split(":=") for word in sys.argv if ":=" in word)
+    return LaunchDescription([DeclareLaunchArgument("n"), Node(package="demo", executable="talker", name=given["n"])])
+    """
+    assert planned(tmp_path, code, "n:=there").commands == ["talker --ros-args -r __node:=there"]
+
+
+def test_what_upstream_lets_pass_is_told(tmp_path: Path) -> None:
+    given = """[IncludeLaunchDescription(PythonLaunchDescriptionSource([ThisLaunchFileDir(), "/inner.launch.py"]),
+        launch_arguments={"x_pose": "1", "z_pose": "2"}.items())]"""
+    (told,) = planned(tmp_path, given, files={"inner.launch.py": INNER}).warnings
+    assert "'z_pose'" in told
+    twice = "[Node(package='demo', executable='talker', name='n')] * 1 + [Node(executable='ls', name='n')]"
+    assert planned(tmp_path, twice).warnings == ["two nodes are called '/n'"]
+
+
+def test_a_parameter_file_is_optional_where_its_path_may_be_empty(tmp_path: Path) -> None:
+    code = """[DeclareLaunchArgument("f", default_value=""),
+        Node(package="demo", executable="talker", name="n", parameters=[LC("f"), {"a": 1}])]"""
+    plan = planned(tmp_path, code)
+    assert plan.errors == []
+    assert plan.parameters == [{"a": 1}]
+    assert plan.warnings == ["the path of the parameter file is empty"]
+
+
+def test_a_parameter_file_that_is_not_there_is_missed(tmp_path: Path) -> None:
+    code = "[Node(package='demo', executable='talker', name='n', parameters=['/no/such.yaml'])]"
+    assert planned(tmp_path, code).errors == ["there is no parameter file /no/such.yaml"]
