@@ -300,6 +300,7 @@ def test_what_is_wrong_is_refused(
     assert message in str(refused.value)
 
 
+@pytest.mark.conforms("1.10 Parser")
 @pytest.mark.parametrize(
     ("name", "text", "kind"),
     [
@@ -321,6 +322,7 @@ def test_files_are_read_by_path_and_open(tmp_path: Path, name: str, text: str, k
         assert isinstance(kind.load(stream)[1], kind)
 
 
+@pytest.mark.conforms("1.10 InvalidFrontendLaunchFileError")
 @pytest.mark.parametrize("text", ["<launch>", "launch: [", "a: 1\na: 2"])
 def test_a_file_that_cannot_be_read_is_refused(text: str) -> None:
     with pytest.raises(InvalidFrontendLaunchFileError):
@@ -341,6 +343,7 @@ def test_a_file_may_be_deprecated(text: str) -> None:
     assert (description.deprecated, description.deprecated_reason) == (True, "old")
 
 
+@pytest.mark.conforms("1.10 Parser")
 def test_the_parsers_are_known_by_language_and_file_name() -> None:
     assert set(Parser.get_available_extensions()) >= {"xml", "yaml"}
     assert Parser.is_extension_valid("xml")
@@ -375,6 +378,7 @@ _MAPPING = {
 }
 
 
+@pytest.mark.conforms("1.10 Entity")
 @pytest.mark.parametrize(
     "entity",
     [XmlEntity(ET.fromstring(_ELEMENT)), YamlEntity({"tag": _MAPPING})],  # noqa: S314 - our own text
@@ -408,6 +412,7 @@ def test_names_are_spelled_with_hyphens_or_underscores() -> None:
     entity.assert_entity_completely_parsed()
 
 
+@pytest.mark.conforms("1.10 type_utils")
 def test_types_have_names() -> None:
     assert get_data_type_from_identifier("list_of_int") == List[int]  # noqa: UP006 - what users write
     assert get_data_type_from_identifier("yaml") is None
@@ -415,6 +420,7 @@ def test_types_have_names() -> None:
     assert not check_is_list_entity(List[int])  # noqa: UP006
 
 
+@pytest.mark.conforms("1.10 parse_substitution")
 def test_texts_become_substitutions() -> None:
     assert [type(item) for item in parse_substitution("")] == [TextSubstitution]
     before, folder, after = parse_substitution(r"a\$ $(dirname)/b")
@@ -449,6 +455,7 @@ def test_an_expression_without_modules_has_none() -> None:
         expression.perform(LaunchContext())
 
 
+@pytest.mark.conforms("1.10 parse_substitution")
 def test_values_are_parsed_where_they_have_substitutions() -> None:
     assert parse_if_substitutions(1) == 1
     assert parse_if_substitutions(r"a\$b") == "a$b"

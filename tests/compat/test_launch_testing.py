@@ -52,6 +52,16 @@ def _planned(path: Path, text: str) -> tuple[Plan | None, tuple[Problem, ...]]:
     return plan, problems.ordered
 
 
+@pytest.mark.conforms(
+    "1.18 test files",
+    "1.18 actions.ReadyToTest",
+    "1.18 actions.Test",
+    "1.18 actions.GTest",
+    "1.18 post_shutdown_test",
+    "1.18 ready_to_test_action_timeout",
+    "1.18 markers.keep_alive",
+    "D60",
+)
 def test_a_test_of_a_launch_has_a_plan(tmp_path: Path) -> None:
     path = tmp_path / "test_a.py"
     plan, problems = _planned(
@@ -80,6 +90,7 @@ def generate_test_description():
     assert {trigger.location.span.file for trigger in plan.triggers} == {str(path)}
 
 
+@pytest.mark.conforms("1.18 parametrize", "D60")
 def test_of_several_values_the_first_counts(tmp_path: Path) -> None:
     plan, problems = _planned(
         tmp_path / "test_a.py",
@@ -94,6 +105,7 @@ def generate_test_description(word, other):
     assert [process.command for process in plan.processes] == [("prog", "first", "1")]
 
 
+@pytest.mark.conforms("1.18 util.KeepAliveProc", "D60")
 def test_functions_of_the_days_before_ready_to_test_are_called_too(tmp_path: Path) -> None:
     plan, problems = _planned(
         tmp_path / "test_a.py",
@@ -149,6 +161,7 @@ def test_every_name_can_be_imported(package: ModuleType) -> None:
     assert all(getattr(package, name) is not None for name in package.__all__)
 
 
+@pytest.mark.conforms("D60")
 @pytest.mark.parametrize(
     "used",
     [
@@ -165,6 +178,7 @@ def test_what_needs_a_run_says_so(used: object) -> None:
         used()
 
 
+@pytest.mark.conforms("1.18 markers.retry_on_failure")
 def test_a_test_is_tried_again_when_it_fails() -> None:
     calls: list[int] = []
 
