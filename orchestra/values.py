@@ -9,6 +9,17 @@ Scalar: TypeAlias = bool | int | float | str
 ParameterValue: TypeAlias = Scalar | tuple[bool, ...] | tuple[int, ...] | tuple[float, ...] | tuple[str, ...]
 Condition: TypeAlias = Literal["started", "ready", "completed", "exited"]
 Policy: TypeAlias = Literal["no", "on-failure", "always"]
+Level: TypeAlias = Literal["debug", "info", "warning", "error"]
+# What may happen in a run; `orchestra.plan.reactions.TriggerEvent` says what each is.
+EventName: TypeAlias = Literal[
+    "run_started",
+    "process_started",
+    "process_exited",
+    "process_completed",
+    "process_output",
+    "state_changed",
+    "shutdown",
+]
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,17 +6,9 @@ from typing import Any, Literal, TypeAlias
 
 from orchestra.description.entity import Entity
 from orchestra.description.nested import Children
+from orchestra.values import EventName
 
-HandledEvent: TypeAlias = Literal[
-    "run_started",
-    "process_started",
-    "process_exited",
-    "process_completed",
-    "process_output",
-    "state_changed",
-    "shutdown",
-    "custom",
-]
+HandledEvent: TypeAlias = EventName | Literal["custom"]
 
 
 class Handler(Entity):

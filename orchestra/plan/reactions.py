@@ -6,17 +6,7 @@ from dataclasses import dataclass
 from typing import Literal, TypeAlias
 
 from orchestra.location import Location
-
-EventName: TypeAlias = Literal[
-    "run_started",
-    "process_started",
-    "process_exited",
-    "process_completed",
-    "process_output",
-    "state_changed",
-    "shutdown",
-]
-Level: TypeAlias = Literal["debug", "info", "warning", "error"]
+from orchestra.values import EventName, Level
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
 from orchestra.location import Location
-from orchestra.resolve.reactions import EventName, TriggeredAction
+from orchestra.resolve.reactions import TriggeredAction
+from orchestra.values import EventName
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,7 +6,7 @@ import base64
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from orchestra.plan.reactions import EventName
+from orchestra.values import EventName
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -11,9 +11,10 @@ from orchestra.supervise.happening import in_order, run_started
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
 
-    from orchestra.plan.reactions import EventName, Trigger, TriggeredAction
+    from orchestra.plan.reactions import Trigger, TriggeredAction
     from orchestra.supervise.happening import Happening
     from orchestra.supervise.loop import Loop, Timer
+    from orchestra.values import EventName
 
 # While the run ends, a delay that is not dropped is awaited for so long, in seconds: everything is gone soon after.
 LONGEST_AT_THE_END = 3.0

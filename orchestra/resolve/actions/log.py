@@ -11,8 +11,8 @@ from orchestra.resolve.triggers import trigger
 
 if TYPE_CHECKING:
     from orchestra.description.actions.log import Log
-    from orchestra.resolve.reactions import Level
     from orchestra.resolve.resolution import Resolution
+    from orchestra.values import Level
 
 
 def visit(action: Log, run: Resolution) -> None:

@@ -13,8 +13,8 @@ if TYPE_CHECKING:
     from orchestra.description.actions.register_event_handler import RegisterEventHandler
     from orchestra.description.handlers import Handler
     from orchestra.location import Location
-    from orchestra.resolve.reactions import EventName
     from orchestra.resolve.resolution import Resolution
+    from orchestra.values import EventName
 
 # What an event handler with a matcher of its own may be waiting for; events of users' own come besides.
 _ANY: tuple[EventName, ...] = ("process_started", "process_exited", "state_changed", "shutdown")
