@@ -9,10 +9,11 @@ from typing import Any
 
 @dataclass(slots=True)
 class Exposures:
-    """Parse methods by name; `extended` tells that the installed extensions have been imported."""
+    """Parse methods by name, and parsers by language; `extended`: the installed extensions have been imported."""
 
     actions: dict[str, Callable[..., Any]] = field(default_factory=dict)
     substitutions: dict[str, Callable[..., Any]] = field(default_factory=dict)
+    parsers: dict[str, type[Any]] = field(default_factory=dict)
     extended: bool = False
 
     def packages(self) -> frozenset[str]:

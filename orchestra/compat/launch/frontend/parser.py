@@ -41,7 +41,6 @@ class Parser:
     """
 
     extensions_loaded: ClassVar[bool] = False
-    frontend_parsers: ClassVar[dict[str, type[Parser]] | None] = None
     _parsed: ClassVar[list[Entity]] = []  # the entities that are being parsed, outermost first
 
     @classmethod
@@ -103,14 +102,15 @@ class Parser:
     def load_parser_implementations(cls) -> None:
         """Find the parsers of all languages."""
         ours = {name: import_module(module).Parser for name, module in _LANGUAGES.items()}
-        Parser.frontend_parsers = {**parsers_of_third_parties(), **ours}
+        connection().front_end.exposures.parsers = {**parsers_of_third_parties(), **ours}
 
     @classmethod
     def get_parsers(cls) -> dict[str, type[Parser]]:
         """Return the parsers of all languages."""
-        if Parser.frontend_parsers is None:
+        exposures = connection().front_end.exposures
+        if not exposures.parsers:
             cls.load_parser_implementations()
-        return Parser.frontend_parsers or {}
+        return exposures.parsers
 
     @classmethod
     def get_available_extensions(cls) -> list[str]:
