@@ -29,6 +29,11 @@ class Place:
         self._span: Span | None = None
 
     @property
+    def file(self) -> str:
+        """The file, as its code names it."""
+        return self._code.co_filename
+
+    @property
     def span(self) -> Span:
         """The range of the expression."""
         if self._span is None:
@@ -61,12 +66,17 @@ def is_own(file: str) -> bool:
 def span_of(code: CodeType, instruction: int) -> Span:
     """Return the range of source text of an instruction; columns are counted in code points."""
     line, end_line, column, end_column = _positions(code, instruction // 2)
-    file = shown(code.co_filename)
-    line = line or code.co_firstlineno
+    return span_in(code.co_filename, (line or code.co_firstlineno, end_line, column, end_column))
+
+
+def span_in(file: str, positions: _Positions) -> Span:
+    """Return the range of source text between a line, an end line, and columns in bytes as the compiler counts."""
+    line, end_line, column, end_column = positions
+    line = line or 1
     if column is None or end_column is None or end_line is None:
-        return Span(file, line, 1, line, 1)
-    begin = _code_points(code.co_filename, line, column)
-    return Span(file, line, begin + 1, end_line, _code_points(code.co_filename, end_line, end_column) + 1)
+        return Span(shown(file), line, 1, line, 1)
+    begin = _code_points(file, line, column)
+    return Span(shown(file), line, begin + 1, end_line, _code_points(file, end_line, end_column) + 1)
 
 
 def shown(file: str) -> str:

@@ -6,15 +6,18 @@ Nothing here imports that stage, which stands above: it connects itself while la
 from __future__ import annotations
 
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, MutableMapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping, MutableMapping, Sequence
 
     from orchestra.compat.exposures import Exposures
-    from orchestra.description.entity import Action
-    from orchestra.description.source import Written
+    from orchestra.description.entity import Action, Entity
+    from orchestra.description.source import Keyed, Written
     from orchestra.description.text import Template
+    from orchestra.errors import Problem
+
+EntityT = TypeVar("EntityT", bound="Entity")
 
 
 class Engine(Protocol):
@@ -90,6 +93,14 @@ class FrontEnd(Protocol):
 
     def tree(self, text: str, name: str, language: str) -> Any:
         """Return the tree of a file in `xml` or `yaml`. Raises `InvalidFrontendLaunchFileError`."""
+
+    def entity(
+        self, kind: type[EntityT], mapping: Keyed, needed: Mapping[str, Any]
+    ) -> tuple[EntityT, tuple[Problem, ...]]:
+        """Return the model of some keys, and what is wrong with those that it leaves out for that.
+
+        `needed` are fields that it cannot be without.
+        """
 
     def template(self, written: Written) -> Template:
         """Return a text with its substitutions. Raises `ValueError` where it has faults."""

@@ -26,6 +26,7 @@ from pydantic_core import ErrorDetails, PydanticCustomError
 from orchestra.description.fields import Flag
 from orchestra.description.source import Keyed
 from orchestra.description.text import Template
+from orchestra.errors import Problem
 from orchestra.location import Span
 
 REPORTED = "reported"
@@ -56,16 +57,26 @@ class Entity(BaseModel):
     _span: Span = PrivateAttr()
     _faulty: bool = PrivateAttr(default=False)
     _origin: Any = PrivateAttr(default=None)
+    _faults: tuple[Problem, ...] = PrivateAttr(default=())
 
     @classmethod
-    def at(cls, span: Span, *, origin: Any = None, **values: Any) -> Self:  # noqa: ANN401 - any object, any field
+    def at(
+        cls,
+        span: Span,
+        *,
+        origin: Any = None,  # noqa: ANN401 - any object
+        faults: tuple[Problem, ...] = (),
+        **values: Any,  # noqa: ANN401 - any field
+    ) -> Self:
         """Return the entity that Python code made at a place, from values that need no reading.
 
-        Raises `ValidationError`.
+        `faults` are what was wrong with values that have been left out. Raises `ValidationError`.
         """
         entity = cls(**values)
         entity._span = span
         entity._origin = origin
+        entity._faults = faults
+        entity._faulty = bool(faults)
         return entity
 
     @property
@@ -77,6 +88,11 @@ class Entity(BaseModel):
     def faulty(self) -> bool:
         """Whether a part of the entity was wrong and has been left out."""
         return self._faulty
+
+    @property
+    def faults(self) -> tuple[Problem, ...]:
+        """What was wrong where nobody could report it: in Python code. The visit does."""
+        return self._faults
 
     @property
     def origin(self) -> Any:  # noqa: ANN401 - any object

@@ -60,7 +60,10 @@ def kind_of(value: object) -> str:
         return "nothing" if value.null else f"'{shortened(value.text)}'"
     if isinstance(value, dict):
         return "a mapping"
-    return "a list" if isinstance(value, list) else type(value).__name__
+    if isinstance(value, list):
+        return "a list"
+    raw = getattr(value, "raw", None)  # a text of Python code, read already
+    return type(value).__name__ if raw is None else f"'{shortened(raw)}'"
 
 
 def texts_in(tree: Any) -> Iterator[str]:  # noqa: ANN401 - a tree

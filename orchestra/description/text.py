@@ -57,6 +57,14 @@ class Template:
     faulty: bool = False
 
     @property
+    def action(self) -> Any:  # noqa: ANN401 - any object
+        """The action of a Python launch file that stands where a name could, None where a text does."""
+        match self.parts:
+            case (Opaque(target=target),) if not hasattr(target, "perform"):
+                return target
+        return None
+
+    @property
     def constant(self) -> str | None:
         """The text where nothing needs evaluating, else None."""
         texts = [part.text for part in self.parts if isinstance(part, Words)]

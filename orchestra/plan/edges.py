@@ -27,6 +27,7 @@ class Targets:
         self.nodes: dict[str, list[str]] = {}
         self.names: dict[str, list[str]] = {}
         self.labels: dict[str, list[str]] = {}
+        self.actions: dict[int, list[str]] = {}
         for identity, process in self.process.items():
             full = node_name(process)
             if full is not None:
@@ -35,6 +36,8 @@ class Targets:
                 self.names.setdefault(name, []).append(identity)
             for label in process.labels:
                 self.labels.setdefault(label, []).append(identity)
+            for action in {id(outer) for outer in process.around}:
+                self.actions.setdefault(action, []).append(identity)
 
 
 def dependencies(
@@ -79,6 +82,8 @@ def _circle(graph: Mapping[str, set[str]]) -> list[str] | None:
 
 def _found(written: ResolvedDependency, process: ResolvedProcess, targets: Targets) -> list[str]:
     name = written.name.text
+    if written.kind == "action":
+        return targets.actions.get(id(written.action), [])
     if written.kind == "node":
         return targets.nodes.get(_full(name, process), [])
     return (targets.labels if written.kind == "label" else targets.names).get(name, [])
@@ -95,6 +100,9 @@ def _full(name: str, process: ResolvedProcess) -> str:
 def _report_unknown(
     written: ResolvedDependency, process: ResolvedProcess, targets: Targets, problems: Problems
 ) -> None:
+    if written.kind == "action":
+        _report_idle(written, targets, problems)
+        return
     known = {"node": targets.nodes, "process": targets.names, "label": targets.labels}[written.kind]
     name = _full(written.name.text, process) if written.kind == "node" else written.name.text
     if not is_mistake(name, known, targets.resolved):
@@ -106,6 +114,15 @@ def _report_unknown(
         written.name.location,
         suggestion=nearest(name, known),
     )
+
+
+def _report_idle(written: ResolvedDependency, targets: Targets, problems: Problems) -> None:
+    """Report an action of which no process has come; where something was left out for its faults, it may be that."""
+    if targets.resolved.incomplete or any(process.faulty for process in targets.resolved.processes):
+        return
+    message = f"no process comes out of the {written.name.text} to wait for"
+    reason = "it is not in the launch description, or its condition leaves it out"
+    problems.error(Code.UNKNOWN_DEPENDENCY, message, written.name.location, notes=(reason,))
 
 
 def _check_ready(written: ResolvedDependency, target: str, targets: Targets, problems: Problems) -> None:

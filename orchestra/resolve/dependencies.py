@@ -28,11 +28,15 @@ def dependencies(written: Sequence[DependsOn], run: Resolution) -> tuple[Resolve
 def _dependency(written: DependsOn, run: Resolution) -> ResolvedDependency | Poison:
     targets = {"node": written.node, "process": written.process, "label": written.label}
     kind, template = next((kind, target) for kind, target in targets.items() if target is not None)
-    name, timeout = run.evaluate(template), run.number(written.timeout)
+    action = template.action
+    name = run.evaluate(template) if action is None else Value(template.raw, run.at(template.span))
+    timeout = run.number(written.timeout)
     condition = run.word(written.condition, CONDITIONS)
     if not isinstance(name, Value) or isinstance(timeout, Poison) or isinstance(condition, Poison):
         return POISON
     awaited = cast("Condition", condition or "started")
+    if action is not None:
+        return ResolvedDependency("action", name, awaited, timeout, action)
     return ResolvedDependency(cast("DependencyKind", kind), name, awaited, timeout)
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol
@@ -68,15 +69,22 @@ class Visitor(Protocol):
 def visit(actions: Sequence[Action], run: Resolution) -> None:
     """Visit actions in order, leaving out those whose condition says so."""
     run.depth += 1
+    around = run.around
     for action in actions:
         if not run.goes_on(action.span):
             break
+        if action.faults:
+            _report_faults(action, run)
         if not wanted(action, VISITORS[type(action).__name__], run):
             continue
         conditional = action.if_ is not None or action.unless is not None
         run.conditions += conditional
-        _visitor(type(action).__name__).visit(action, run)
-        if action.origin is not None:
+        if action.origin is None:
+            _visitor(type(action).__name__).visit(action, run)
+        else:
+            run.around = (*around, action.origin)
+            _visitor(type(action).__name__).visit(action, run)
+            run.around = around
             run.found.carried_out[id(action.origin)] = action.origin
         run.conditions -= conditional
     run.depth -= 1
@@ -90,6 +98,11 @@ def visit_file(description: Description, run: Resolution) -> None:
         message = f"{description.file} is deprecated: {description.deprecated.constant}"
         run.problems.warning(Code.DEPRECATED, message, at)
     visit(description.actions, run)
+
+
+def _report_faults(action: Action, run: Resolution) -> None:
+    chain = run.context.included_from
+    run.problems.extend(replace(fault, included_from=chain) for fault in action.faults)
 
 
 @cache

@@ -12,7 +12,7 @@ from orchestra.resolve.rcl.sections import Entry, Section
 from orchestra.resolve.reactions import ResolvedTrigger
 from orchestra.values import Condition, ParameterValue, Restart, Stop
 
-DependencyKind: TypeAlias = Literal["node", "process", "label"]
+DependencyKind: TypeAlias = Literal["node", "process", "label", "action"]
 Kind: TypeAlias = Literal["process", "node", "lifecycle_node", "container"]
 
 
@@ -69,12 +69,17 @@ class ResolvedRemap:
 
 @dataclass(frozen=True, slots=True)
 class ResolvedDependency:
-    """What a process waits for, by name; the plan finds the processes."""
+    """What a process waits for, by name; the plan finds the processes.
+
+    `action` is the object of a Python launch file, every process that comes out of which is meant; `name` then only
+    serves people.
+    """
 
     kind: DependencyKind
     name: Value
     condition: Condition
     timeout: float | None
+    action: Any = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +105,8 @@ class ResolvedProcess:
 
     `conditional` tells that a condition, which is true, stands on it or around it. `faulty` marks a process of which
     something has been reported: what follows from it is not reported again. Without `inherit_environment` it gets
-    nothing but `environment`. `origin` is the object of a Python launch file that made it.
+    nothing but `environment`. `origin` is the object of a Python launch file that made it, `around` are those that it
+    came out of, this one included.
     """
 
     kind: Kind
@@ -134,6 +140,7 @@ class ResolvedProcess:
     inherit_environment: bool = True
     autostart: bool = False
     origin: Any = field(default=None, compare=False, repr=False)
+    around: tuple[Any, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -84,7 +84,7 @@ class Frame:
 
 @dataclass(slots=True)
 class Resolution:
-    """Where the visit is, and what it may use."""
+    """Where the visit is, and what it may use. `around` are the objects of Python launch files that it is inside of."""
 
     inputs: Inputs
     problems: Problems
@@ -95,6 +95,7 @@ class Resolution:
     found: Found = field(default_factory=Found)
     frames: tuple[Frame, ...] = ()
     occasion: Occasion | None = None
+    around: tuple[Any, ...] = ()
     depth: int = 0
     steps: int = 0
     conditions: int = 0

@@ -87,6 +87,7 @@ def add_process(action: Running, program: Program, run: Resolution) -> int:
         inherit_environment=action.env_only is None,
         autostart=program.autostart,
         origin=action.origin,
+        around=run.around,
     )
     if run.occasion is not None:
         run.occasion.do.append(ResolvedStart(len(run.found.processes), location))

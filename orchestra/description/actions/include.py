@@ -28,6 +28,7 @@ class Include(Action):
     depends_on: tuple[DependsOn, ...] = Field(default=(), description="What every process inside waits for.")
 
     _language: Language | None = PrivateAttr(default=None)
+    _children: tuple[Action, ...] | None = PrivateAttr(default=None)
 
     @property
     def language(self) -> Language | None:
@@ -37,4 +38,14 @@ class Include(Action):
     def read_as(self, language: Language | None) -> Self:
         """Set what the file is read as; return the action."""
         self._language = language
+        return self
+
+    @property
+    def children(self) -> tuple[Action, ...] | None:
+        """What is included where no file is. Only Python code says it."""
+        return self._children
+
+    def holding(self, children: tuple[Action, ...]) -> Self:
+        """Set what is included instead of a file; return the action."""
+        self._children = children
         return self

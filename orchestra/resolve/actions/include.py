@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
@@ -19,7 +20,9 @@ from orchestra.resolve.resolution import Frame
 
 if TYPE_CHECKING:
     from orchestra.description.actions.include import Include
+    from orchestra.description.entity import Action
     from orchestra.description.launch import Description
+    from orchestra.resolve.model import ResolvedDependency
     from orchestra.resolve.resolution import Resolution
 
 # How deep includes and groups may nest: far more than anybody writes, far from the interpreter's recursion limit.
@@ -29,6 +32,10 @@ _DEEPEST = 150
 def visit(action: Include, run: Resolution) -> None:
     """Visit the actions of another file: in this scope as upstream, in one of its own where that is asked for."""
     for _ in repeated(action.for_each, run):
+        if action.children is not None:
+            with run.scope.nested() if run.flag(action.scoped) is True else nullcontext():
+                _include_object(action, action.children, run)
+            continue
         value = run.evaluate(action.file)
         path = existing_file(value, action.file, "launch file", run) if isinstance(value, Value) else None
         description = _description(path, action, run) if path is not None else None
@@ -56,11 +63,25 @@ def _include(action: Include, path: str, description: Description, run: Resoluti
         run.scope.mark_leaks(before, action.span)
 
 
-def _frame(action: Include, path: str, given: frozenset[str], run: Resolution) -> Frame:
-    label = run.text(action.label)
+def _include_object(action: Include, children: tuple[Action, ...], run: Resolution) -> None:
+    """Visit what Python code includes without a file: it belongs to the file that the visit is in."""
+    _arguments(action, run)
+    frames = run.frames
+    labels, depends_on = _marks(action, run)
+    run.frames = (*frames[:-1], replace(run.frame, labels=labels, depends_on=depends_on))
+    run.visit(children, run)
+    run.frames = frames
+
+
+def _marks(action: Include, run: Resolution) -> tuple[tuple[str, ...], tuple[ResolvedDependency, ...]]:
+    """Return the labels of every process inside, and what each waits for."""
+    label, edges = run.text(action.label), dependencies(action.depends_on, run)
     labels = run.frame.labels + ((label,) if isinstance(label, str) else ())
-    edges = dependencies(action.depends_on, run)
-    depends_on = run.frame.depends_on + (() if isinstance(edges, Poison) else edges)
+    return labels, run.frame.depends_on + (() if isinstance(edges, Poison) else edges)
+
+
+def _frame(action: Include, path: str, given: frozenset[str], run: Resolution) -> Frame:
+    labels, depends_on = _marks(action, run)
     return Frame(
         path,
         run.scope,

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.description.text import Opaque
 from orchestra.errors import Code
 from orchestra.resolve.components import Container, add_components
 from orchestra.resolve.context import Value
@@ -22,9 +21,8 @@ def visit(action: LoadComposableNode, run: Resolution) -> None:
 
 def _container(action: LoadComposableNode, run: Resolution) -> Container:
     """Return the container; a name without a slash in front is one in the root (launch_ros asks from there)."""
-    match action.target.parts:
-        case (Opaque(target=target),) if not hasattr(target, "perform"):
-            return Container(None, origin=target)
+    if action.target.action is not None:
+        return Container(None, origin=action.target.action)
     name = run.evaluate(action.target)
     if not isinstance(name, Value):
         return Container(None, faulty=True)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.exposures import Exposures
 from orchestra.compat.launch.frontend.invalid_frontend_launch_file_error import InvalidFrontendLaunchFileError
+from orchestra.description.source import Keyed
 from orchestra.errors import Problems
 from orchestra.load import yaml_file
 from orchestra.load.grammar import parse_template
@@ -17,7 +18,10 @@ from orchestra.load.xml_parser import NotXmlError, parse
 from orchestra.location import displayed
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from orchestra.compat.launch_xml.element import PlacedElement
+    from orchestra.compat.seam import EntityT
     from orchestra.description.source import Written
     from orchestra.description.text import Template
     from orchestra.errors import Problem
@@ -53,6 +57,16 @@ class LoadingFrontEnd:
         if problems.errors:
             raise FaultyFileError(language, problems.errors)
         return tree
+
+    def entity(
+        self, kind: type[EntityT], mapping: Keyed, needed: Mapping[str, Any]
+    ) -> tuple[EntityT, tuple[Problem, ...]]:
+        """Return the model of some keys, and what is wrong with those that it leaves out for that."""
+        problems = Problems()
+        whole = Keyed(mapping.span, mapping.head)
+        for name, value in (*mapping.items(), *needed.items()):
+            whole.put(name, value, mapping.keys_at.get(name, mapping.head))
+        return kind.model_validate(whole, context=Reader(problems)), problems.errors
 
     def template(self, written: Written) -> Template:
         """Return a text with its substitutions. Raises `InvalidSubstitutionError`."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.extensions import RUNNING, extension_fields, taken
 from orchestra.compat.launch.action import Action, ModelledAction
 from orchestra.compat.launch.actions.shutdown_action import Shutdown
 from orchestra.compat.launch.event_handlers.on_action_event_base import OnActionEventBase
@@ -16,6 +17,7 @@ from orchestra.compat.values import optional, scalar, written
 from orchestra.description.actions.executable import Executable as ExecutableModel
 from orchestra.description.actions.group import Group
 from orchestra.description.actions.register_event_handler import RegisterEventHandler
+from orchestra.description.running import Running
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -40,7 +42,7 @@ class ExecuteLocal(ModelledAction):
     Where `output` is not said, both streams go to the screen and to the log. `on_exit` is entities, or a callable that
     takes the event and the context and returns some; it is looked at each time the process ends. The environment
     variable OVERRIDE_LAUNCH_PROCESS_OUTPUT stands for every `output`, as upstream. Accepted without effect:
-    `output_format` and `log_cmd`.
+    `output_format` and `log_cmd`. Orchestra's own keys are keywords too (`orchestra.compat.extensions.RUNNING`).
     """
 
     def __init__(  # noqa: PLR0913 - upstream's signature
@@ -61,6 +63,7 @@ class ExecuteLocal(ModelledAction):
         respawn_max_retries: int = -1,
         **kwargs: Any,
     ) -> None:
+        self.__extensions = taken(kwargs, RUNNING)
         super().__init__(**kwargs)
         self.__process_description = process_description
         self.__shell = shell
@@ -177,7 +180,8 @@ class ExecuteLocal(ModelledAction):
             **{name: optional(value, span) for name, value in self.__timeouts.items()},
         }
         given = {name: value for name, value in fields.items() if value is not None}
-        return self.process_description._fields(span) | given
+        extensions = extension_fields(Running, self.__extensions, self._place)
+        return self.process_description._fields(span) | given | extensions
 
     def _handlers(self) -> list[Handler]:
         """Return what is done about the events of this process."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.building import models_of
+from orchestra.compat.extensions import extension_fields, taken
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.launch.actions.pop_environment import PopEnvironment
 from orchestra.compat.launch.actions.pop_launch_configurations import PopLaunchConfigurations
@@ -29,7 +30,8 @@ if TYPE_CHECKING:
 class GroupAction(ModelledAction):
     """Visit actions; unless told otherwise, what they set ends with the group.
 
-    Without `forwarding` what is set outside is not seen inside, but for `launch_configurations`.
+    Without `forwarding` what is set outside is not seen inside, but for `launch_configurations`. With `for_each`, a key
+    of Orchestra's own, they are visited once per value: `{"robot": ["robot1", "robot2"]}`.
     """
 
     def __init__(
@@ -41,6 +43,7 @@ class GroupAction(ModelledAction):
         launch_configurations: Mapping[Sub, Sub] | None = None,
         **left_over_kwargs: Any,
     ) -> None:
+        self.__extensions = taken(left_over_kwargs, ("for_each",))
         super().__init__(**left_over_kwargs)
         self.__actions = actions
         self.__scoped = scoped
@@ -55,9 +58,9 @@ class GroupAction(ModelledAction):
             self.__all = [*self.__before(), *self.__actions, *self.__after()]
         return self.__all
 
-    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:  # noqa: ARG002 - for subclasses
-        """Return the actions, with those that make the scope around them."""
-        return self.get_sub_entities()
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Return the actions, with those that make the scope around them; repeated ones are visited at once."""
+        return super().execute(context) if self.__extensions else self.get_sub_entities()
 
     def __before(self) -> list[LaunchDescriptionEntity]:
         settings = self.__launch_configurations
@@ -86,5 +89,6 @@ class GroupAction(ModelledAction):
             forwarding=None if self.__forwarding else scalar(value=False, span=span),
             keep=pairs(self.__launch_configurations.items(), span),
             children=models_of(self.__actions),
+            **extension_fields(Group, self.__extensions, self._place, children=()),
             **common,
         )

@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.building import models_of
+from orchestra.compat.extensions import INCLUDED, extension_fields, taken
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.launch.actions.set_launch_configuration import SetLaunchConfiguration
+from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.compat.launch.launch_description_source import LaunchDescriptionSource
 from orchestra.compat.launch.launch_description_sources.any_launch_description_source import (
     AnyLaunchDescriptionSource,
 )
+from orchestra.compat.place import here
 from orchestra.compat.values import pairs
 from orchestra.description.actions.include import Include
 
@@ -18,7 +22,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from orchestra.compat.launch.launch_context import LaunchContext
-    from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
     from orchestra.compat.text import Sub
     from orchestra.description.entity import Action as Model
 
@@ -26,7 +29,8 @@ if TYPE_CHECKING:
 class IncludeLaunchDescription(ModelledAction):
     """Visit a launch description: a source, or the path of a launch file of any kind.
 
-    `launch_arguments` are pairs of name and value, or a mapping; they are set before, and stay.
+    `launch_arguments` are pairs of name and value, or a mapping; they are set before, and stay. Orchestra's own keys
+    are keywords too (`orchestra.compat.extensions.INCLUDED`).
     """
 
     _role = "include"
@@ -38,6 +42,7 @@ class IncludeLaunchDescription(ModelledAction):
         launch_arguments: Iterable[tuple[Sub, Sub]] | Mapping[Sub, Sub] | None = None,
         **kwargs: Any,
     ) -> None:
+        self.__extensions = taken(kwargs, INCLUDED)
         super().__init__(**kwargs)
         source = launch_description_source
         if not isinstance(source, LaunchDescriptionSource):
@@ -67,7 +72,7 @@ class IncludeLaunchDescription(ModelledAction):
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Include the file; return what is to be visited where the description is an object."""
-        if self.__source._reads_file:
+        if self.__source._reads_file or self.__extensions:
             return super().execute(context)
         settings = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
         for setting in settings:
@@ -75,10 +80,26 @@ class IncludeLaunchDescription(ModelledAction):
         return [*settings, self.__source.get_launch_description(context)]
 
     def _is_as_described(self) -> bool:
-        return super()._is_as_described() and self.__source._reads_file
+        return super()._is_as_described() and (self.__source._reads_file or bool(self.__extensions))
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
         arguments = pairs(self.launch_arguments, span)
-        include = Include.at(span, file=self.__source._file(span), arg=arguments, **common)
+        file = self.__source._file(span)
+        extensions = extension_fields(Include, self.__extensions, self._place, file=file)
+        include = Include.at(span, file=file, arg=arguments, **extensions, **common)
+        if not self.__source._reads_file:
+            return include.holding(models_of((_Sourced(self.__source),)))
         return include.read_as(self.__source._language)
+
+
+class _Sourced(LaunchDescriptionEntity):
+    """The description of a source that only its own code knows."""
+
+    def __init__(self, source: LaunchDescriptionSource) -> None:
+        self._place = here()
+        self.__source = source
+
+    def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:
+        """Return the description."""
+        return [self.__source.get_launch_description(context)]
