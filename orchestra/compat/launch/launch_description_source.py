@@ -73,11 +73,16 @@ class LaunchDescriptionSource:
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
         """Return the description that is at a location. Raises `RuntimeError` where there is none."""
-        raise RuntimeError(f"the source {location} has no launch description")
+        if not self._is_file:
+            raise RuntimeError(f"the source {location} has no launch description")
+        return self.__read(location, LaunchContext())
 
     def __load(self, location: str, context: LaunchContext) -> LaunchDescription:
         if not self._is_file or not is_of_ours(self, "_get_launch_description"):
             return self._get_launch_description(location)
+        return self.__read(location, context)
+
+    def __read(self, location: str, context: LaunchContext) -> LaunchDescription:
         found: LaunchDescription = context._engine.load(location, self._language)
         return found
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterator, MutableMapping
 from dataclasses import dataclass
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.faults import ReportedError
@@ -14,6 +15,8 @@ from orchestra.resolve.context import Value
 from orchestra.resolve.model import InlineParameter
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from orchestra.resolve.resolution import Resolution
 
 _PARAMETERS = "global_params"
@@ -28,7 +31,10 @@ class ObjectValue(Value):
 
 
 class Configurations(MutableMapping[str, Any]):
-    """The variables. Upstream keeps two lists among them, which are made up here from what the scope has."""
+    """The variables. Upstream keeps two lists among them, which are made up here from what the scope has.
+
+    Setting such a list changes the scope; what is done to the list itself does not.
+    """
 
     def __init__(self, run: Resolution) -> None:
         self._run = run
@@ -49,7 +55,9 @@ class Configurations(MutableMapping[str, Any]):
 
     def __setitem__(self, name: str, value: Any) -> None:
         location = self._location()
-        if isinstance(value, str):
+        if name in (_PARAMETERS, _REMAPS) and isinstance(value, list | tuple):
+            self._make_up(name, value)
+        elif isinstance(value, str):
             self._run.scope.set(name, Value(value, location), location)
         else:
             self._run.scope.set(name, ObjectValue(str(value), location, value), location)
@@ -87,6 +95,29 @@ class Configurations(MutableMapping[str, Any]):
             (item.name, item.value) if isinstance(item, InlineParameter) else item.path
             for item in self._run.scope.parameters
         ]
+
+    def _make_up(self, name: str, items: Sequence[Any]) -> None:
+        """Let one of the lists be this: what is new in it is set for all nodes as an action would set it."""
+        known = self._made_up(name)
+        same = next(
+            (index for index, pair in enumerate(zip(known, items, strict=False)) if pair[0] != pair[1]), None
+        )
+        count = min(len(known), len(items)) if same is None else same
+        if name == _REMAPS:
+            self._run.scope.remaps = self._run.scope.remaps[:count]
+        else:
+            self._run.scope.parameters = self._run.scope.parameters[:count]
+        self._run.engine.visit([_action(name, item) for item in items[count:]])
+
+
+def _action(name: str, item: Any) -> Any:
+    """Return the action that adds an item to one of the lists: a rule, a name with a value, or the path of a file."""
+    actions = import_module("orchestra.compat.launch_ros.actions")  # which few launch files need here
+    if name == _REMAPS:
+        return actions.SetRemap(*item)
+    return (
+        actions.SetParameter(*item) if isinstance(item, tuple) else actions.SetParametersFromFile(str(item))
+    )
 
 
 class Environment(MutableMapping[str, str]):

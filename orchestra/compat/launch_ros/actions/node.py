@@ -61,6 +61,8 @@ class Node(ExecuteProcess):
         self.__node_name = name
         self.__node_namespace = namespace
         self.__arguments = None if arguments is None else _listed(arguments)
+        # read once: a word may come out of an iterator
+        self.__argument_words = [normalized(word) for word in self.__arguments or ()]
         self.__ros_arguments = _checked(ros_arguments, "ros_arguments")
         self.__parameters = normalize_parameters(_checked(parameters, "parameters") or [])
         self.__remappings = normalize_remap_rules(() if remappings is None else remappings)
@@ -142,7 +144,7 @@ class Node(ExecuteProcess):
         """Return the fields that the models of all kinds of nodes share."""
         span = self._place.span
         package, name, namespace = (optional(item, span) for item in self.__names)
-        arguments = tuple(template(word, span) for word in self.__arguments or ())
+        arguments = tuple(template(word, span) for word in self.__argument_words)
         return {
             "pkg": package,
             "exec": template(self.__node_executable, span),
@@ -161,7 +163,7 @@ class Node(ExecuteProcess):
         if self.__package is not None:
             program = ExecutableInPackage(package=self.__package, executable=self.__node_executable)
         ros_arguments = () if self.__ros_arguments is None else (_ROS_ARGUMENTS, *self.__ros_arguments)
-        return [program, *(self.__arguments or ()), *ros_arguments, _ROS_ARGUMENTS]
+        return [program, *self.__argument_words, *ros_arguments, _ROS_ARGUMENTS]
 
     def __ros_words(self) -> tuple[Template, ...] | None:
         """Return the ROS arguments, with what users have appended to `cmd` since, which ends with `--ros-args`."""
