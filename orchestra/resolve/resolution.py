@@ -69,6 +69,7 @@ class Frame:
     `given` are the arguments of its include, which stands at `included_at`; `scope` and `mark` tell what was set when
     its visit began, `choices` how many conditions and repetitions are around it. `fixed`: its include can name no
     other file.
+    `private`: what it sets is not seen outside, so that arguments which are given to it are nobody else's.
     """
 
     path: str
@@ -80,6 +81,7 @@ class Frame:
     given: frozenset[str] = frozenset()
     labels: tuple[str, ...] = ()
     depends_on: tuple[ResolvedDependency, ...] = ()
+    private: bool = False
 
 
 @dataclass(slots=True)

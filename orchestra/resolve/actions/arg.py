@@ -78,6 +78,8 @@ def _record(
     description = _text(action.description) if action.description is not None else None
     given, at = name in run.frame.given, run.at(action.span)
     known = run.found.arguments.get(name)
+    if given and run.frame.private:
+        return
     if known is None or (known.given and not given):
         found = ResolvedArgument(name, default, text, description, choices, at, given)
         run.found.arguments[name] = found

@@ -92,6 +92,7 @@ def _frame(action: Include, path: str, given: frozenset[str], run: Resolution) -
         given,
         labels,
         depends_on,
+        private=action.for_each is not None or run.flag(action.scoped) is True,
     )
 
 
