@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
@@ -9,19 +10,22 @@ from orchestra.compat.building import models_of
 from orchestra.compat.extensions import INCLUDED, extension_fields, taken
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.launch.actions.set_launch_configuration import SetLaunchConfiguration
+from orchestra.compat.launch.launch_context import LaunchContext
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.compat.launch.launch_description_source import LaunchDescriptionSource
 from orchestra.compat.launch.launch_description_sources.any_launch_description_source import (
     AnyLaunchDescriptionSource,
 )
+from orchestra.compat.launch.substitutions.substitution_failure import SubstitutionFailure
 from orchestra.compat.place import here
+from orchestra.compat.text import normalized
 from orchestra.compat.values import pairs
 from orchestra.description.actions.include import Include
+from orchestra.location import is_file
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.text import Sub
     from orchestra.description.entity import Action as Model
 
@@ -47,14 +51,14 @@ class IncludeLaunchDescription(ModelledAction):
         source = launch_description_source
         if not isinstance(source, LaunchDescriptionSource):
             source = AnyLaunchDescriptionSource(source)
-        self.__source = source
+        self.__launch_description_source = source
         given = launch_arguments.items() if isinstance(launch_arguments, Mapping) else launch_arguments
         self.__launch_arguments = tuple(given or ())
 
     @property
     def launch_description_source(self) -> LaunchDescriptionSource:
         """The source."""
-        return self.__source
+        return self.__launch_description_source
 
     @property
     def launch_arguments(self) -> tuple[tuple[Sub, Sub], ...]:
@@ -63,34 +67,56 @@ class IncludeLaunchDescription(ModelledAction):
 
     def describe(self) -> str:
         """Return what is included."""
-        return f"{type(self).__name__}({self.__source.location})"
+        return f"{type(self).__name__}({self.__launch_description_source.location})"
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the description, as far as it is known without a visit."""
-        found = self.__source.try_get_launch_description_without_context()
+        found = self.__launch_description_source.try_get_launch_description_without_context()
         return [] if found is None else [found]
+
+    def _get_launch_file(self) -> str:
+        """Return the absolute path of the launch file, for subclasses of users."""
+        return os.path.abspath(self.__launch_description_source.location)  # noqa: PTH100 - as upstream, no link is followed
+
+    def _get_launch_file_directory(self) -> str:
+        """Return the folder of the launch file, for subclasses of users; `<script>` where there is none."""
+        location = self.__launch_description_source.location
+        return os.path.dirname(self._get_launch_file()) if is_file(location) else "<script>"  # noqa: PTH120
+
+    def _try_get_arguments_names_without_context(self) -> list[str] | None:
+        """Return the names of the arguments that are given, None where they depend on a visit."""
+        context = LaunchContext()
+        try:
+            return [
+                "".join(item.perform(context) for item in normalized(name))
+                for name, _ in self.launch_arguments
+            ]
+        except SubstitutionFailure:
+            return None
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Include the file; return what is to be visited where the description is an object."""
-        if self.__source._reads_file or self.__extensions:
+        if self.__launch_description_source._reads_file or self.__extensions:
             return super().execute(context)
         settings = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
         for setting in settings:
             setting._place = self._place
-        return [*settings, self.__source.get_launch_description(context)]
+        return [*settings, self.__launch_description_source.get_launch_description(context)]
 
     def _is_as_described(self) -> bool:
-        return super()._is_as_described() and (self.__source._reads_file or bool(self.__extensions))
+        return super()._is_as_described() and (
+            self.__launch_description_source._reads_file or bool(self.__extensions)
+        )
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
         arguments = pairs(self.launch_arguments, span)
-        file = self.__source._file(span)
+        file = self.__launch_description_source._file(span)
         extensions = extension_fields(Include, self.__extensions, self._place, file=file)
         include = Include.at(span, file=file, arg=arguments, **extensions, **common)
-        if not self.__source._reads_file:
-            return include.holding(models_of((_Sourced(self.__source),)))
-        return include.read_as(self.__source._language)
+        if not self.__launch_description_source._reads_file:
+            return include.holding(models_of((_Sourced(self.__launch_description_source),)))
+        return include.read_as(self.__launch_description_source._language)
 
 
 class _Sourced(LaunchDescriptionEntity):
