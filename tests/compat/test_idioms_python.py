@@ -113,6 +113,66 @@ COMMANDS: dict[str, tuple[str, list[str]]] = {
         """,
         ["talker --ros-args"],
     ),
+    "a word comes out of an iterator": (
+        """
+        import itertools
+        rule = itertools.chain.from_iterable((("-r ", LC("c", default="c"), ":"), ("a:=b",)))
+        return LaunchDescription([Node(package="demo", executable="talker", arguments=["--args", rule])])
+        """,
+        ["talker --args -r c:a:=b --ros-args"],
+    ),
+    "a source changes what is in the file that it reads": (
+        """
+        from launch.utilities import normalize_to_list_of_substitutions as normalized
+        class Changed(PythonLaunchDescriptionSource):
+            def _get_launch_description(self, location):
+                description = super()._get_launch_description(location)
+                for node in description.entities:
+                    if isinstance(node, Node) and node.node_executable == "talker":
+                        rules = list(node._Node__remappings or [])
+                        node._Node__remappings = [*rules, (normalized("/tf"), normalized("tf"))]
+                return LaunchDescription([GroupAction(description.entities)])
+        return LaunchDescription([IncludeLaunchDescription(Changed([ThisLaunchFileDir(), "/inner.launch.py"]))])
+        """,
+        ["talker a --ros-args -r /tf:=tf"],
+    ),
+    "a description is asked for its arguments before it is included": (
+        """
+        source = PythonLaunchDescriptionSource(str(Path(__file__).parent / "inner.launch.py"))
+        known = source.get_launch_description(LaunchContext()).get_launch_arguments()
+        mine = [argument for argument in known if argument.name != "y_pose"]
+        given = [(argument.name, [LC(argument.name), "+"]) for argument in mine]
+        return LaunchDescription([*mine, IncludeLaunchDescription(source, launch_arguments=given)])
+        """,
+        ["talker a+ --ros-args"],
+    ),
+    "an include of one's own has a scope": (
+        """
+        class Scoped(IncludeLaunchDescription):
+            def execute(self, context):
+                context.extend_locals({"current_launch_file_directory": self._get_launch_file_directory()})
+                assert self._try_get_arguments_names_without_context() == ["x_pose"]
+                inner = self.launch_description_source.get_launch_description(context)
+                assert self._get_launch_file().endswith("/inner.launch.py")
+                settings = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
+                return [PushLaunchConfigurations(), *settings, inner, PopLaunchConfigurations()]
+        source = PythonLaunchDescriptionSource([ThisLaunchFileDir(), "/inner.launch.py"])
+        after = Node(package="demo", executable="listener", arguments=[LC("x_pose", default="unset")])
+        return LaunchDescription([Scoped(source, launch_arguments={"x_pose": "1"}.items()), after])
+        """,
+        ["talker 1 --ros-args", "listener unset --ros-args"],
+    ),
+    "rules for all nodes are appended to upstream's list": (
+        """
+        def rules(context):
+            known = context.launch_configurations.get("ros_remaps", [])
+            known.append(("a", "b"))
+            context.launch_configurations["ros_remaps"] = known
+        return LaunchDescription([SetRemap("x", "y"), OpaqueFunction(function=rules),
+                                  Node(package="demo", executable="talker")])
+        """,
+        ["talker --ros-args -r x:=y -r a:=b"],
+    ),
     "modules have the names that upstream's import, and submodules their place": (
         """
         from launch_ros.actions.node import ParameterFile as File, SomeRemapRules
@@ -151,6 +211,20 @@ def test_what_upstream_lets_pass_is_told(tmp_path: Path) -> None:
     assert "'z_pose'" in told
     twice = "[Node(package='demo', executable='talker', name='n')] * 1 + [Node(executable='ls', name='n')]"
     assert planned(tmp_path, twice).warnings == ["two nodes are called '/n'"]
+
+
+def test_parameters_for_all_nodes_are_appended_to_upstreams_list(tmp_path: Path) -> None:
+    code = """
+    class Everywhere(launch.Action):
+        def execute(self, context):
+            known = context.launch_configurations.get("global_params", [])
+            known += [("b", 2), str(Path(__file__).parent / "some.yaml")]
+            context.launch_configurations["global_params"] = known
+    return LaunchDescription([SetParameter("a", 1), Everywhere(), Node(package="demo", executable="talker", name="n")])
+    """
+    plan = planned(tmp_path, code, files={"some.yaml": "/**: {ros__parameters: {c: 3}}\n"})
+    assert plan.errors == []
+    assert plan.parameters == [{"a": 1, "b": 2, "c": 3}]
 
 
 def test_a_parameter_file_is_optional_where_its_path_may_be_empty(tmp_path: Path) -> None:
