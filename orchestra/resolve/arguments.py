@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import linecache
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from orchestra.compat import argv
 from orchestra.errors import Code, Problems
 from orchestra.location import Location, is_yaml
 from orchestra.nearest import is_slip, nearest
@@ -62,13 +64,23 @@ def _unknown(
     given: Sequence[Given], description: Description, ledger: Ledger, run: Resolution
 ) -> tuple[Given, ...]:
     known = ledger.declared | ledger.read | run.found.lost | _KNOWN
-    unknown = tuple(item for item in given if item.name not in known)
-    if not unknown:
+    unknown = tuple(
+        item for item in given if item.name not in known and not _is_in_code(item.name, description)
+    )
+    if not unknown or argv.seen():
         return ()
     unvisited, more = names_behind(ledger.hidden, run.context, lambda path: _glance(path, run))
     unvisited |= names_in(description.actions)
     ledger.incomplete |= more
     return tuple(item for item in unknown if item.name not in unvisited)
+
+
+def _is_in_code(name: str, description: Description) -> bool:
+    """Return whether a launch file in Python has a name as a text: a branch that was not taken may read it."""
+    if not description.path.endswith(".py"):
+        return False
+    source = "".join(linecache.getlines(description.path))
+    return any(f"{quote}{name}{quote}" in source for quote in ("'", '"'))
 
 
 def _glance(path: str, run: Resolution) -> Description | None:

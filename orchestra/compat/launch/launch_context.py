@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.argv import look
 from orchestra.compat.seam import connection
 
 if TYPE_CHECKING:
@@ -36,6 +37,7 @@ class LaunchContext:
     @property
     def argv(self) -> list[str]:
         """The words of the command line after the launch file."""
+        look()
         return self.__argv
 
     @property

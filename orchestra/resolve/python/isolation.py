@@ -8,6 +8,7 @@ from contextlib import ExitStack, contextmanager, redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from orchestra.compat.argv import Arguments
 from orchestra.compat.hook import served
 from orchestra.resolve.python.environ import put_environment
 from orchestra.resolve.python.files import Files
@@ -45,12 +46,12 @@ def isolated(environment: Mapping[str, str], argv: Sequence[str]) -> Iterator[Is
         restoring.callback(put_environment, dict(os.environ))
         restoring.callback(os.chdir, Path.cwd())
         restoring.callback(_put_list, sys.path, list(sys.path))
-        restoring.callback(_put_list, sys.argv, list(sys.argv))
+        restoring.callback(setattr, sys, "argv", sys.argv)
         restoring.enter_context(redirect_stdout(sys.stderr))
         restoring.enter_context(served())
         restoring.callback(_forget_loggers)
         put_environment(environment)
-        sys.argv[:] = argv
+        sys.argv = Arguments(argv)
         sys.path += _libraries(environment)
         yield Isolation(restoring)
 

@@ -1,0 +1,85 @@
+"""Idioms of public launch files in Python, of drivers, simulators and vehicles: nothing is held against them."""
+
+from __future__ import annotations
+
+from textwrap import dedent
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from orchestra.errors import Problem, Problems
+from orchestra.pipeline import collect, inputs_from
+from orchestra.plan.codec import encode
+from tests.load.planning import installed
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+
+def planned(
+    folder: Path, text: str, *words: str, files: Mapping[str, str] | None = None, **variables: str
+) -> tuple[dict[str, Any], list[Problem]]:
+    """Return the plan of a launch file in the package `demo`, and what is held against it.
+
+    `files` are others in its share folder, by their paths in it, `variables` are of the environment.
+    """
+    environment = {**installed(folder), **variables}
+    share = folder / "prefix/share/demo"
+    for name, content in {"launch/main.launch.py": text, **(files or {})}.items():
+        path = share / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(dedent(content), "utf-8")
+    problems = Problems()
+    path = share / "launch/main.launch.py"
+    plan = collect(str(path), inputs_from(words, environment=environment), problems)
+    return {} if plan is None else encode(plan), list(problems)
+
+
+def messages(content: Mapping[str, Any]) -> list[str]:
+    """Return what is logged, in order."""
+    return [step["message"] for trigger in content["triggers"] for step in trigger["do"]]
+
+
+SHOWS_WORDS = """\
+import sys
+from launch import LaunchDescription
+from launch.actions import LogInfo, OpaqueFunction
+def found(context):
+    return [LogInfo(msg=" ".join({words}))]
+def generate_launch_description():
+    return LaunchDescription([OpaqueFunction(function=found)])
+"""
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        "word for word in sys.argv if len(word.split(':=')) == 2",
+        "sys.argv[4 - 1 :]",
+        "list(sys.argv)[-2:]",
+        "(sys.argv + [])[-2:]",
+        "sys.argv.copy()[-2:]",
+        "context.argv",
+    ],
+)
+def test_arguments_that_code_takes_from_the_command_line_are_known(words: str, tmp_path: Path) -> None:
+    content, problems = planned(tmp_path, SHOWS_WORDS.format(words=words), "hostname:=10.0.0.2", "port:=7")
+    assert problems == []
+    assert messages(content) == ["hostname:=10.0.0.2 port:=7"]
+
+
+def test_an_argument_that_another_branch_of_the_code_may_read_is_known(tmp_path: Path) -> None:
+    text = """\
+    from launch import LaunchDescription
+    from launch.actions import LogInfo, OpaqueFunction
+    def chosen(context):
+        configurations = context.launch_configurations
+        return [LogInfo(msg=configurations["bag"] if "bag" in configurations else configurations["device"])]
+    def generate_launch_description():
+        return LaunchDescription([OpaqueFunction(function=chosen)])
+    """
+    content, problems = planned(tmp_path, text, "bag:=a.mcap", "device:=/dev/video0")
+    assert (messages(content), problems) == (["a.mcap"], [])
+    _, (problem,) = planned(tmp_path, text, "bag:=a.mcap", "devise:=/dev/video0")
+    assert "no argument 'devise'" in problem.message
