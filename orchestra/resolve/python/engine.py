@@ -122,7 +122,9 @@ class ResolvingEngine:
 
     def register(self, handler: Any, *, first: bool) -> None:
         """Let an event handler wait, before those that wait already or after them."""
-        models = getattr(handler, "_to_models", tuple)()  # one that derives from nothing only hears of emitted events
+        models: tuple[Any, ...] = getattr(
+            handler, "_to_models", tuple
+        )()  # one that derives from nothing only hears of emitted events
         self.waits(handler)
         self.carry_out(RegisterEventHandler.at(here().span, handlers=models))
         if not first:
