@@ -11,7 +11,7 @@ from __future__ import annotations
 
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.description.entity import Conditional
 from orchestra.errors import Code, Problems
@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 NAMESPACE = "ros_namespace"
 
 _ABSENT: Final = object()
+
+_Names: TypeAlias = set[str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,7 +183,7 @@ class Scope:
             del self.saved_environments[heights[0] :], self.saved_settings[heights[1] :]
 
     @contextmanager
-    def reading(self) -> Iterator[set[str]]:
+    def reading(self) -> Iterator[_Names]:
         """Note which variables are read meanwhile."""
         ledger, before = self.ledger, self.ledger.read
         ledger.read = set()
