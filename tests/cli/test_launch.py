@@ -53,6 +53,7 @@ def test_a_run_has_the_name_that_it_is_given(orchestra: Command, home: Path) -> 
     assert _run_folder(home).name.endswith("-my_run")
 
 
+@pytest.mark.conforms("5.1 --show-all-subprocesses-output")
 @pytest.mark.parametrize(
     ("words", "shown"), [((), False), (("-a",), True), (("--show-all-subprocesses-output",), True)]
 )
@@ -64,6 +65,7 @@ def test_output_that_only_goes_to_files_can_be_shown(
     assert ("hi world" in found.stdout) is shown
 
 
+@pytest.mark.conforms("4.10 OVERRIDE_LAUNCH_PROCESS_OUTPUT")
 @pytest.mark.parametrize(
     ("word", "words", "shown"),
     [("own_log", (), False), ("screen", (), True), ("", (), False), ("log", ("-a",), True)],
@@ -84,6 +86,7 @@ def test_an_output_that_there_is_not_is_a_mistake(orchestra: Command, home: Path
     assert not home.exists()
 
 
+@pytest.mark.conforms("5.1 --debug", "4.10 own messages")
 @pytest.mark.parametrize("words", [(), ("-d",), ("--debug",)])
 def test_messages_of_level_debug_are_for_who_asks(
     orchestra: Command, folder: Path, words: tuple[str, ...]
@@ -97,6 +100,7 @@ def test_messages_of_level_debug_are_for_who_asks(
     assert ("deep" in found.stderr) is bool(words)
 
 
+@pytest.mark.conforms("D29", "5.2 exit status")
 @pytest.mark.parametrize(
     ("words", "status"), [((), 0), (("--fail-on", "required"), 0), (("--fail-on", "any"), 1)]
 )
@@ -107,6 +111,7 @@ def test_whose_failure_counts(orchestra: Command, folder: Path, words: tuple[str
     assert "fails" in found.stderr.splitlines()[-1]
 
 
+@pytest.mark.conforms("4.1 7", "5.2 exit status")
 def test_what_is_wrong_is_told_and_nothing_is_started(orchestra: Command, home: Path) -> None:
     found = orchestra("launch", "greet.launch.yaml", "who:=mars")
     assert (found.returncode, found.stdout) == (2, "")
@@ -132,6 +137,7 @@ def test_a_flag_that_looks_like_one_that_only_shows_is_still_a_run(
     assert _run_folder(home)
 
 
+@pytest.mark.conforms("D29", "5.2 exit status")
 @pytest.mark.parametrize(
     ("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
 )

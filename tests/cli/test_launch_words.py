@@ -57,6 +57,7 @@ _FORMS = [
 ]
 
 
+@pytest.mark.conforms("5.2 package and file", "5.2 loader")
 @pytest.mark.parametrize("form", ["./python.launch.py", "demo xml_launch.xml", "demo python", "demo/yaml"])
 def test_a_named_launch_file_is_launched(orchestra: Command, form: str) -> None:
     found = orchestra("launch", *form.split(), "a:=moon")
@@ -64,6 +65,7 @@ def test_a_named_launch_file_is_launched(orchestra: Command, form: str) -> None:
     assert "[moon]" in found.stdout
 
 
+@pytest.mark.conforms("5.2 package and file", "5.2 a file")
 @pytest.mark.parametrize("form", _FORMS)
 def test_a_launch_file_can_be_named_in_many_ways(orchestra: Command, form: str) -> None:
     plan = orchestra("plan", *form.split(), "a:=moon", "--format", "json")
@@ -91,6 +93,7 @@ def test_a_package_can_be_checked_as_a_whole(orchestra: Command) -> None:
     assert orchestra("check", "demo", "python.launch.py").stdout == "no problems in 6 files\n"
 
 
+@pytest.mark.conforms("5.2 package and file")
 @pytest.mark.parametrize(
     ("command", "form", "message"),
     [
@@ -120,6 +123,7 @@ def test_a_name_that_means_nothing_is_a_mistake(
     assert helped == f"help: see 'orchestra {command} --help'"
 
 
+@pytest.mark.conforms("5.2 unknown package")
 def test_a_package_that_is_not_there_is_a_mistake(orchestra: Command) -> None:
     launched = orchestra("launch", "dmeo", "python").stderr
     assert launched.startswith("error: there is no package 'dmeo': did you mean 'demo'?\n")
@@ -129,6 +133,7 @@ def test_a_package_that_is_not_there_is_a_mistake(orchestra: Command) -> None:
     )
 
 
+@pytest.mark.conforms("5.2 no file")
 def test_a_package_alone_is_answered_with_its_launch_files(orchestra: Command) -> None:
     found = orchestra("launch", "demo")
     assert found.returncode == 2
@@ -137,6 +142,7 @@ def test_a_package_alone_is_answered_with_its_launch_files(orchestra: Command) -
     )
 
 
+@pytest.mark.conforms("5.3 a:=b", "5.3 a:=b:=c", "5.3 a:=", "5.3 repeated", "D47", "5.3 quoting")
 @pytest.mark.parametrize(
     ("words", "told"),
     [
@@ -152,6 +158,7 @@ def test_launch_arguments(orchestra: Command, words: str, told: str) -> None:
     assert told in found.stdout
 
 
+@pytest.mark.conforms("5.3 a")
 @pytest.mark.parametrize("word", ["a", ":=b", "a :=b", ""])
 def test_what_is_no_launch_argument_is_a_mistake(orchestra: Command, word: str, home: Path) -> None:
     found = orchestra("launch", "yaml.launch.yaml", word)
@@ -164,6 +171,7 @@ def test_an_equals_sign_alone_is_probably_a_slip(orchestra: Command) -> None:
     assert "did you mean 'a:=b'?" in orchestra("launch", "yaml.launch.yaml", "a=b").stderr
 
 
+@pytest.mark.conforms("5.3 undeclared", "D3")
 def test_an_argument_that_there_is_not_is_a_mistake(orchestra: Command) -> None:
     """Upstream takes it without a word."""
     found = orchestra("launch", "python.launch.py", "bb:=x")
@@ -171,6 +179,7 @@ def test_an_argument_that_there_is_not_is_a_mistake(orchestra: Command) -> None:
     assert "command line:1:1: error: " in found.stderr
 
 
+@pytest.mark.conforms("5.1 --noninteractive", "5.1 --debug")
 @pytest.mark.parametrize(
     "words",
     [
@@ -189,6 +198,7 @@ def _commands(found: CompletedProcess[str]) -> list[Any]:
     return [process["command"] for process in json.loads(found.stdout)["processes"]]
 
 
+@pytest.mark.conforms("5.1 --launch-prefix", "5.1 --launch-prefix-filter")
 @pytest.mark.parametrize(
     ("options", "expected"),
     [
@@ -208,6 +218,7 @@ def test_a_prefix_for_all_processes(
     assert _commands(orchestra("plan", "yaml.launch.yaml", "--format", "json", *options)) == [expected]
 
 
+@pytest.mark.conforms("5.1 --launch-prefix")
 def test_a_prefix_is_run(orchestra: Command) -> None:
     found = orchestra("launch", "yaml.launch.yaml", "--launch-prefix", "sh -c 'echo before; exec \"$@\"' sh")
     assert found.returncode == 0
@@ -215,6 +226,7 @@ def test_a_prefix_is_run(orchestra: Command) -> None:
     assert "[x]" in found.stdout
 
 
+@pytest.mark.conforms("5.1 --launch-prefix-filter")
 @pytest.mark.parametrize("command", ["launch", "plan"])
 def test_a_filter_wants_a_prefix(orchestra: Command, command: str) -> None:
     found = orchestra(command, "yaml.launch.yaml", "--launch-prefix-filter", "e")
@@ -238,6 +250,7 @@ def test_a_faulty_prefix_is_pointed_at(
     assert source in found.stderr
 
 
+@pytest.mark.conforms("5.1 --print", "D46", "5.4 -p")
 def test_print_is_the_plan(orchestra: Command, home: Path) -> None:
     words = ("demo", "python", "a:=b", "--launch-prefix", "nice")
     planned = orchestra("plan", *words)

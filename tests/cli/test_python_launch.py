@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import pytest
+
 if TYPE_CHECKING:
     from pathlib import Path
 
@@ -42,6 +44,7 @@ def generate_launch_description():
 """
 
 
+@pytest.mark.conforms("4.8 on_exit", "4.12 after an end", "4.12 computed")
 def test_handlers_and_functions_decide_during_the_run(orchestra: Command, folder: Path) -> None:
     (folder / "events.launch.py").write_text(_EVENTS)
     ran = orchestra("launch", "events.launch.py")
@@ -59,6 +62,7 @@ def test_handlers_and_functions_decide_during_the_run(orchestra: Command, folder
     assert "[decided] decided" in ran.stdout
 
 
+@pytest.mark.conforms("4.1 7")
 def test_code_that_fails_during_the_run_ends_it_with_the_place(orchestra: Command, folder: Path) -> None:
     (folder / "broken.launch.py").write_text(
         _EVENTS.replace("n = int(context.launch_configurations['n'])", "n = undefined_name")
@@ -88,6 +92,7 @@ def generate_launch_description():
 """
 
 
+@pytest.mark.conforms("D37")
 def test_temporary_files_of_launch_files_are_part_of_the_run(
     orchestra: Command, folder: Path, home: Path, tmp_path: Path
 ) -> None:

@@ -144,6 +144,7 @@ def _files(folder: Path) -> None:
         (folder / name).write_text(text)
 
 
+@pytest.mark.conforms("5.1 --show-args", "5.4 -s", "D46")
 @pytest.mark.parametrize("ending", ["yaml", "xml", "py"])
 def test_what_is_shown(orchestra: Command, home: Path, ending: str) -> None:
     """Arguments of includes too, one of which is found by an argument, one behind a condition."""
@@ -153,6 +154,7 @@ def test_what_is_shown(orchestra: Command, home: Path, ending: str) -> None:
     assert not home.exists()
 
 
+@pytest.mark.conforms("5.1 --show-args")
 @pytest.mark.parametrize(
     "words",
     [
@@ -198,6 +200,7 @@ def test_a_file_that_cannot_be_read_is_a_mistake(orchestra: Command, folder: Pat
     assert "bad.launch.yaml:" in found.stderr
 
 
+@pytest.mark.conforms("5.1 --show-args", "5.1 --print")
 def test_arguments_and_plan_cannot_be_shown_together(orchestra: Command) -> None:
     found = orchestra("launch", "-s", "-p", "outer.launch.yaml")
     assert (found.returncode, found.stdout) == (2, "")

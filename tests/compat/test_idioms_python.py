@@ -236,6 +236,27 @@ def test_a_parameter_file_is_optional_where_its_path_may_be_empty(tmp_path: Path
     assert plan.warnings == ["the path of the parameter file is empty"]
 
 
-def test_a_parameter_file_that_is_not_there_is_missed(tmp_path: Path) -> None:
-    code = "[Node(package='demo', executable='talker', name='n', parameters=['/no/such.yaml'])]"
-    assert planned(tmp_path, code).errors == ["there is no parameter file /no/such.yaml"]
+MISSING = {
+    "beside the launch file": "Path(__file__).parent / 'gone.yaml'",
+    "by a relative path": "'config/gone.yaml'",
+    "in a package": "PathJoinSubstitution([FindPackageShare('demo'), 'config', 'gone.yaml'])",
+    "read by a substitution": "ParameterFile('/etc/robot/gone.yaml', allow_substs=True)",
+}
+
+
+@pytest.mark.parametrize("path", MISSING.values(), ids=list(MISSING))
+def test_a_parameter_file_of_the_description_must_be_there(tmp_path: Path, path: str) -> None:
+    (told,) = planned(tmp_path, f"[Node(package='demo', executable='talker', parameters=[{path}])]").errors
+    assert told.startswith("there is no parameter file")
+
+
+def test_a_parameter_file_of_the_machine_may_come_later(tmp_path: Path) -> None:
+    code = (
+        "[Node(package='demo', executable='talker', name='n', parameters=['/etc/robot/gone.yaml', {'a': 1}])]"
+    )
+    plan = planned(tmp_path, code)
+    assert plan.errors == []
+    assert plan.parameters == [{"a": 1}]
+    assert plan.warnings == [
+        "there is no parameter file /etc/robot/gone.yaml: the node is started without it"
+    ]

@@ -241,8 +241,8 @@ _FAULTS: dict[str, tuple[str, str]] = {
     "a package that is missing": ("Node(package='dmeo', executable='tool')", "there is no package 'dmeo'"),
     "an executable that is missing": ("Node(package='demo', executable='tol')", "has no executable 'tol'"),
     "a parameter file that is missing": (
-        "Node(package='demo', executable='tool', parameters=['/gone.yaml'])",
-        "there is no parameter file /gone.yaml",
+        "Node(package='demo', executable='tool', parameters=['gone.yaml'])",
+        "there is no parameter file",
     ),
     "a name that cannot be one": (
         "Node(package='demo', executable='tool', name='a b')",

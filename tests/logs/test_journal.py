@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 
+@pytest.mark.conforms("4.10 line format", "4.10 own_log files", "D70", "4.10 full")
 def test_output_goes_to_its_file_the_merged_file_and_the_screen(tmp_path: Path) -> None:
     readable, writable = os.pipe()
     sheet = Sheet(Screen(writable, lambda _wanted: None), colour=False)
@@ -47,6 +48,7 @@ def test_an_unknown_output_word_is_refused() -> None:
 OUT, ERR = "stdout", "stderr"
 
 
+@pytest.mark.conforms("4.10 log", "4.10 screen", "4.10 both", "4.10 own_log", "4.10 full", "D34")
 @pytest.mark.parametrize(
     ("output", "shown"),
     [
@@ -67,6 +69,7 @@ def test_what_reaches_the_screen(output: Output, shown: set[str]) -> None:
     assert on_screen(output) == shown
 
 
+@pytest.mark.conforms("4.10 OVERRIDE_LAUNCH_PROCESS_OUTPUT")
 @pytest.mark.parametrize(
     ("variable", "show_all", "word"),
     [

@@ -1,5 +1,6 @@
 from __future__ import annotations
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -19,6 +20,7 @@ def test_what_is_given_ends_with_a_line(pieces: list[bytes]) -> None:
     assert all(text.endswith("\n") for piece in pieces if (text := lines.feed(piece)))
 
 
+@pytest.mark.conforms("4.10 unit", "D34")
 def test_a_cut_character_is_held_until_the_rest_is_there() -> None:
     lines = Lines()
     assert lines.feed("é".encode()[:1]) == ""

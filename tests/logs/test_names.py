@@ -1,11 +1,13 @@
 from __future__ import annotations
 
+import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from orchestra.logs.names import log_stems, prefixes
 
 
+@pytest.mark.conforms("4.10 own_log files")
 def test_logs_are_called_like_their_processes() -> None:
     assert log_stems(["/robot1/ekf", "/simulation", "robot1/tool#2", "/all", "a b"]) == {
         "/robot1/ekf": "robot1.ekf",

@@ -96,6 +96,7 @@ def _probe() -> Actions:
     return [{"log": {"message": said}}, {"node": node}]
 
 
+@pytest.mark.conforms("4.2 scoped and forwarding", "4.2 scoped data", "D25")
 @given(
     descriptions,
     st.lists(actions, max_size=5),

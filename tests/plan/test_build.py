@@ -16,6 +16,9 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 
+@pytest.mark.conforms(
+    "4.5 order", "4.5 arguments and ROS arguments", "1.12.1 arguments", "1.12.1 ros_arguments"
+)
 def test_the_command_line_of_a_node_is_upstreams_in_its_order(tmp_path: Path) -> None:
     text = """launch:
 - arg: {name: launch-prefix, default: nice -n 1}
@@ -41,6 +44,7 @@ def test_the_command_line_of_a_node_is_upstreams_in_its_order(tmp_path: Path) ->
     assert process.remappings == (("x", "y"), ("chatter", "/talk"))
 
 
+@pytest.mark.conforms("4.4 none at all", "4.5 --ros-args")
 @pytest.mark.parametrize(
     ("node", "identity", "words"),
     [
@@ -57,6 +61,7 @@ def test_nodes_without_a_name_or_namespace(
     assert (process.id, process.command) == (identity, words)
 
 
+@pytest.mark.conforms("D53")
 def test_repeats_are_told_apart_in_plan_order(tmp_path: Path) -> None:
     text = "launch:\n- executable: {cmd: sleep 1}\n- executable: {cmd: sleep 2}\n- executable: {cmd: /bin/sleep 3, name: x}"
     assert [process.id for process in outcome(tmp_path, text).plan.processes] == ["sleep", "sleep#2", "x"]
@@ -113,6 +118,7 @@ PARAMETERS: dict[str, tuple[str, dict[str, str], dict[str, object]]] = {
 }
 
 
+@pytest.mark.conforms("4.5 precedence of parameters", "4.6.5 order of patterns")
 @pytest.mark.parametrize("case", PARAMETERS)
 def test_effective_parameters_of_a_node(case: str, tmp_path: Path) -> None:
     written, files, parameters = PARAMETERS[case]
@@ -125,6 +131,7 @@ def test_effective_parameters_of_a_node(case: str, tmp_path: Path) -> None:
     assert [type(value) for value in found.values()] == [type(value) for value in parameters.values()]
 
 
+@pytest.mark.conforms("D68")
 def test_a_value_that_stands_last_and_loses_is_a_warning(tmp_path: Path) -> None:
     files = {
         "main.yaml": "launch:\n- node: {exec: a, name: n, namespace: ns, param: [{name: a, value: 2}, {from: p.yaml}]}\n",
@@ -155,6 +162,7 @@ def test_a_parameter_for_a_node_that_is_not_there(tmp_path: Path) -> None:
     assert (problem.code, problem.suggestion) == (Code.UNMATCHED_SECTION, "/talker")
 
 
+@pytest.mark.conforms("D19", "4.6.3 files given by path")
 def test_sections_for_other_nodes_are_passed_on_before_the_nodes_own(tmp_path: Path) -> None:
     files = {
         "main.yaml": "launch:\n- node: {exec: a, name: n, namespace: ns, param: [{from: p.yaml}, {name: own, value: 1}]}",
@@ -187,12 +195,14 @@ def test_a_parameter_file_with_nothing_for_the_node_is_a_warning(tmp_path: Path)
     assert [fault[0] for fault in outcome(tmp_path, files).faults] == [Code.UNMATCHED_SECTION]
 
 
+@pytest.mark.conforms("D18")
 def test_a_missing_parameter_file_is_an_error_with_a_near_name(tmp_path: Path) -> None:
     files = {"main.yaml": "launch:\n- node: {exec: a, param: [{from: parms.yaml}]}", "params.yaml": ""}
     (problem,) = outcome(tmp_path, files).problems
     assert (problem.code, problem.suggestion) == (Code.MISSING_FILE, "params.yaml")
 
 
+@pytest.mark.conforms("D23")
 def test_a_rule_that_is_never_reached_is_a_warning(tmp_path: Path) -> None:
     text = "launch:\n- set_remap: {from: a, to: b}\n- node: {exec: x, name: n, namespace: /, remap: [{from: /a, to: c}]}"
     assert [fault[:3] for fault in outcome(tmp_path, text).faults] == [(Code.DEAD_REMAP, "main.yaml", 3)]
@@ -268,6 +278,7 @@ POLICIES = """launch:
 """
 
 
+@pytest.mark.conforms("1.3.2 respawn", "1.3.2 respawn_max_retries")
 def test_policies_come_from_upstreams_keys_and_orchestras(tmp_path: Path) -> None:
     found = outcome(tmp_path, POLICIES)
     a, b, c = found.plan.processes

@@ -36,6 +36,7 @@ def _components(
     return component
 
 
+@pytest.mark.conforms("4.7 order", "4.7 request")
 def test_components_of_a_container_are_loaded_with_its_start_in_order(tmp_path: Path) -> None:
     written = """launch:
 - push_ros_namespace: {namespace: r}
@@ -118,6 +119,7 @@ PARAMETERS = {
 }
 
 
+@pytest.mark.conforms("4.7 parameters")
 @pytest.mark.parametrize("case", PARAMETERS)
 def test_the_parameters_of_a_component(case: str, tmp_path: Path) -> None:
     written, before, expected = PARAMETERS[case]
@@ -149,6 +151,7 @@ def test_the_command_line_wins(tmp_path: Path) -> None:
     assert found.plan.components[0].parameters == {"a": 2, "b": "x"}
 
 
+@pytest.mark.conforms("4.7 extra_arguments")
 @pytest.mark.parametrize(
     ("written", "value"),
     [("true", True), ("'true'", True), ("$(var flag)", True), ("[1, 2]", (1, 2)), ("text", "text")],
@@ -163,6 +166,7 @@ def test_extra_arguments_have_types(written: str, value: object, tmp_path: Path)
 LOADED = "composable_node: [{pkg: p, plugin: C, name: c, autostart: true}]"
 
 
+@pytest.mark.conforms("4.7 target")
 @pytest.mark.parametrize("target", ["/r/box", "r/box", "$(var name)"])
 def test_components_find_their_container_wherever_it_stands(target: str, tmp_path: Path) -> None:
     written = f"""launch:
@@ -239,6 +243,7 @@ def _load(target: object) -> LoadComposableNode:
     return LoadComposableNode.at(AT, target=named, composable_node=(component,))
 
 
+@pytest.mark.conforms("4.7 target")
 def test_python_names_a_container_by_its_action() -> None:
     origin = object()
     container = NodeContainer.at(AT, origin=origin, exec=text("sleep"), name=text("box"), namespace=None)
@@ -252,6 +257,7 @@ def test_an_action_that_starts_nothing_is_no_container() -> None:
     assert [problem.code for problem in problems.errors] == [Code.UNKNOWN_DEPENDENCY]
 
 
+@pytest.mark.conforms("4.11 LifecycleNode")
 def test_a_life_cycle_node_needs_its_full_name() -> None:
     node = LifecycleNode.at(AT, exec=text("sleep"), name=text("a"), namespace=None)
     _, problems = planned(node)
@@ -260,6 +266,7 @@ def test_a_life_cycle_node_needs_its_full_name() -> None:
     assert list(problems) == []
 
 
+@pytest.mark.conforms("4.11 autostart", "4.11 front ends", "D40")
 def test_a_life_cycle_node_can_be_started_by_itself(tmp_path: Path) -> None:
     written = """launch:
 - lifecycle_node: {exec: sleep, name: a, namespace: '', autostart: true}

@@ -111,6 +111,7 @@ def generate_launch_description():
 """
 
 
+@pytest.mark.conforms("4.5 order", "4.5 --ros-args", "4.6.1 substitutions", "4.6.3 content", "4.6.3 top key")
 @pytest.mark.parametrize("language", ["yaml", "py"])
 @pytest.mark.parametrize("record", _records(), ids=lambda record: record["in"])
 def test_a_node_is_started_as_by_upstream(record: dict[str, Any], language: str, tmp_path: Path) -> None:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 _PROCESS = described("/robot1/ekf", kind="node", name="ekf", namespace="/robot1")
 
 
+@pytest.mark.conforms("4.6.3 content", "4.6.3 lists", "D22")
 def test_a_file_is_flat_typed_and_in_order() -> None:
     process = dataclasses.replace(
         _PROCESS,
@@ -50,6 +51,7 @@ def test_a_node_without_parameters_has_an_empty_section() -> None:
     assert yaml.safe_load(render(_PROCESS)) == {"/robot1/ekf": {"ros__parameters": {}}}
 
 
+@pytest.mark.conforms("4.6.3 top key")
 @pytest.mark.parametrize(
     ("name", "namespace", "pattern"),
     [
@@ -66,6 +68,7 @@ def test_the_key_is_the_full_name_where_it_is_known(
     assert list(yaml.safe_load(render(process))) == [pattern]
 
 
+@pytest.mark.conforms("D15", "D22", "D21")
 @pytest.mark.parametrize(
     ("value", "text"),
     [

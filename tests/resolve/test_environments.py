@@ -31,6 +31,7 @@ ENVIRONMENTS: dict[str, tuple[str, dict[str, str | None]]] = {
 }
 
 
+@pytest.mark.conforms("1.3 SetEnvironmentVariable", "1.3 AppendEnvironmentVariable")
 @pytest.mark.parametrize("case", ENVIRONMENTS)
 def test_what_a_process_gets(case: str, tmp_path: Path) -> None:
     action, expected = ENVIRONMENTS[case]
@@ -40,6 +41,7 @@ def test_what_a_process_gets(case: str, tmp_path: Path) -> None:
     assert found.plan.processes[0].environment == expected
 
 
+@pytest.mark.conforms("1.12 SetROSLogDir", "2.4 set_ros_log_dir", "4.10 ROS_LOG_DIR")
 @pytest.mark.parametrize(
     ("environment", "folder"),
     [
@@ -59,6 +61,7 @@ def test_log_folders_are_below_what_rcl_would_use(
     assert process.environment == {"ROS_LOG_DIR": f"{folder}/b"}
 
 
+@pytest.mark.conforms("1.3 ResetEnvironment")
 def test_a_reset_is_undone_where_its_scope_ends(tmp_path: Path) -> None:
     text = """launch:
 - set_env: {name: A, value: y}
@@ -88,6 +91,7 @@ def test_a_reset_is_undone_where_its_scope_ends(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.conforms("4.2 scoped without forwarding")
 def test_a_group_without_forwarding_begins_as_the_launch_did(tmp_path: Path) -> None:
     text = """launch:
 - set_env: {name: A, value: y}
@@ -111,6 +115,7 @@ def test_a_group_without_forwarding_begins_as_the_launch_did(tmp_path: Path) -> 
     assert (outer.id, outer.environment, outer.parameters) == ("/ns/n", {"A": "y"}, {"p": 1})
 
 
+@pytest.mark.conforms("1.3.2 env")
 def test_a_whole_environment_is_all_that_a_process_gets(tmp_path: Path) -> None:
     text = """launch:
 - set_env: {name: A, value: y}
@@ -137,6 +142,7 @@ OUTPUTS = {
 }
 
 
+@pytest.mark.conforms("4.10 by stream")
 @pytest.mark.parametrize("written", OUTPUTS)
 def test_places_of_output_are_a_word_where_one_says_the_same(written: str, tmp_path: Path) -> None:
     text = f"launch:\n- executable: {{cmd: sleep 1, output: {written}}}"
@@ -144,6 +150,7 @@ def test_places_of_output_are_a_word_where_one_says_the_same(written: str, tmp_p
     assert process.output == OUTPUTS[written]
 
 
+@pytest.mark.conforms("4.10 by stream")
 @pytest.mark.parametrize(
     "written", ["{}", "{stdin: log}", "{stdout: file}", "{stdout: [log, file]}", "[log]"]
 )
@@ -152,6 +159,7 @@ def test_other_places_are_refused(written: str, tmp_path: Path) -> None:
     assert [problem.code for problem in found.problems] == [Code.WRONG_TYPE]
 
 
+@pytest.mark.conforms("4.10 OVERRIDE_LAUNCH_PROCESS_OUTPUT")
 def test_the_caller_can_say_where_all_output_goes(tmp_path: Path) -> None:
     text = "launch:\n- executable: {cmd: sleep 1, output: screen}"
     environment = {"OVERRIDE_LAUNCH_PROCESS_OUTPUT": "own_log"}
@@ -167,6 +175,7 @@ PREFIXES = {
 }
 
 
+@pytest.mark.conforms("1.3.2 prefix", "1.3.2 launch-prefix-filter")
 @pytest.mark.parametrize("case", PREFIXES)
 def test_the_prefix_of_a_process(case: str, tmp_path: Path) -> None:
     written, prefix = PREFIXES[case]

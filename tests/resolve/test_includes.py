@@ -107,6 +107,7 @@ LEFT_BEHIND = {
 }
 
 
+@pytest.mark.conforms("D1", "4.3 scope", "4.3 duplicate declarations")
 @pytest.mark.parametrize("case", LEFT_BEHIND)
 def test_a_value_that_an_include_left_behind(case: str, tmp_path: Path) -> None:
     text, surprise = LEFT_BEHIND[case]
@@ -115,6 +116,7 @@ def test_a_value_that_an_include_left_behind(case: str, tmp_path: Path) -> None:
     assert found == [(Code.LEAKED_VALUE, Severity.WARNING)] * surprise
 
 
+@pytest.mark.conforms("4.3 scope", "D1")
 def test_a_namespace_that_an_include_left_behind_is_a_surprise(tmp_path: Path) -> None:
     files = {
         "main.yaml": "launch:\n- include: {file: b.yaml}\n- node: {exec: a, name: n}\n",
@@ -125,6 +127,7 @@ def test_a_namespace_that_an_include_left_behind_is_a_surprise(tmp_path: Path) -
     assert found.faults == [(Code.LEAKED_VALUE, "main.yaml", 3, 3)]
 
 
+@pytest.mark.conforms("2.1 root attribute")
 def test_a_deprecated_file_is_named_once(tmp_path: Path) -> None:
     files = {
         "main.yaml": "launch:\n- include: {file: old.yaml, for_each: {i: [1, 2]}}\n- include: {file: old.yaml}\n",
@@ -136,6 +139,7 @@ def test_a_deprecated_file_is_named_once(tmp_path: Path) -> None:
     assert len(problem.included_from) == 1
 
 
+@pytest.mark.conforms("2.5 file")
 def test_places_in_an_evaluated_parameter_file_are_those_of_the_file(tmp_path: Path) -> None:
     files = {
         "main.yaml": "launch:\n- let: {name: r, value: robot1}\n"

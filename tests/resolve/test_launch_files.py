@@ -55,6 +55,7 @@ def _find(share: Path, *words: str) -> tuple[str, tuple[str, ...]]:
     return os.path.relpath(path, share), rest
 
 
+@pytest.mark.conforms("5.2 package and file", "5.2 a file")
 @pytest.mark.parametrize(
     ("words", "expected"),
     [
@@ -78,16 +79,19 @@ def test_what_a_name_means(share: Path, words: str, expected: str) -> None:
     assert _find(share, *words.split(), "a:=b", "c") == (expected, ("a:=b", "c"))
 
 
+@pytest.mark.conforms("5.2 a file")
 @pytest.mark.parametrize("word", ["here.launch.py", "./here.launch.py", "../here/here.launch.py"])
 def test_a_file_that_is_there_wins(share: Path, word: str) -> None:
     assert _find(share, word, "robot") == ("../../../here/here.launch.py", ("robot",))
 
 
+@pytest.mark.conforms("5.2 a file")
 def test_a_file_called_like_a_package_wins(share: Path) -> None:
     (share.parents[2] / "here" / "robot").write_text("")
     assert _find(share, "robot", "bringup") == ("../../../here/robot", ("bringup",))
 
 
+@pytest.mark.conforms("5.2 package and file", "5.2 unknown package")
 @pytest.mark.parametrize(
     ("words", "message"),
     [
@@ -118,6 +122,7 @@ def test_what_is_meant_by_nothing_is_explained(share: Path, words: str, message:
     assert message in str(raised.value)
 
 
+@pytest.mark.conforms("5.2 no file")
 @pytest.mark.parametrize("words", [("robot",), ("robot", "a:=b")])
 def test_a_package_alone_is_answered_with_its_launch_files(share: Path, words: tuple[str, ...]) -> None:
     with pytest.raises(UsageError) as raised:

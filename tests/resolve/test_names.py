@@ -28,6 +28,9 @@ _TEXTS = st.text(alphabet="ab_1/~{}.- é", max_size=8) | st.sampled_from(
 )
 
 
+@pytest.mark.conforms(
+    "4.4 relative", "4.4 absolute", "4.4 no namespace", "4.4 none at all", "4.4 empty", "4.4 made absolute"
+)
 @pytest.mark.parametrize(
     ("base", "namespace", "result"),
     [
@@ -52,11 +55,13 @@ def test_namespaces_join_as_upstream_joins_them(
     assert joined(base, namespace) == result
 
 
+@pytest.mark.conforms("4.4 full name", "4.4 root")
 def test_full_names_have_one_slash_between() -> None:
     assert full_name("/x", "n") == "/x/n"
     assert full_name("/", "n") == "/n"
 
 
+@pytest.mark.conforms("4.4 node name", "4.4 invalid")
 @pytest.mark.parametrize(
     ("name", "offset", "part"),
     [
@@ -81,6 +86,7 @@ def test_a_good_node_name_has_no_fault(name: str) -> None:
     assert node_name_fault(name) is None
 
 
+@pytest.mark.conforms("4.4 invalid")
 @pytest.mark.parametrize(
     ("namespace", "offset"), [("a", 0), ("/a/", 2), ("/a//b", 3), ("/1a", 1), ("/a b", 2), ("/a__b", 2)]
 )

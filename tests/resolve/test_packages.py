@@ -42,6 +42,7 @@ def on_path(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.mark.conforms("4.10 AMENT_PREFIX_PATH")
 def test_the_index_of_every_prefix_is_read_in_order(tmp_path: Path) -> None:
     overlay, underlay = tmp_path / "overlay", tmp_path / "underlay"
     _ament_package(overlay, "demo", "talker")

@@ -53,6 +53,7 @@ SET_PARAMETERS: dict[str, Any] = {
 }
 
 
+@pytest.mark.conforms("D20", "4.6.3 parameters for all nodes")
 @pytest.mark.parametrize("written", SET_PARAMETERS)
 def test_a_parameter_of_all_nodes_has_its_type(written: str, tmp_path: Path) -> None:
     process, problems = _node(tmp_path, f"- let: {{name: v, value: '7'}}\n- set_parameter: {written}\n")
@@ -82,6 +83,7 @@ def test_what_can_have_no_type_is_refused_at_its_place(written: str, tmp_path: P
     assert (problem.code, problem.span is not None and problem.span.line) == (REFUSED[written], 2)
 
 
+@pytest.mark.conforms("D59", "3.2 param")
 def test_the_last_value_of_a_parameter_is_read_back(tmp_path: Path) -> None:
     actions = """- set_parameter: {name: p, value: [1]}
 - set_parameter: {name: p, value: [1, 2]}
@@ -91,6 +93,7 @@ def test_the_last_value_of_a_parameter_is_read_back(tmp_path: Path) -> None:
     assert process.parameters == {"p": (1, 2), "q": (1, 2)}
 
 
+@pytest.mark.conforms("1.12 SetParametersFromFile", "4.6.3 parameters for all nodes")
 def test_files_and_values_for_all_nodes_keep_their_order(tmp_path: Path) -> None:
     file, single = (
         "- set_parameters_from_file: {filename: p.yaml}\n",
@@ -113,6 +116,7 @@ def test_a_file_for_all_nodes_that_is_for_none_is_told_once(tmp_path: Path) -> N
     assert list(found.problems) == []
 
 
+@pytest.mark.conforms("D18")
 def test_a_missing_file_for_all_nodes_is_an_error(tmp_path: Path) -> None:
     _, problems = _node(tmp_path, "- set_parameters_from_file: {filename: q.yaml}\n")
     assert [problem.code for problem in problems.errors] == [Code.MISSING_FILE]
@@ -145,6 +149,7 @@ CONSTANTS: tuple[tuple[Any, Any], ...] = (
 )
 
 
+@pytest.mark.conforms("4.6.1 str", "4.6.1 scalars", "4.6.1 lists of scalars", "4.6.1 lists of texts")
 @pytest.mark.parametrize(("given", "expected"), CONSTANTS, ids=repr)
 def test_a_value_of_python_keeps_its_type(given: Any, expected: ParameterValue) -> None:
     parameters, problems = _made(_param(value(given)))
@@ -152,6 +157,7 @@ def test_a_value_of_python_keeps_its_type(given: Any, expected: ParameterValue) 
     assert repr(parameters) == repr({"p": expected})
 
 
+@pytest.mark.conforms("4.6.1 None", "4.6.1 other mixes", "4.6.1 empty list", "D17")
 @pytest.mark.parametrize(
     "given", [(), (1, "a"), (True, "a"), None, b"x", 2**63, ((1,), (2,)), "a\0"], ids=repr
 )
@@ -187,6 +193,7 @@ def test_lists_of_substitutions_are_typed_item_by_item() -> None:
 TEXTS_FOR_ALL = {"5": 5, "true": True, "1e-3": 0.001, "007": 7, "": "", "a: b": "a: b", "word": "word"}
 
 
+@pytest.mark.conforms("D20")
 @pytest.mark.parametrize("given", TEXTS_FOR_ALL)
 def test_a_python_text_for_all_nodes_is_read_as_rcl_reads_it(given: str) -> None:
     """Upstream writes it behind `-p` as it is."""
@@ -198,6 +205,7 @@ def test_a_python_text_for_all_nodes_is_read_as_rcl_reads_it(given: str) -> None
     assert told == ([] if isinstance(parameters["p"], str) else retyped)
 
 
+@pytest.mark.conforms("D21", "4.6.2 Parameter")
 def test_an_override_is_for_every_node_of_the_process(ask_rcl: Callable[..., Any]) -> None:
     """`-p` counts as `/**`, whose place in the order is that of its first appearance."""
     override = Override.at(AT, name=text("p"), value=value("5"))

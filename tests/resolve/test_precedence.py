@@ -6,6 +6,7 @@ import json
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
@@ -93,6 +94,7 @@ def _upstream(
     return words
 
 
+@pytest.mark.conforms("4.5 precedence of parameters", "4.6.5 order of patterns", "D19", "4.6.3 files")
 @settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(everywhere=_EVERYWHERE, own=_SOURCES, namespace=st.sampled_from(["ns", None]))
 def test_a_node_has_what_it_would_have_upstream(

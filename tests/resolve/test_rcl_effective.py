@@ -51,6 +51,7 @@ def _measured(parameter: dict[str, Any]) -> object:
     return _NOT_FINITE.get(value, value) if parameter["type"] == "DOUBLE" else value
 
 
+@pytest.mark.conforms("4.6.5 order of patterns")
 @pytest.mark.parametrize(
     "probe",
     [p for p in _PROBES if p["k"] in ("params", "scalar", "argument")],
@@ -96,6 +97,7 @@ def test_all_that_was_written_is_kept_in_order_with_its_places() -> None:
     ]
 
 
+@pytest.mark.conforms("D68")
 def test_where_the_last_does_not_win_the_overruled_is_named() -> None:
     setting = _setting(_file(("/**", "a: 1"), ("/ns/n", "a: 2"), ("/**", "a: 3")))
     assert setting.value == 2
@@ -139,6 +141,7 @@ def test_a_pattern_written_in_two_ways_counts_twice() -> None:
     assert _setting(_file(("/ns/n", "a: 1"), ("/**", "a: 2"), ("ns/n", "a: 3"))).value == 3
 
 
+@pytest.mark.conforms("4.6.4 null")
 @pytest.mark.parametrize("value", ["[]", "{}"])
 def test_a_parameter_without_a_type_is_none(value: str) -> None:
     setting = _setting(_file(("/ns/n", f"a: {value}")))
@@ -166,6 +169,7 @@ _OVERRIDES = st.builds(
 )
 
 
+@pytest.mark.conforms("4.6.5 order of patterns", "4.5 precedence of parameters")
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=150)
 @given(files=st.lists(_FILES, max_size=3), overrides=st.lists(_OVERRIDES, max_size=2))
 def test_values_win_as_in_the_real_node(

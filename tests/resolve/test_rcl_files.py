@@ -32,6 +32,7 @@ def _flat(section: Section) -> dict[str, Any]:
     return {entry.name: entry.value for entry in section.entries if entry.value is not None}
 
 
+@pytest.mark.conforms("4.6.4 shape", "4.6.4 node keys")
 def test_sections_and_entries_come_in_order_with_their_places() -> None:
     sections, problems = _read(
         "/robot1/ekf:\n"
@@ -84,6 +85,7 @@ def test_a_file_may_hold_several_documents() -> None:
     assert [(section.pattern, _flat(section)) for section in sections] == [("/n", {"x": 1}), ("/m", {"x": 2})]
 
 
+@pytest.mark.conforms("4.6.4 aliases", "4.6.4 shape")
 @pytest.mark.parametrize(
     ("text", "place", "part"),
     [
@@ -122,6 +124,7 @@ def test_what_rcl_refuses_is_told_with_its_place(text: str, place: str, part: st
     assert str(problems.errors[0].span) == f"f.yaml:{place}"
 
 
+@pytest.mark.conforms("4.6.4 arrays")
 def test_a_list_of_several_types_is_told_at_the_item_that_does_not_fit() -> None:
     _, problems = _read("/n:\n  ros__parameters:\n    x: [1, 2, 3.0, a]\n")
     (problem,) = problems.errors
@@ -153,6 +156,7 @@ def test_one_reading_tells_of_several_errors() -> None:
     ]
 
 
+@pytest.mark.conforms("4.6.4 duplicate keys", "D67")
 @pytest.mark.parametrize(
     ("text", "place", "message"),
     [
@@ -169,6 +173,7 @@ def test_what_is_set_twice_is_told(text: str, place: str, message: str) -> None:
     assert {problem.code for problem in problems} == {Code.DUPLICATE_PARAMETER}
 
 
+@pytest.mark.conforms("4.6.4 duplicate keys")
 def test_sections_of_one_pattern_count_together() -> None:
     _, problems = _read("/n:\n  ros__parameters: {a: 1}\n/n:\n  ros__parameters: {a: 2, b: 3}\n")
     assert [place for place, _ in _warnings(problems)] == ["f.yaml:4:21"]
@@ -268,6 +273,7 @@ def _agree(ask_rcl: Callable[..., Any], texts: list[str]) -> None:
         assert repr(_plain(tabulated(sections))) == repr(real)
 
 
+@pytest.mark.conforms("4.6.4 shape", "4.6.4 node keys", "4.6.4 string")
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=300)
 @given(texts=st.lists(_FILES, min_size=1, max_size=2))
 def test_files_are_read_as_by_the_real_parser(ask_rcl: Callable[..., Any], texts: list[str]) -> None:

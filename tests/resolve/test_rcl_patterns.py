@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 
+@pytest.mark.conforms("4.6.4 wildcards")
 @pytest.mark.parametrize(
     "pattern",
     ["/ns/n", "ns/n", "/**", "**", "/**/n", "/*/n", "/ns/*", "/ns/**", "/*/*", "/**/ns/n", "/ns/n/**"],
@@ -21,6 +22,7 @@ def test_what_matches_a_node_in_a_namespace(pattern: str) -> None:
     assert matches(pattern, "/ns/n")
 
 
+@pytest.mark.conforms("4.6.4 wildcards")
 @pytest.mark.parametrize(
     "pattern", ["n", "/n", "/*", "*", "/ns", "/*/*/*", "/ns/m", "/nsx/n", "/*/ns/n", "/n/ns"]
 )
@@ -28,6 +30,7 @@ def test_what_does_not_match_it(pattern: str) -> None:
     assert not matches(pattern, "/ns/n")
 
 
+@pytest.mark.conforms("4.6.4 relative key")
 def test_a_pattern_without_slash_means_the_root() -> None:
     assert matches("n", "/n")
     assert matches("*", "/n")
@@ -61,6 +64,7 @@ _PATTERNS = st.builds(
 )
 
 
+@pytest.mark.conforms("4.6.4 wildcards")
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=150)
 @given(pattern=_PATTERNS, namespace=st.sampled_from(["/", "/ns", "/ns/x", "/x/ns", "/ns/ns/ns"]))
 def test_patterns_match_as_in_the_real_node(

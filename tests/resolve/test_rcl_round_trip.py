@@ -73,6 +73,7 @@ def _check(ask_rcl: Callable[..., Any], parameters: dict[str, ParameterValue]) -
     assert all(_same(found, parameters[name]) for name, found in read)
 
 
+@pytest.mark.conforms("D15", "D22")
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=300)
 @given(parameters=_PARAMETERS)
 def test_every_value_comes_back(ask_rcl: Callable[..., Any], parameters: dict[str, ParameterValue]) -> None:
@@ -88,6 +89,7 @@ def test_every_one_of_many_values_comes_back(
     _check(ask_rcl, parameters)
 
 
+@pytest.mark.conforms("D15", "D22", "4.6.3 lists")
 def test_a_real_node_has_the_parameters(ask_rcl: Callable[..., Any]) -> None:
     parameters: dict[str, ParameterValue] = {
         "x": 1,

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from orchestra.values import Scalar
 
 
+@pytest.mark.conforms("4.6.4 bool", "4.6.4 int", "4.6.4 double", "4.6.4 string", "4.6.4 null")
 @pytest.mark.parametrize(
     ("text", "value"),
     [
@@ -78,6 +79,7 @@ def _agree(ask_rcl: Callable[..., Any], texts: list[str]) -> None:
     assert [repr(value) for _, value in parameters] == [repr(typed(text)) for text in texts]
 
 
+@pytest.mark.conforms("4.6.4 bool", "4.6.4 int", "4.6.4 double", "4.6.4 string")
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=50)
 @given(texts=st.lists(_TEXTS, min_size=20, max_size=20))
 def test_scalars_are_typed_as_by_the_real_parser(ask_rcl: Callable[..., Any], texts: list[str]) -> None:

@@ -25,6 +25,7 @@ def _rules(arguments: list[str]) -> list[Rule]:
     return [read_rule(source, target) for source, _, target in rules]
 
 
+@pytest.mark.conforms("4.5 left side of a rule", "4.5 precedence of remaps")
 @pytest.mark.parametrize(
     "probe", [p for p in _PROBES if p["k"] == "remap"], ids=lambda p: " ".join(p["args"])
 )
@@ -35,6 +36,7 @@ def test_remaps_as_measured(probe: dict[str, Any]) -> None:
     assert remapped("a", rules, *own, kind="service") == probe["service a"]
 
 
+@pytest.mark.conforms("4.5 rules for one node", "4.5 ROS flags")
 @pytest.mark.parametrize(
     "probe",
     [p for p in _PROBES if p["k"] == "name" and p["args"][0] == "-r"],
@@ -53,6 +55,7 @@ def test_the_namespace_rule_asks_for_the_new_name() -> None:
     assert identity(_rules(["__node:=m", "n:__ns:=/q"]), "/ns", "n") == ("/ns", "m")
 
 
+@pytest.mark.conforms("4.5 left side of a rule")
 @pytest.mark.parametrize(
     ("source", "target", "text", "offset"),
     [
@@ -75,6 +78,7 @@ def test_a_rule_that_cannot_be_is_told_with_its_place(
     assert (caught.value.name, caught.value.fault.offset) == (text, offset)
 
 
+@pytest.mark.conforms("D23")
 @pytest.mark.parametrize(
     ("rules", "dead"),
     [
@@ -110,6 +114,7 @@ _RULE = st.builds("{}:={}".format, _SOURCES, _NAMES) | st.sampled_from(
 )
 
 
+@pytest.mark.conforms("4.5 precedence of remaps", "4.5 left side of a rule")
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=100)
 @given(rules=st.lists(_RULE, max_size=5))
 def test_remaps_as_rcl_applies_them(ask_rcl: Callable[..., Any], rules: list[str]) -> None:

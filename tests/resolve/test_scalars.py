@@ -18,6 +18,7 @@ def _same(one: object, other: object) -> bool:
     return repr(one) == repr(other)
 
 
+@pytest.mark.conforms("2.5 integers", "2.5 floats", "2.5 booleans", "2.6 no type")
 @pytest.mark.parametrize(
     ("text", "value"),
     [
@@ -58,6 +59,7 @@ def test_a_text_is_read_as_pyyaml_reads_it(text: str, value: ParameterValue) -> 
     assert _same(upstream_value(text), value)
 
 
+@pytest.mark.conforms("2.5 floats without a point", "2.5 one letter", "D15")
 @pytest.mark.parametrize(
     ("text", "value"),
     [
@@ -115,6 +117,7 @@ def test_what_cannot_be_a_parameter_is_told(text: str, reason: str) -> None:
         upstream_value(text)
 
 
+@pytest.mark.conforms("D14")
 @pytest.mark.parametrize(
     ("text", "value"),
     [
@@ -139,6 +142,7 @@ def test_the_core_schema_reads_less_into_a_text(text: str, value: ParameterValue
     assert _same(core_value(text), value)
 
 
+@pytest.mark.conforms("D14")
 @pytest.mark.parametrize(
     ("text", "sentence"),
     [

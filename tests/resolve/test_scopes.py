@@ -55,6 +55,17 @@ MESSAGES = {
 }
 
 
+@pytest.mark.conforms(
+    "4.2 scoped and forwarding",
+    "4.2 scoped without forwarding",
+    "4.2 not scoped",
+    "4.3 default values",
+    "1.3.1 value that is set",
+    "1.3.1 default",
+    "7 3",
+    "7 4",
+    "7 5",
+)
 @pytest.mark.parametrize("case", MESSAGES)
 def test_what_is_seen_where(case: str, tmp_path: Path) -> None:
     text, messages = MESSAGES[case]
@@ -66,6 +77,7 @@ def test_what_is_seen_where(case: str, tmp_path: Path) -> None:
 INNER = "launch:\n- arg: {name: t, default: d}\n" + SAY
 
 
+@pytest.mark.conforms("4.3 scope", "4.3 arguments", "7 2", "D1", "1.3.1 effect")
 def test_arguments_of_an_include_reach_its_file_and_stay_set_as_upstream(tmp_path: Path) -> None:
     main = "launch:\n- include: {file: inner.yaml, arg: [{name: t, value: a}]}\n" + SAY
     found = outcome(tmp_path, {"main.yaml": main, "inner.yaml": INNER})
@@ -73,6 +85,7 @@ def test_arguments_of_an_include_reach_its_file_and_stay_set_as_upstream(tmp_pat
     assert found.faults == [(Code.LEAKED_VALUE, "main.yaml", 3, 18)]
 
 
+@pytest.mark.conforms("4.3 default values", "7 1", "D1", "4.3 duplicate declarations")
 def test_the_first_default_of_two_siblings_wins_with_a_warning(tmp_path: Path) -> None:
     main = "launch:\n- include: {file: one.yaml}\n- include: {file: two.yaml}\n"
     two = INNER.replace("default: d", "default: e")
@@ -81,6 +94,7 @@ def test_the_first_default_of_two_siblings_wins_with_a_warning(tmp_path: Path) -
     assert found.faults == [(Code.LEAKED_VALUE, "two.yaml", 2, 3)]
 
 
+@pytest.mark.conforms("D1")
 def test_a_scoped_include_leaves_nothing_behind(tmp_path: Path) -> None:
     main = "launch:\n- include: {file: inner.yaml, scoped: true, arg: [{name: t, value: a}]}\n" + SAY
     found = outcome(tmp_path, {"main.yaml": main, "inner.yaml": INNER})
@@ -98,6 +112,7 @@ def test_an_include_is_repeated_with_its_own_arguments(tmp_path: Path) -> None:
     assert list(found.problems) == []
 
 
+@pytest.mark.conforms("4.3 path", "4.3 current file", "D2", "D38")
 def test_an_include_is_found_beside_the_including_file_not_the_first_one(tmp_path: Path) -> None:
     files = {
         "main.yaml": "launch:\n- include: {file: sub/a.yaml}\n- log: {message: $(dirname)}",
@@ -128,6 +143,7 @@ def test_problems_of_an_included_file_name_the_way_to_it(tmp_path: Path) -> None
     assert [span.line for span in problem.included_from] == [2, 2]
 
 
+@pytest.mark.conforms("4.1 3", "4.2 deferred actions", "D26", "7 14", "4.12 delayed")
 def test_a_timer_sees_the_scope_it_was_written_in(tmp_path: Path) -> None:
     text = (
         "launch:\n- group:\n  - push_ros_namespace: {namespace: a}\n  - set_env: {name: X, value: y}\n"
@@ -143,6 +159,7 @@ def test_a_timer_sees_the_scope_it_was_written_in(tmp_path: Path) -> None:
     ]
 
 
+@pytest.mark.conforms("4.2 scoped and forwarding", "7 3")
 def test_the_environment_of_a_group_ends_with_it(tmp_path: Path) -> None:
     text = (
         "launch:\n- group:\n  - set_env: {name: X, value: y}\n  - unset_env: {name: GONE}\n"
@@ -160,6 +177,7 @@ def test_the_environment_of_a_group_ends_with_it(tmp_path: Path) -> None:
 ARGUMENTS = "launch:\n- arg: {name: world, default: arena, choices: [arena, maze]}\n- arg: {name: speed}\n"
 
 
+@pytest.mark.conforms("5.3 a:=b", "5.3 a:=b:=c")
 def test_arguments_of_the_command_line(tmp_path: Path) -> None:
     found = outcome(tmp_path, ARGUMENTS, "world:=maze", "speed:=a:=b")
     assert [(argument.name, argument.default, argument.value) for argument in found.plan.arguments] == [
@@ -169,6 +187,7 @@ def test_arguments_of_the_command_line(tmp_path: Path) -> None:
     assert list(found.problems) == []
 
 
+@pytest.mark.conforms("1.3.1 no default", "1.3.1 value that is no choice", "D3", "7 15", "5.3 undeclared")
 @pytest.mark.parametrize(
     ("words", "code", "suggestion"),
     [
@@ -184,6 +203,7 @@ def test_arguments_that_are_wrong(
     assert (problem.code, problem.suggestion) == (code, suggestion)
 
 
+@pytest.mark.conforms("D3")
 def test_an_argument_is_known_where_it_is_only_read(tmp_path: Path) -> None:
     assert list(outcome(tmp_path, "launch:\n" + SAY, "t:=1").problems) == []
 
@@ -193,6 +213,7 @@ def test_an_unknown_argument_is_a_warning_where_a_condition_hides_an_include(tmp
     assert [problem.code for problem in found.problems] == [Code.UNREAD_ARGUMENT]
 
 
+@pytest.mark.conforms("4.3 extra arguments", "D3")
 def test_an_include_argument_that_was_misspelt(tmp_path: Path) -> None:
     main = "launch:\n- include: {file: inner.yaml, arg: [{name: tt, value: a}]}"
     inner = INNER.replace("name: t,", "name: ttt,").replace("$(var t", "$(var ttt")
@@ -201,6 +222,7 @@ def test_an_include_argument_that_was_misspelt(tmp_path: Path) -> None:
     assert (problem.code, problem.suggestion) == (Code.UNKNOWN_ARGUMENT, "ttt")
 
 
+@pytest.mark.conforms("4.3 extra arguments", "D3")
 def test_an_include_argument_that_nobody_reads_is_a_warning(tmp_path: Path) -> None:
     main = "launch:\n- include: {file: inner.yaml, arg: [{name: colour, value: a}]}"
     found = outcome(tmp_path, {"main.yaml": main, "inner.yaml": INNER})

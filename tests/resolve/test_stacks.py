@@ -56,6 +56,9 @@ _BARE: tuple[object, ...] = (None, ("unset",), {}, {}, ())
 _SET = ("/ns", ("v",), {"A": "y"}, {"p": 1}, (("a", "b"),))
 
 
+@pytest.mark.conforms(
+    "1.3 PushEnvironment", "1.3 PopEnvironment", "1.3 PushLaunchConfigurations", "1.3 PopLaunchConfigurations"
+)
 def test_what_was_pushed_is_popped() -> None:
     pushes = (PushEnvironment.at(AT), PushLaunchConfigurations.at(AT))
     pops = (PopLaunchConfigurations.at(AT), PopEnvironment.at(AT))
@@ -80,6 +83,7 @@ def test_a_variable_can_be_unset() -> None:
     assert _seen(*_settings(), UnsetLet.at(AT, name=text("t")), _node())[0][1] == ("unset",)
 
 
+@pytest.mark.conforms("1.3 PopEnvironment", "1.3 PopLaunchConfigurations")
 @pytest.mark.parametrize("action", [PopEnvironment.at(AT), PopLaunchConfigurations.at(AT)], ids=type)
 def test_nothing_pushed_is_an_error(action: Action) -> None:
     _, problems = planned(action)

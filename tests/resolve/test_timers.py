@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 _TIMER = "- ros_timer: {period: 1.5, children: [{log: {message: hi, level: warning}}]}\n"
 
 
+@pytest.mark.conforms("1.12 ROSTimer", "D58")
 def test_a_timer_on_ros_time_is_a_timer(tmp_path: Path) -> None:
     found = outcome(tmp_path, f"launch:\n{_TIMER}")
     assert list(found.problems) == []
@@ -26,6 +27,7 @@ def test_a_timer_on_ros_time_is_a_timer(tmp_path: Path) -> None:
     assert (action.message, action.level) == ("hi", "warning")
 
 
+@pytest.mark.conforms("1.12 SetUseSimTime", "D58")
 @pytest.mark.parametrize(
     ("before", "told"),
     [

@@ -8,6 +8,7 @@ from orchestra.supervise.backoff import Again, decide
 from orchestra.values import Policy, Restart
 
 
+@pytest.mark.conforms("4.8 respawn", "D30")
 @pytest.mark.parametrize(
     ("policy", "success", "again"),
     [
@@ -27,6 +28,7 @@ def test_nothing_written_means_no_restart() -> None:
     assert decide(None, success=False, uptime=1.0, short_runs=0) is None
 
 
+@pytest.mark.conforms("D30", "4.8 delay")
 @pytest.mark.parametrize(
     ("delay", "pauses"),
     [
@@ -52,6 +54,7 @@ def test_a_good_run_makes_the_next_pause_short_again() -> None:
     assert decide(Restart("always", 2.0), success=False, uptime=10.0, short_runs=7) == Again(2.0, 0)
 
 
+@pytest.mark.conforms("4.8 retries", "D30")
 def test_the_budget_counts_short_runs_in_a_row() -> None:
     """Upstream's `respawn_max_retries: 2` means three starts."""
     restart = Restart("always", budget=2)

@@ -117,6 +117,7 @@ def test_an_answer_may_start_later_and_defer_again(decided: Decided) -> None:
     assert "second answer" in run.stderr
 
 
+@pytest.mark.conforms("1.6 process.ProcessIO")
 def test_output_is_handed_over_as_it_came(decided: Decided) -> None:
     decided.answers[1] = fragment(do=[log("heard @TEXT@")])
     trigger = when(TriggerEvent("process_output", "a", stream="stderr"), deferred(1))
@@ -194,6 +195,7 @@ def test_a_stop_signal_ends_the_wait_for_code_that_hangs(decided: Decided) -> No
         run.assert_gone()
 
 
+@pytest.mark.conforms("D36")
 def test_code_that_hangs_holds_up_no_process(decided: Decided) -> None:
     """Neither those that write nor those that start: only the handler itself waits."""
     decided.answers[1] = {"hang": 0}

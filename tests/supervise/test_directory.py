@@ -2,12 +2,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import pytest
+
 from orchestra.supervise.directory import create, prune, state_folder
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    import pytest
 
 
 def test_runs_of_the_same_second_do_not_share_a_directory(tmp_path: Path) -> None:
@@ -40,6 +40,7 @@ def test_old_runs_go_and_running_ones_and_strangers_stay(tmp_path: Path) -> None
     assert not (tmp_path / "20190101-000000-running").exists()
 
 
+@pytest.mark.conforms("4.10 base", "D70")
 def test_where_runs_are_kept(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.delenv("ORCHESTRA_HOME", raising=False)
     monkeypatch.delenv("XDG_STATE_HOME", raising=False)

@@ -35,6 +35,7 @@ def environment(
     )
 
 
+@pytest.mark.conforms("4.10 other variables")
 def test_a_plain_interpreter_adds_only_what_the_run_needs() -> None:
     assert environment({"A": "1"}) == {
         "A": "1",
@@ -59,6 +60,7 @@ def test_whoever_says_how_far_discovery_reaches_is_believed(caller: dict[str, st
     assert middleware(environment({**caller, "ROS_HOME": "/h"})) == {**caller, "ROS_HOME": "/h"}
 
 
+@pytest.mark.conforms("4.10 ROS_LOG_DIR")
 @pytest.mark.parametrize("caller", [{"ROS_LOG_DIR": "/mine"}, {"ROS_HOME": "/mine"}])
 def test_the_callers_place_for_logs_stays(caller: dict[str, str]) -> None:
     assert environment(caller).get("ROS_LOG_DIR") == caller.get("ROS_LOG_DIR")

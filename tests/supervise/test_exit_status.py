@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 LINGERS = process("lingers", "polite", "linger")
 
 
+@pytest.mark.conforms("4.1 6", "D29", "4.8 required", "4.9 9")
 @pytest.mark.parametrize(
     ("what", "options", "status", "reason"),
     [
@@ -109,6 +110,7 @@ def test_a_run_that_ends_by_itself(
     assert run.stderr.splitlines()[-1] == f"[orchestra] run ended with status {status}: {reason}"
 
 
+@pytest.mark.conforms("D29", "4.9 1")
 @pytest.mark.parametrize(
     ("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
 )
@@ -146,6 +148,7 @@ def test_what_fails_before_the_stop_is_named(tmp_path: Path) -> None:
         assert run.events[-1].data["reason"] == "stopped by SIGINT; failed: a (exit code 4)"
 
 
+@pytest.mark.conforms("4.8 retries")
 def test_a_process_that_gave_up_is_failed(tmp_path: Path) -> None:
     crash = process("a", "exit=4", required=True, restart=Restart("on-failure", budget=1))
     run = finished(tmp_path, plan(crash, LINGERS))

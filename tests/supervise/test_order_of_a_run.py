@@ -100,6 +100,7 @@ def test_an_edge_is_timed_from_the_start_it_follows(tmp_path: Path) -> None:
     assert finished(tmp_path, plan(a, b, c)).popen.returncode == 0
 
 
+@pytest.mark.conforms("D30", "4.8 delay")
 def test_a_restart_waits_longer_each_time(tmp_path: Path) -> None:
     with launched(tmp_path, plan(process("a", "exit=1", restart=Restart("always")))) as run:
         run.await_event("process_starting", "a", count=3)
@@ -116,6 +117,7 @@ def test_a_restarted_process_becomes_ready_again(tmp_path: Path) -> None:
     assert run.kinds("a").count("process_ready") == 2
 
 
+@pytest.mark.conforms("1.3.2 on_exit")
 def test_triggers_follow_every_end(tmp_path: Path) -> None:
     again = process("again", "exit=1", restart=Restart("on-failure", budget=1))
     late = process("late", "say=here", "exit=0")
@@ -142,6 +144,7 @@ def test_a_trigger_may_start_a_process_again_and_again(tmp_path: Path) -> None:
         assert run.wait() == 130
 
 
+@pytest.mark.conforms("D37")
 def test_parameter_files_are_written_where_the_command_names_them(tmp_path: Path) -> None:
     node = process(
         "/robot1/ekf",
@@ -159,6 +162,7 @@ def test_parameter_files_are_written_where_the_command_names_them(tmp_path: Path
     assert run.log("show") == f"HERE={run.directory}/x\n"
 
 
+@pytest.mark.conforms("1.3.2 shell")
 def test_a_shell_gets_one_line(tmp_path: Path) -> None:
     run = finished(tmp_path, plan(process("a", command=("echo", "$((6*7))", "|", "cat"), shell=True)))  # noqa: S604 - the plan says so
     assert run.log("a") == "42\n"

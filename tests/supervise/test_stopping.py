@@ -41,6 +41,7 @@ def test_well_behaved_processes_end_within_three_seconds(tmp_path: Path) -> None
         assert all(run.log(one.id) == "up\nbye\n" for one in many)
 
 
+@pytest.mark.conforms("4.9 4", "4.9 5", "D33")
 @pytest.mark.parametrize(
     ("words", "sent"),
     [
@@ -66,6 +67,7 @@ def test_the_ladder_begins_with_the_signal_that_the_description_wants(tmp_path: 
         assert run.of_kind("process_ended", "a")[0].data["signal"] == signal.SIGUSR1
 
 
+@pytest.mark.conforms("D54", "4.9 timeouts")
 def test_one_deadline_holds_for_everything(tmp_path: Path) -> None:
     patient = Stop(timeout=60.0, kill_timeout=60.0)
     with launched(tmp_path, plan(process("a", *STUBBORN, stop=patient))) as run:
@@ -78,6 +80,7 @@ def test_one_deadline_holds_for_everything(tmp_path: Path) -> None:
         assert signals(run, "a") == ["SIGINT", "SIGKILL"]
 
 
+@pytest.mark.conforms("4.9 2", "D32")
 def test_impatience_helps(tmp_path: Path) -> None:
     """The second Ctrl-C is a SIGTERM to everything, the third a SIGKILL."""
     with launched(
@@ -143,6 +146,7 @@ def test_what_ends_ahead_of_its_turn_is_neither_failed_nor_started_again(tmp_pat
         assert run.kinds("base").count("process_starting") == 1
 
 
+@pytest.mark.conforms("4.8 delay", "4.9 7")
 def test_a_stop_interrupts_the_pause_before_a_restart(tmp_path: Path) -> None:
     with launched(tmp_path, plan(process("a", "exit=1", restart=Restart("always", delay=1000.0)))) as run:
         run.await_event("process_restarting", "a")

@@ -12,6 +12,8 @@ import threading
 import time
 from typing import TYPE_CHECKING
 
+import pytest
+
 from orchestra.supervise import proc
 from tests.supervise.plans import finished, launched, plan, process, wait_for
 
@@ -70,6 +72,7 @@ def in_terminal(folder: Path, *processes: object, **kwargs: object) -> Iterator[
                 os.close(terminal.ours)
 
 
+@pytest.mark.conforms("4.9 2", "4.9 3", "D32")
 def test_ctrl_c_is_heard_once(tmp_path: Path) -> None:
     with in_terminal(tmp_path, POLITE) as (run, terminal):
         run.await_line("polite", "up")
@@ -160,6 +163,7 @@ def test_no_colour_where_it_is_not_wanted(tmp_path: Path) -> None:
         assert b"\x1b" not in terminal.read()
 
 
+@pytest.mark.conforms("4.10 unit", "D34")
 def test_an_unfinished_line_is_shown_soon_and_continued(tmp_path: Path) -> None:
     asking = process(
         "asking",
@@ -226,6 +230,7 @@ def test_closed_standard_streams(tmp_path: Path) -> None:
     assert sorted(run.log("a").splitlines()) == ["one", "two"]
 
 
+@pytest.mark.conforms("4.10 log", "4.10 screen", "4.10 both")
 def test_words_decide_what_the_screen_shows(tmp_path: Path) -> None:
     words = (None, "screen", "both", "full", "log", "own_log")
     talkers = [process(str(word), "say=out", "complain=err", output=word) for word in words]
@@ -236,6 +241,7 @@ def test_words_decide_what_the_screen_shows(tmp_path: Path) -> None:
     assert all(sorted(run.log(str(word)).split()) == ["err", "out"] for word in words)
 
 
+@pytest.mark.conforms("1.3.2 emulate_tty")
 def test_a_process_may_have_a_terminal(tmp_path: Path) -> None:
     run = finished(tmp_path, plan(process("a", "terminal", "bytes=120000", "partial=x", emulate_tty=True)))
     begin, _, rest = run.log("a").partition("\n")

@@ -33,6 +33,7 @@ KINDS = ("child", "escape", "daemon", "anonymous")
 QUICK = Stop(timeout=0.3, kill_timeout=0.3)
 
 
+@pytest.mark.conforms("4.9 6", "D31")
 @pytest.mark.parametrize("manner", ["", "=ignore"])
 @pytest.mark.parametrize("kind", KINDS)
 def test_a_stop_ends_all_of_it(tmp_path: Path, kind: str, manner: str) -> None:

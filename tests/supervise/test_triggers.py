@@ -51,6 +51,7 @@ def told(stderr: str, *texts: str) -> list[str]:
     return [line for line in lines if line in texts]
 
 
+@pytest.mark.conforms("4.8 ExecutionComplete")
 def test_a_start_an_end_and_the_last_end_are_three_things(tmp_path: Path) -> None:
     triggers = (
         on("process_completed", log("completed")),
@@ -62,6 +63,7 @@ def test_a_start_an_end_and_the_last_end_are_three_things(tmp_path: Path) -> Non
     assert told(run.stderr, "started", "ended", "completed") == ["started", "ended"] * 2 + ["completed"]
 
 
+@pytest.mark.conforms("D28", "7 11", "D69")
 def test_a_program_that_cannot_be_started_is_an_end_with_a_reason(tmp_path: Path) -> None:
     triggers = (
         on("process_started", log("started")),
@@ -72,6 +74,7 @@ def test_a_program_that_cannot_be_started_is_an_end_with_a_reason(tmp_path: Path
     assert told(run.stderr, "started", "ended", "completed") == ["ended", "completed"]
 
 
+@pytest.mark.conforms("7 6", "4.1 4")
 def test_handlers_of_one_end_its_own_first_then_the_newest(tmp_path: Path) -> None:
     """The order that upstream has; output without an end of line comes before all of them."""
     triggers = (
@@ -98,6 +101,7 @@ def test_output_sets_off_by_stream(tmp_path: Path, stream: Any, seen: list[str])
     assert told(run.stderr, text) == seen
 
 
+@pytest.mark.conforms("1.7 handle_once", "1.3 UnregisterEventHandler")
 def test_once_is_once_and_unregistered_is_never(tmp_path: Path) -> None:
     triggers = (
         on("process_exited", log("once"), once=True),
@@ -120,6 +124,7 @@ def test_a_trigger_waits_from_its_registration_on(tmp_path: Path) -> None:
     assert told(run.stderr, "seen") == ["seen"]
 
 
+@pytest.mark.conforms("1.6 process.ShutdownProcess")
 def test_a_stop_ends_that_process_alone_and_nothing_restarts_it(tmp_path: Path) -> None:
     """With its own ladder: it ignores the first step."""
     stubborn = process(
@@ -164,6 +169,7 @@ def test_a_start_of_what_runs_is_said_and_not_done(tmp_path: Path) -> None:
     assert run.kinds("a").count("process_starting") == 1
 
 
+@pytest.mark.conforms("1.6 process.SignalProcess")
 @pytest.mark.parametrize(("name", "ended_by"), [("SIGUSR1", signal.SIGUSR1), ("SIGKILL", signal.SIGKILL)])
 def test_a_signal_reaches_the_program(tmp_path: Path, name: str, ended_by: int) -> None:
     triggers = (on("process_output", SignalAction(("a",), name, HERE)),)
@@ -172,6 +178,7 @@ def test_a_signal_reaches_the_program(tmp_path: Path, name: str, ended_by: int) 
     assert [event.data["signal"] for event in run.of_kind("signal_sent", "a")] == [name]
 
 
+@pytest.mark.conforms("1.7 OnShutdown", "4.9 7")
 def test_a_shutdown_sets_off_its_triggers_and_starts_nothing(tmp_path: Path) -> None:
     triggers = (
         on("shutdown", log("going down"), start("late"), stop("a"), target=None),
@@ -185,6 +192,7 @@ def test_a_shutdown_sets_off_its_triggers_and_starts_nothing(tmp_path: Path) -> 
     assert not run.of_kind("process_starting", "late")
 
 
+@pytest.mark.conforms("1.3 TimerAction", "4.9 8")
 def test_delays_are_dropped_at_the_end_unless_they_say_otherwise(tmp_path: Path) -> None:
     began = TriggerEvent("run_started")
     triggers = (

@@ -57,6 +57,7 @@ def test_commands_come_first() -> None:
     assert _words("--") == ["--help", "--version"]
 
 
+@pytest.mark.conforms("5.3 completion", "5.2 completion")
 @pytest.mark.parametrize("command", ["launch", "plan", "check"])
 def test_launch_files_folders_and_packages_of_this_place(command: str) -> None:
     found = _words(command, "")
@@ -64,6 +65,7 @@ def test_launch_files_folders_and_packages_of_this_place(command: str) -> None:
     assert "demo" in found[4:]
 
 
+@pytest.mark.conforms("5.2 completion")
 @pytest.mark.parametrize("command", ["launch", "plan", "check"])
 def test_launch_files_of_a_package(command: str) -> None:
     assert [word for word in _words(command, "demo", "") if word.endswith((".py", ".xml"))] == [

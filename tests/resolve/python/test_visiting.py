@@ -73,6 +73,7 @@ def faults(folder: Path, text: str, *words: str) -> list[tuple[Code, int, str]]:
     ]
 
 
+@pytest.mark.conforms("4.1 1", "4.12 computed", "1.2 Action.execute")
 def test_entities_are_visited_in_order_and_what_they_return_right_after_them(tmp_path: Path) -> None:
     text = """
 def inner(context):
@@ -83,6 +84,9 @@ def generate_launch_description():
     assert said(tmp_path, text) == ["a", "b", "c", "d", "e"]
 
 
+@pytest.mark.conforms(
+    "1.2 LaunchContext.launch_configurations", "1.3 OpaqueFunction", "4.2 scoped and forwarding"
+)
 def test_user_code_reads_and_writes_configurations_of_its_scope(tmp_path: Path) -> None:
     text = """
 def raise_it(context, by, *, twice):
@@ -105,6 +109,7 @@ def generate_launch_description():
     assert said(tmp_path, text, "n:=10") == ["16", "17", "16"]
 
 
+@pytest.mark.conforms("1.2 LaunchContext.environment", "D27")
 def test_os_environ_is_the_environment_of_the_scope(tmp_path: Path) -> None:
     text = """
 os.environ['AT_IMPORT'] = '1'
@@ -137,6 +142,7 @@ def generate_launch_description():
     assert dict(os.environ) == before
 
 
+@pytest.mark.conforms("D27")
 def test_a_resolution_leaves_nothing_of_itself_in_the_process(tmp_path: Path) -> None:
     (tmp_path / "beside.py").write_text("import launch\nCOUNT = []\n")
     text = """
@@ -163,6 +169,7 @@ def test_what_launch_files_print_is_not_the_product(
     assert (shown.out, shown.err) == ("", "hello\n")
 
 
+@pytest.mark.conforms("1.2 Substitution", "1.2 Condition", "1.2 Action.execute")
 def test_users_own_actions_substitutions_and_conditions(tmp_path: Path) -> None:
     text = """
 class Twice(Substitution):
@@ -199,6 +206,7 @@ def generate_launch_description():
     assert said(tmp_path, text, "n:=4") == ["n44", "hey!", "yes"]
 
 
+@pytest.mark.conforms("1.2 LaunchDescription.entities")
 def test_a_list_of_entities_that_grows_is_visited_to_its_end(tmp_path: Path) -> None:
     text = """
 def generate_launch_description():
@@ -209,6 +217,7 @@ def generate_launch_description():
     assert said(tmp_path, text) == ["late"]
 
 
+@pytest.mark.conforms("4.3 current file", "D2", "1.4 ThisLaunchFile", "1.4 ThisLaunchFileDir")
 def test_an_include_runs_the_file_in_the_environment_of_its_place(tmp_path: Path) -> None:
     main = """
 def generate_launch_description():

@@ -70,6 +70,7 @@ def stop(run: Launched) -> str:
     return run.stderr.splitlines()[-1]
 
 
+@pytest.mark.conforms("4.7 service", "4.7 order", "4.7 request", "4.7 extra_arguments", "4.7 parameters")
 def test_components_are_loaded_in_order_with_all_that_belongs_to_them(tmp_path: Path) -> None:
     parameters = {
         "a.b": 1,
@@ -120,6 +121,7 @@ def test_components_are_loaded_in_order_with_all_that_belongs_to_them(tmp_path: 
         assert "went wrong" not in stop(run)
 
 
+@pytest.mark.conforms("4.7 order", "D39")
 @pytest.mark.parametrize("words", [("refuse=demo::Bad",), ("refuse=demo::Bad", "bare")])
 def test_what_the_container_refuses_is_told_and_the_next_is_loaded(
     tmp_path: Path, words: tuple[str, ...]
@@ -147,6 +149,7 @@ def test_a_trigger_loads_what_waits_for_it(tmp_path: Path) -> None:
         assert "late is not loaded once more" in run.stderr
 
 
+@pytest.mark.conforms("4.7 environment and respawn", "D39")
 def test_a_container_that_starts_again_gets_its_components_again(tmp_path: Path) -> None:
     dying = component("dying", condition="event", plugin="Dying")
     triggers = (
@@ -163,6 +166,7 @@ def test_a_container_that_starts_again_gets_its_components_again(tmp_path: Path)
     assert "dying could not be loaded" in run.stderr.splitlines()[-1]
 
 
+@pytest.mark.conforms("4.7 wait", "D39")
 def test_a_container_that_never_runs_fails_its_components(tmp_path: Path) -> None:
     what = plan(
         container(command=("/no/such/program",)),
@@ -194,6 +198,7 @@ def test_a_container_that_is_not_there_fails_all_of_its_components_at_once(
         }
 
 
+@pytest.mark.conforms("4.7 wait", "D39")
 def test_a_container_that_hangs_is_an_error_with_a_cause(tmp_path: Path) -> None:
     what = plan(container("hang=demo::First"), components=(component("first"),))
     with launched(tmp_path, what, RunOptions(answer_timeout=3.0), environment=DOMAIN) as run:

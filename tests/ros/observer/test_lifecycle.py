@@ -6,6 +6,8 @@ import signal
 import sys
 from typing import TYPE_CHECKING, Any
 
+import pytest
+
 from orchestra.plan.reactions import ChangeStateAction, TriggerEvent
 from orchestra.supervise.options import RunOptions
 from orchestra.values import Restart
@@ -50,6 +52,7 @@ def at_start(*actions: Any) -> Trigger:
     return when(TriggerEvent("run_started"), *actions)
 
 
+@pytest.mark.conforms("4.11 autostart", "D40")
 def test_a_node_is_brought_to_active(tmp_path: Path) -> None:
     triggers = (when_state("active", shutdown("it is active")),)
     run = finished(tmp_path, plan(node(lifecycle="active"), triggers=triggers), environment=DOMAIN)
@@ -68,6 +71,7 @@ def test_a_node_is_brought_to_active(tmp_path: Path) -> None:
     assert "shut down: it is active" in run.stderr
 
 
+@pytest.mark.conforms("4.11 usual pattern", "4.11 state changes", "4.11 LifecycleNode")
 def test_the_usual_pattern_configure_then_activate_on_inactive(tmp_path: Path) -> None:
     """The order to configure stands before the process that it is for has been started."""
     triggers = (
@@ -87,6 +91,7 @@ def test_the_usual_pattern_configure_then_activate_on_inactive(tmp_path: Path) -
     assert [e.data["state"] for e in run.of_kind("transition_done")][:2] == ["inactive", "active"]
 
 
+@pytest.mark.conforms("4.11 LifecycleTransition")
 def test_transitions_of_one_order_follow_each_other(tmp_path: Path) -> None:
     triggers = (at_start(change(CONFIGURE, ACTIVATE, DEACTIVATE)),)
     with launched(tmp_path, plan(node(), triggers=triggers), environment=DOMAIN) as run:
@@ -96,6 +101,7 @@ def test_transitions_of_one_order_follow_each_other(tmp_path: Path) -> None:
         assert [e.data["state"] for e in run.of_kind("transition_done")] == ["inactive", "active", "inactive"]
 
 
+@pytest.mark.conforms("4.11 LifecycleTransition", "4.11 ChangeState")
 def test_a_transition_that_fails_ends_its_order_and_is_told(tmp_path: Path) -> None:
     with launched(tmp_path, plan(node("fail=configure", lifecycle="active")), environment=DOMAIN) as run:
         event = run.await_event("transition_failed", "/managed")
@@ -132,6 +138,7 @@ def test_a_node_that_starts_again_is_brought_to_active_again(tmp_path: Path) -> 
     assert len(run.of_kind("transition_failed")) == 2
 
 
+@pytest.mark.conforms("4.11 ChangeState")
 def test_a_service_that_never_appears_is_an_error_with_a_cause(tmp_path: Path) -> None:
     options = RunOptions(service_timeout=2.0, fail_on_any=True)
     silent = node("silent", lifecycle="active")
@@ -142,6 +149,7 @@ def test_a_service_that_never_appears_is_an_error_with_a_cause(tmp_path: Path) -
         assert run.wait() == 143
 
 
+@pytest.mark.conforms("D41")
 def test_a_node_that_hangs_is_an_error_and_holds_up_nobody(tmp_path: Path) -> None:
     options = RunOptions(answer_timeout=4.0)
     both = (node("hang=configure", lifecycle="active"), node(name="other", lifecycle="active"))
