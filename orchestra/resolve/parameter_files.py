@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code, Problems
-from orchestra.location import displayed
+from orchestra.location import displayed, is_yaml
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import FileParameters
-from orchestra.resolve.paths import existing_file
+from orchestra.resolve.paths import beside, existing_file, folder_of
 from orchestra.resolve.rcl.files import read_parameter_file, read_plain_file
 from orchestra.resolve.rcl.reader import SECTION_KEY
 from orchestra.resolve.substituted import Back, placed_back, substituted
@@ -31,15 +32,16 @@ def file_parameters(
 ) -> FileParameters | None:
     """Return what a parameter file holds, None where it cannot be found or read (which has been reported).
 
-    With `substitute`, `$(...)` in it is evaluated; with `plain`, it may be one without sections. An empty path is no
-    file: how files make one optional, with an argument whose default is empty.
+    With `substitute`, `$(...)` in it is evaluated; with `plain`, it may be one without sections: components have those.
+    Nodes are started without a file that somebody else was to put there.
     """
     value = run.evaluate(written)
     if not isinstance(value, Value):
         return None
-    if not value.text:
-        run.problems.warning(Code.MISSING_FILE, "the path of the parameter file is empty", value.location)
-        return FileParameters("", (), value.location, everywhere=everywhere)
+    lacking = None if substitute or everywhere or plain else _lacking(value, run)
+    if lacking is not None:
+        run.problems.warning(Code.MISSING_FILE, lacking, value.location)
+        return FileParameters("", (), value.location)
     path = existing_file(value, written, "parameter file", run)
     if path is None:
         return None
@@ -50,6 +52,26 @@ def file_parameters(
             run.parameter_files[path, plain] = read_file(path, value.location, run, plain=plain)
         file = run.parameter_files[path, plain]
     return None if file is None else replace(file, location=value.location, everywhere=everywhere)
+
+
+def _lacking(value: Value, run: Resolution) -> str | None:
+    """Return what is to be told of a file that the node can do without, None for one that is there or must be.
+
+    Upstream warns of every file that is not there. An empty path is how an argument makes one optional; a file neither
+    beside the launch file nor where packages are is of the machine (`/etc/robot/control.yaml`), and may come later. All
+    others are mistakes, as everything is that a YAML file names.
+    """
+    if not value.text:
+        return "the path of the parameter file is empty"
+    if is_yaml(value.location) or beside(run.context.file, value.text) is not None:
+        return None
+    folder = folder_of(run.context.file)
+    path = os.path.normpath(os.path.join(folder, os.path.expanduser(value.text)))  # noqa: PTH111, PTH118 - no `~x` fails
+    prefixes = run.scope.environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    places = (folder, *(Path(prefix) for prefix in prefixes if prefix))
+    if any(Path(path).is_relative_to(place) for place in places):
+        return None
+    return f"there is no parameter file {displayed(path)}: the node is started without it"
 
 
 def read_file(

@@ -150,10 +150,9 @@ COMMANDS: dict[str, tuple[str, list[str]]] = {
         """
         class Scoped(IncludeLaunchDescription):
             def execute(self, context):
-                context.extend_locals({"current_launch_file_directory": self._get_launch_file_directory()})
                 assert self._try_get_arguments_names_without_context() == ["x_pose"]
                 inner = self.launch_description_source.get_launch_description(context)
-                assert self._get_launch_file().endswith("/inner.launch.py")
+                assert self._get_launch_file() == self._get_launch_file_directory() + "/inner.launch.py"
                 settings = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
                 return [PushLaunchConfigurations(), *settings, inner, PopLaunchConfigurations()]
         source = PythonLaunchDescriptionSource([ThisLaunchFileDir(), "/inner.launch.py"])
@@ -234,6 +233,15 @@ def test_a_parameter_file_is_optional_where_its_path_may_be_empty(tmp_path: Path
     assert plan.errors == []
     assert plan.parameters == [{"a": 1}]
     assert plan.warnings == ["the path of the parameter file is empty"]
+
+
+def test_a_source_without_a_file_is_told(tmp_path: Path) -> None:
+    code = """
+    def read(context):
+        return [PythonLaunchDescriptionSource("gone.launch.py").get_launch_description(context)]
+    return LaunchDescription([OpaqueFunction(function=read)])
+    """
+    assert planned(tmp_path, code).errors == ["FileNotFoundError: there is no launch file gone.launch.py"]
 
 
 MISSING = {

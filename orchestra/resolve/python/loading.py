@@ -25,16 +25,20 @@ _PARSERS = {
 
 
 def load_description(path: str, language: str | None, run: Resolution) -> LaunchDescription:
-    """Return the description of a launch file. Raises `ReportedError` with what is wrong with it."""
+    """Return the description of a launch file.
+
+    Raises `ReportedError` with what is wrong with it, `FileNotFoundError` where there is none.
+    """
     found = Problems()
     there = beside(run.context.file, path)
     if there is None:
-        raise ReportedError(f"there is no launch file {path}")
+        raise FileNotFoundError(f"there is no launch file {path}")
     ending = () if language is None else (ENDINGS[language],)
     description = run.load(there, found, run.context.included_from, *ending)
-    if description is None or found.errors:
-        message = found.errors[0].message if found.errors else f"{path} is no launch file"
-        raise ReportedError(message, found.errors)
+    if found.errors:
+        raise ReportedError(found.errors[0].message, found.errors)
+    if description is None:
+        raise RuntimeError(f"{path} is no launch file")
     for action in description.actions:
         if isinstance(action, OpaqueAction) and isinstance(action.target, LaunchDescription):
             return action.target
