@@ -26,6 +26,7 @@ from orchestra.resolve.model import (
 )
 from orchestra.resolve.occasions import Action as CollectedAction
 from orchestra.resolve.occasions import Occasion
+from orchestra.resolve.packages.extensions import extends
 from orchestra.resolve.scope import Ledger, Scope
 
 if TYPE_CHECKING:
@@ -106,6 +107,7 @@ class Resolution:
     parameter_files: dict[tuple[str, bool], FileParameters | None] = field(default_factory=dict)
     make_engine: Callable[[Resolution], Any] | None = None
     _engine: Any = None
+    _extended: bool | None = None
 
     @property
     def engine(self) -> Any:  # noqa: ANN401 - a ResolvingEngine, whose module needs this one
@@ -123,6 +125,12 @@ class Resolution:
     def later(self) -> bool:
         """Whether what is visited is carried out when something happens, not now."""
         return self.occasion is not None and not self.occasion.now
+
+    def nodes_are_extended(self) -> bool:
+        """Return whether an installed package has its say about every node."""
+        if self._extended is None:
+            self._extended = extends("launch_ros.node_action")
+        return self._extended
 
     def handle_events(self) -> None:
         """Hand events of the users' own, if any have happened, to the handlers that want them."""

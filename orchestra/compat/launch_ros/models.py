@@ -62,7 +62,7 @@ def _override(parameter: Parameter) -> Override:
 
 def _file(file: ParameterFile) -> Param:
     span = file._place.span
-    allowed = {"allow_substs": template("true", span)} if file.allow_substs else {}
+    allowed: dict[str, Any] = {"allow_substs": template("true", span)} if file.allow_substs else {}
     return Param.at(span, from_=template(file._written, span), **allowed)
 
 

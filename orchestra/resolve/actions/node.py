@@ -54,15 +54,25 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
         autostart=autostart is True,
         faulty=not whole or not regular or any(isinstance(value, Poison) for value in values),
     )
-    _tell(action.origin, program, [(rule.source.text, rule.target.text) for rule in rules])
+    _tell(action.origin, program)
+    if not program.faulty and run.nodes_are_extended():
+        program = _extended(program, action, run)
     return add_process(action, program, run)
 
 
-def _tell(origin: Any, program: Program, rules: list[tuple[str, str]]) -> None:  # noqa: ANN401 - any object
+def _tell(origin: Any, program: Program) -> None:  # noqa: ANN401 - any object
     """Let the object of a Python launch file know what its names have come to: user code asks for them."""
     if origin is not None and not program.faulty and hasattr(origin, "_resolved_as"):
         name, namespace = (None if item is None else item.text for item in (program.name, program.namespace))
+        rules = [(rule.source.text, rule.target.text) for rule in program.remaps]
         origin._resolved_as(name, namespace, rules)  # noqa: SLF001 - the class of ours that made the action
+
+
+def _extended(program: Program, action: Node, run: Resolution) -> Program:
+    # Here, because hardly anybody has such packages, and for what it imports.
+    from orchestra.resolve.python.node_extensions import extended  # noqa: PLC0415
+
+    return extended(program, action, run)
 
 
 def _words(

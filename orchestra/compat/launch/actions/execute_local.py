@@ -129,6 +129,7 @@ class ExecuteLocal(ModelledAction):
         """Perform the substitutions of the program."""
         description = self.process_description
         description.prepare(context, self)
+        description._add(self._words_of_its_own(context))
         self._details = {
             "action": self,
             "name": description.final_name,
@@ -136,6 +137,10 @@ class ExecuteLocal(ModelledAction):
             "cwd": description.final_cwd,
             "env": description.final_env,
         }
+
+    def _words_of_its_own(self, context: LaunchContext) -> list[str]:  # noqa: ARG002 - for subclasses
+        """Return the words that a kind of process adds to its command line."""
+        return []
 
     def get_stdout(self) -> str:
         """Return what the process has written. Raises `RuntimeError` without `cached_output`."""

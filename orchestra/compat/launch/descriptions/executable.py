@@ -124,6 +124,10 @@ class Executable:
             "env": self.__environment(context),
         }
 
+    def _add(self, words: Iterable[str]) -> None:
+        """Add words to the command line that has been prepared."""
+        self.__final["cmd"] += words
+
     def __prefix_words(self, program: str, context: LaunchContext) -> list[str]:
         """Return the prefix where it applies; a prefix of the program's own is not filtered."""
         if self.__prefix is None:

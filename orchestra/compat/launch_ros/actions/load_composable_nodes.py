@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch_ros.actions.composable_node_container import ComposableNodeContainer
+from orchestra.compat.launch_ros.load_requests import get_composable_node_load_request
 from orchestra.compat.text import template
 from orchestra.description.actions.group import Group
 from orchestra.description.actions.load_composable_node import LoadComposableNode
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from orchestra.compat.launch_ros.descriptions.composable_node import ComposableNode
     from orchestra.compat.text import Sub
     from orchestra.description.entity import Action as Model
+
+__all__ = ["LoadComposableNodes", "get_composable_node_load_request"]
 
 
 class LoadComposableNodes(ModelledAction):

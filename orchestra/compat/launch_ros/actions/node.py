@@ -7,7 +7,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.launch.actions.execute_process import ExecuteProcess
 from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.launch_ros.actions.node_action_extension import NodeActionExtension
 from orchestra.compat.launch_ros.models import params, remaps
+from orchestra.compat.launch_ros.node_words import parameter_words, rules
 from orchestra.compat.launch_ros.substitutions.executable_in_package import ExecutableInPackage
 from orchestra.compat.launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
 from orchestra.compat.launch_ros.utilities.normalize_parameters import normalize_parameters
@@ -24,6 +26,8 @@ if TYPE_CHECKING:
     from orchestra.compat.text import Sub
     from orchestra.description.entity import Action as Model
     from orchestra.description.text import Template
+
+__all__ = ["Node", "NodeActionExtension"]
 
 _FORMER: Final = {"node_executable": "executable", "node_name": "name", "node_namespace": "namespace"}
 _ROS_ARGUMENTS: Final = "--ros-args"
@@ -122,13 +126,28 @@ class Node(ExecuteProcess):
         self._perform_substitutions(context)
         return super().execute(context)
 
+    def prepare(self, context: LaunchContext) -> None:
+        """Perform the substitutions of the program, and find out what ROS makes of the rest."""
+        self._perform_substitutions(context)
+        super().prepare(context)
+
+    def _words_of_its_own(self, context: LaunchContext) -> list[str]:
+        """Return the words that follow the last `--ros-args`: names, parameters and remappings."""
+        known = self.is_node_name_fully_specified()
+        name, namespace = self.__expanded_node_name, self.__expanded_node_namespace
+        found = [] if name == self.UNSPECIFIED_NODE_NAME else ["-r", f"__node:={name}"]
+        found += [] if namespace == self.UNSPECIFIED_NODE_NAMESPACE else ["-r", f"__ns:={namespace}"]
+        found += parameter_words(self.__parameters, self.node_name if known else None, context)
+        for left, right in self.__expanded_remappings or ():
+            found += ["-r", f"{left}:={right}"]
+        return found
+
     def _perform_substitutions(self, context: LaunchContext) -> None:
         """Find the names out."""
         name, namespace = (None if item is None else _performed(item, context) for item in self.__names[1:])
         base = context.launch_configurations.get("ros_namespace", None)
         absolute = make_namespace_absolute(prefix_namespace(base, namespace))
-        own = [(_performed(left, context), _performed(right, context)) for left, right in self.__remappings]
-        self._resolved_as(name, absolute, [*context.launch_configurations.get("ros_remaps", ()), *own])
+        self._resolved_as(name, absolute, rules(self.__remappings, context))
 
     def _resolved_as(self, name: str | None, namespace: str | None, rules: Iterable[tuple[str, str]]) -> None:
         """Take note of what a visit has come to. `rules` are the remappings of all nodes, then the node's own."""
