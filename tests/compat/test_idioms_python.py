@@ -244,6 +244,22 @@ def test_a_source_without_a_file_is_told(tmp_path: Path) -> None:
     assert planned(tmp_path, code).errors == ["FileNotFoundError: there is no launch file gone.launch.py"]
 
 
+def test_standard_output_is_kept_clean_of_what_code_and_its_programs_write(
+    tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    code = """
+    import subprocess
+    print("printed")
+    os.system("echo by a shell")
+    subprocess.run(["echo", "by a program"], check=True)
+    return LaunchDescription([])
+    """
+    assert planned(tmp_path, code).errors == []
+    written = capfd.readouterr()
+    assert written.out == ""
+    assert all(text in written.err for text in ("printed", "by a shell", "by a program"))
+
+
 MISSING = {
     "beside the launch file": "Path(__file__).parent / 'gone.yaml'",
     "by a relative path": "'config/gone.yaml'",

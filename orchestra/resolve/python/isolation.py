@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from contextlib import ExitStack, contextmanager, redirect_stdout
+from contextlib import ExitStack, contextmanager, redirect_stdout, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -40,7 +40,8 @@ class Isolation:
 def isolated(environment: Mapping[str, str], argv: Sequence[str]) -> Iterator[Isolation]:
     """Let launch files in Python be loaded: `os.environ` is `environment`, `sys.argv` are the words of `ros2 launch`.
 
-    What they print goes to standard error, for standard output carries the product of the command.
+    What they print goes to standard error, for standard output carries the product of the command; so does what the
+    programs write that they start themselves.
     """
     with ExitStack() as restoring:
         restoring.callback(put_environment, dict(os.environ))
@@ -48,12 +49,25 @@ def isolated(environment: Mapping[str, str], argv: Sequence[str]) -> Iterator[Is
         restoring.callback(_put_list, sys.path, list(sys.path))
         restoring.callback(setattr, sys, "argv", sys.argv)
         restoring.enter_context(redirect_stdout(sys.stderr))
+        restoring.enter_context(_programs_redirected())
         restoring.enter_context(served())
         restoring.callback(_forget_loggers)
         put_environment(environment)
         sys.argv = Arguments(argv)
         sys.path += _libraries(environment)
         yield Isolation(restoring)
+
+
+@contextmanager
+def _programs_redirected() -> Iterator[None]:
+    """Let standard output be standard error for programs that are started meanwhile; nothing where one is closed."""
+    with ExitStack() as restoring:
+        with suppress(OSError):  # one of the two is closed: then there is nothing to keep clean
+            kept = os.dup(1)
+            restoring.callback(os.close, kept)
+            os.dup2(2, 1)
+            restoring.callback(os.dup2, kept, 1)
+        yield
 
 
 def _forget_loggers() -> None:
