@@ -107,6 +107,7 @@ def generate_launch_description():
 """
 
 
+@pytest.mark.conforms("1.12.1 extensions")
 @pytest.mark.parametrize(("ending", "text"), [("yaml", _YAML), ("py", _PYTHON)])
 def test_extensions_add_words_to_every_node(tmp_path: Path, ending: str, text: str) -> None:
     environment = _install(tmp_path, level="Level", enclave="Enclave")
