@@ -34,6 +34,18 @@ def beside(file: str | None, written: str) -> str | None:
     return _found(folder_of(file), written)
 
 
+def may_come(value: Value, run: Resolution) -> bool:
+    """Return whether a file that is not there may be written later: none of a package, none beside the launch file."""
+    folder, path = folder_of(run.context.file), _expanded(value.text)
+    prefixes = run.scope.environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    settled = (folder, *(Path(prefix) for prefix in prefixes if prefix))
+    return (
+        path.is_absolute()
+        and _found(folder, value.text) is None
+        and not any(map(path.is_relative_to, settled))
+    )
+
+
 def file_below(
     folder: Path, value: Value, what: str, run: Resolution, written: str | None = None
 ) -> str | None:

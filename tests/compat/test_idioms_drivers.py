@@ -83,3 +83,72 @@ def test_an_argument_that_another_branch_of_the_code_may_read_is_known(tmp_path:
     assert (messages(content), problems) == (["a.mcap"], [])
     _, (problem,) = planned(tmp_path, text, "bag:=a.mcap", "devise:=/dev/video0")
     assert "no argument 'devise'" in problem.message
+
+
+def test_a_condition_is_asked_by_the_name_that_it_has_upstream(tmp_path: Path) -> None:
+    text = """\
+    from launch import LaunchDescription, Substitution
+    from launch.actions import DeclareLaunchArgument, LogInfo, OpaqueFunction
+    from launch.conditions import IfCondition, LaunchConfigurationEquals, UnlessCondition
+    from launch.substitutions import LaunchConfiguration, PythonExpression
+    class Chosen(Substitution):
+        def __init__(self, one, other, condition):
+            self.text = one if condition else other
+        def perform(self, context):
+            return self.text
+    def setup(context):
+        stereo = PythonExpression(["'", LaunchConfiguration("stereo"), "' == 'true'"])
+        held = [
+            IfCondition(stereo)._predicate_func(context),
+            UnlessCondition(stereo)._predicate_func(context),
+            LaunchConfigurationEquals("stereo", "true")._predicate_func(context),
+        ]
+        return [
+            DeclareLaunchArgument("depth", default_value=Chosen("false", "true", held[0])),
+            LogInfo(msg=[LaunchConfiguration("depth"), str(held)]),
+        ]
+    def generate_launch_description():
+        return LaunchDescription([
+            DeclareLaunchArgument("stereo", default_value="true"), OpaqueFunction(function=setup)
+        ])
+    """
+    content, problems = planned(tmp_path, text)
+    assert (messages(content), problems) == (["false[True, False, True]"], [])
+
+
+WRITES_LAUNCH_FILES = """\
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, ExecuteProcess, GroupAction, IncludeLaunchDescription
+from launch.actions import RegisterEventHandler
+from launch.event_handlers import OnProcessExit
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+def generate_launch_description():
+    written = PathJoinSubstitution([LaunchConfiguration("setup_path"), "robot.launch.py"])
+    generator = ExecuteProcess(cmd=["generate", LaunchConfiguration("setup_path")])
+    robot = GroupAction([
+        IncludeLaunchDescription(PythonLaunchDescriptionSource([written]), launch_arguments=[("a", "b")]),
+        Node(package="demo", executable="tool"),
+    ])
+    return LaunchDescription([
+        DeclareLaunchArgument("setup_path"), generator,
+        RegisterEventHandler(OnProcessExit(target_action=generator, on_exit=[robot])),
+    ])
+"""
+
+
+def test_a_launch_file_that_a_process_of_the_run_writes_is_read_when_it_is_wanted(tmp_path: Path) -> None:
+    setup = tmp_path / "setup"
+    content, problems = planned(tmp_path, WRITES_LAUNCH_FILES, f"setup_path:={setup}")
+    assert problems == []
+    (trigger,) = content["triggers"]
+    assert [step["action"] for step in trigger["do"]] == ["deferred", "start"]
+    assert trigger["deferred"]
+
+
+@pytest.mark.parametrize("place", ["launch/setup", "prefix/share/other"], ids=["beside", "in-a-package"])
+def test_a_launch_file_that_no_process_writes_is_missed(place: str, tmp_path: Path) -> None:
+    setup = tmp_path / ("prefix/share/demo/" + place if place.startswith("launch") else place)
+    _, (problem,) = planned(tmp_path, WRITES_LAUNCH_FILES, f"setup_path:={setup}")
+    assert "there is no launch file" in problem.message

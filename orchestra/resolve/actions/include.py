@@ -13,8 +13,9 @@ from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.dependencies import dependencies
 from orchestra.resolve.interpret import visit_file
 from orchestra.resolve.mentions import is_fixed
-from orchestra.resolve.paths import existing_file
+from orchestra.resolve.paths import existing_file, may_come
 from orchestra.resolve.python.calling import user_code
+from orchestra.resolve.python.deferral import Deferred, put_off
 from orchestra.resolve.repetition import repeated
 from orchestra.resolve.resolution import Frame
 
@@ -30,13 +31,19 @@ _DEEPEST = 150
 
 
 def visit(action: Include, run: Resolution) -> None:
-    """Visit the actions of another file: in this scope as upstream, in one of its own where that is asked for."""
+    """Visit the actions of another file: in this scope as upstream, in one of its own where that is asked for.
+
+    What is only included when something happens may be a file that something else of the run writes before.
+    """
     for _ in repeated(action.for_each, run):
         if action.children is not None:
             with run.scope.nested() if run.flag(action.scoped) is True else nullcontext():
                 _include_object(action, action.children, run)
             continue
         value = run.evaluate(action.file)
+        if isinstance(value, Value) and run.later and not action.for_each and may_come(value, run):
+            put_off(Deferred("action", action), run.at(action.span), run)
+            continue
         path = existing_file(value, action.file, "launch file", run) if isinstance(value, Value) else None
         description = _description(path, action, run) if path is not None else None
         if path is None or description is None:

@@ -60,6 +60,9 @@ def _carry_out(kept: Kept, event: Any, run: Resolution) -> None:
     if deferred.kind == "entity":
         visit_entity(deferred.target, run)
         return
+    if deferred.kind == "action":
+        run.visit((deferred.target,), run)
+        return
     if deferred.kind == "event":
         emit(deferred.target, kept.location, run)
         return

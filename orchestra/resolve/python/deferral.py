@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from orchestra.location import Location
 from orchestra.resolve.context import Context
+from orchestra.resolve.reactions import ResolvedDeferred
 from orchestra.resolve.resolution import Frame
 from orchestra.resolve.scope import Ledger, Scope
 
@@ -21,10 +22,10 @@ class Deferred:
     """Code to call.
 
     `handler`: `callback(event, context)` of an event handler, `target`, which also says whether it wants the event.
-    `entity`: a Python entity to visit. `event`: an event to emit.
+    `entity`: a Python entity to visit. `action`: an action that is described, to visit. `event`: an event to emit.
     """
 
-    kind: Literal["handler", "entity", "event"]
+    kind: Literal["handler", "entity", "action", "event"]
     target: Any
     callback: Any = None
 
@@ -38,6 +39,12 @@ class Kept:
     scope: Scope
     context: Context
     frames: tuple[Frame, ...]
+
+
+def put_off(deferred: Deferred, location: Location, run: Resolution) -> None:
+    """Let code be asked in its turn among what is done when something happens."""
+    if run.occasion is not None:
+        run.occasion.do.append(ResolvedDeferred(defer(deferred, location, run), location))
 
 
 def defer(deferred: Deferred, location: Location, run: Resolution) -> int:

@@ -14,8 +14,7 @@ from orchestra.compat.launch.launch_description_entity import LaunchDescriptionE
 from orchestra.errors import Code
 from orchestra.location import displayed, point
 from orchestra.resolve.python.calling import user_code
-from orchestra.resolve.python.deferral import Deferred, defer
-from orchestra.resolve.reactions import ResolvedDeferred
+from orchestra.resolve.python.deferral import Deferred, put_off
 
 if TYPE_CHECKING:
     from orchestra.description.actions.opaque import OpaqueAction
@@ -52,10 +51,8 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
     if type(entity).visit is LaunchDescription.visit:
         visit_entities(entity.entities, run)
         return
-    if run.later and run.occasion is not None:
-        location = run.at(action.span)
-        kept = defer(Deferred("entity", entity), location, run)
-        run.occasion.do.append(ResolvedDeferred(kept, location))
+    if run.later:
+        put_off(Deferred("entity", entity), run.at(action.span), run)
         return
     following: Any = None
     context = run.engine.context

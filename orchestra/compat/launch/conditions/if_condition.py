@@ -25,17 +25,18 @@ class IfCondition(Condition):
 
     def __init__(self, predicate_expression: Sub) -> None:
         self.__expression = normalized(predicate_expression)
-        super().__init__(predicate=self._holds)
+        super().__init__(predicate=self._predicate_func)
 
     def describe(self) -> str:
         """Return the text and what becomes of it."""
         return f"{type(self).__name__}({described(self.__expression)})"
 
-    def _holds(self, context: LaunchContext) -> bool:
+    def _predicate_func(self, context: LaunchContext) -> bool:
+        """Return whether the condition holds; files call this by upstream's name for it."""
         return evaluate_condition_expression(context, self.__expression) is self._wanted
 
     def _fields(self, span: Span) -> dict[str, Any]:
-        evaluate: Any = type(self).evaluate
-        if not evaluate.__module__.startswith("orchestra.compat."):
+        judging: tuple[Any, ...] = (type(self).evaluate, type(self)._predicate_func)
+        if not all(method.__module__.startswith("orchestra.compat.") for method in judging):
             return super()._fields(span)
         return {self._field: template(self.__expression, span)}

@@ -27,14 +27,14 @@ class LaunchConfigurationEquals(Condition):
     def __init__(self, launch_configuration_name: str, expected_value: Sub | None) -> None:
         self.__name = launch_configuration_name
         self.__expected = None if expected_value is None else normalized(expected_value)
-        super().__init__(predicate=self._holds)
+        super().__init__(predicate=self._predicate_func)
 
     def describe(self) -> str:
         """Return the name and the value."""
         expected = "None" if self.__expected is None else described(self.__expected)
         return f"{type(self).__name__}('{self.__name}', {expected})"
 
-    def _holds(self, context: LaunchContext) -> bool:
+    def _predicate_func(self, context: LaunchContext) -> bool:
         value: Any = context.launch_configurations.get(self.__name)
         expected = None if self.__expected is None else perform_substitutions(context, self.__expected)
         return (value == expected) is self._wanted
