@@ -60,7 +60,8 @@ def at_start(*actions: Any, **changes: Any) -> Trigger:
 
 
 def requests(run: Launched) -> list[dict[str, Any]]:
-    return [json.loads(line) for line in run.log("ns.box").splitlines()]
+    """What the container was asked to load; rclpy warns beside it of answers to a greeting that came too early."""
+    return [json.loads(line) for line in run.log("ns.box").splitlines() if line.startswith("{")]
 
 
 def stop(run: Launched) -> str:
