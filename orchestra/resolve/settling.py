@@ -22,7 +22,12 @@ if TYPE_CHECKING:
 
 def settled(run: Resolution) -> tuple[ResolvedTrigger, ...]:
     """Return the triggers of what has been collected since the last time, one for each process that each is about."""
-    full = (occasion for occasion in run.found.occasions if occasion.do)
+    idle = all(_serves_code(kept.deferred.target) for kept in run.found.kept)
+    full = (
+        occasion
+        for occasion in run.found.occasions
+        if occasion.do and not (idle and _serves_code(occasion.handler))
+    )
     events = [(occasion, event) for occasion in full for event in _events(occasion, run)]
     for position, (occasion, _) in enumerate(events, run.found.triggers):
         if occasion.handler is not None:
@@ -55,6 +60,11 @@ def processes_of(target: Any, run: Resolution) -> tuple[int, ...]:  # noqa: ANN4
     if made or not callable(target):
         return made
     return tuple(index for index, process in processes if run.engine.accepts(target, index, process))
+
+
+def _serves_code(handler: Any) -> bool:  # noqa: ANN401 - an event handler or None
+    """Return whether all that a handler does is for other code that may be called during the run."""
+    return bool(getattr(handler, "_serves_code", False))
 
 
 def _events(occasion: Occasion, run: Resolution) -> Iterable[ResolvedEvent]:

@@ -152,3 +152,29 @@ def test_a_launch_file_that_no_process_writes_is_missed(place: str, tmp_path: Pa
     setup = tmp_path / ("prefix/share/demo/" + place if place.startswith("launch") else place)
     _, (problem,) = planned(tmp_path, WRITES_LAUNCH_FILES, f"setup_path:={setup}")
     assert "there is no launch file" in problem.message
+
+
+@pytest.mark.parametrize(
+    ("rest", "events"),
+    [
+        ("LogInfo(msg='started')", ["run_started"]),
+        (
+            "RegisterEventHandler(OnProcessExit(target_action=ports, on_exit=lambda event, context: None))",
+            ["process_output", "process_output", "process_exited"],
+        ),
+    ],
+    ids=["nobody", "code"],
+)
+def test_output_is_only_kept_for_code_that_may_ask_for_it(
+    rest: str, events: list[str], tmp_path: Path
+) -> None:
+    text = f"""\
+    from launch import LaunchDescription
+    from launch.actions import ExecuteProcess, LogInfo, RegisterEventHandler
+    from launch.event_handlers import OnProcessExit
+    def generate_launch_description():
+        ports = ExecuteProcess(cmd=[["socat ", "-d ", "pty"]], shell=True, cached_output=True)
+        return LaunchDescription([ports, {rest}])
+    """
+    content, problems = planned(tmp_path, text)
+    assert ([trigger["on"]["event"] for trigger in content["triggers"]], problems) == (events, [])

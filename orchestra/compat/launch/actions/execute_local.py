@@ -194,7 +194,9 @@ class ExecuteLocal(ModelledAction):
         if self.__on_exit is not None and not self.__ends_run():
             handlers.append(self.__handler(ProcessExited, self.__on_exit))
         if self.__cached_output:
-            handlers.append(self.__handler(ProcessIO, self.__cache))
+            keeper = self.__handler(ProcessIO, self.__cache)
+            keeper._serves_code = True
+            handlers.append(keeper)
         return [model for handler in handlers for model in handler._to_models()]
 
     def __handler(self, event: type[Event], done: Any) -> OnActionEventBase:

@@ -39,6 +39,8 @@ class OnActionEventBase(BaseEventHandler):
     takes the event and the context and returns some. Raises `TypeError` for anything else.
     """
 
+    _serves_code = False  # whether all that it does is for other code that may be called during the run
+
     def __init__(
         self,
         *,
