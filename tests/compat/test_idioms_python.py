@@ -268,12 +268,14 @@ MISSING = {
 }
 
 
+@pytest.mark.conforms("D18", "4.6.3 files given by path")
 @pytest.mark.parametrize("path", MISSING.values(), ids=list(MISSING))
 def test_a_parameter_file_of_the_description_must_be_there(tmp_path: Path, path: str) -> None:
     (told,) = planned(tmp_path, f"[Node(package='demo', executable='talker', parameters=[{path}])]").errors
     assert told.startswith("there is no parameter file")
 
 
+@pytest.mark.conforms("D18", "4.6.3 files given by path")
 def test_a_parameter_file_of_the_machine_may_come_later(tmp_path: Path) -> None:
     code = (
         "[Node(package='demo', executable='talker', name='n', parameters=['/etc/robot/gone.yaml', {'a': 1}])]"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+from concurrent.futures import Future
 from functools import partial
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, List  # noqa: UP035 - what launch files hand in
@@ -287,6 +288,13 @@ def _described(value: Any) -> str:
     """Return the descriptions of substitutions, a text as one."""
     items = value if isinstance(value, list | tuple) else [value]
     return " ".join(f"{item!r}" if isinstance(item, str) else item.describe() for item in items)
+
+
+@pytest.mark.conforms("D73")
+def test_a_future_is_taken_and_not_waited_for() -> None:
+    context = _context()
+    context.add_completion_future(Future())
+    assert not context.is_shutdown
 
 
 @pytest.mark.parametrize("case", conforming(FACTS))

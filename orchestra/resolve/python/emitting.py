@@ -6,10 +6,12 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.events.include_launch_description import IncludeLaunchDescription
+from orchestra.compat.launch.events.process.process_stdin import ProcessStdin
 from orchestra.compat.launch.events.process.shutdown_process import ShutdownProcess
 from orchestra.compat.launch.events.process.signal_process import SignalProcess
 from orchestra.compat.launch.events.shutdown import Shutdown
 from orchestra.compat.launch_ros.events.lifecycle.change_state import ChangeState
+from orchestra.errors import Code
 from orchestra.resolve.occasions import OpenAction
 from orchestra.resolve.python.calling import user_code
 from orchestra.resolve.python.deferral import Deferred, defer
@@ -42,16 +44,29 @@ def emit(event: Any, location: Location, run: Resolution) -> None:
         case ChangeState():
             change = partial(_change, event.transition_id, location)
             trigger(OpenAction(event.lifecycle_node_matcher, location, change), run)
-        case IncludeLaunchDescription():
+        case IncludeLaunchDescription() if run.later:
             visit_entities([event.launch_description], run)
-        case _ if run.later and run.occasion is not None:
-            run.occasion.do.append(ResolvedDeferred(defer(Deferred("event", event), location, run), location))
+        case ProcessStdin():
+            message = "nobody writes to the standard input of a process: only event handlers hear of this"
+            run.problems.warning(Code.BAD_VALUE, message, location)
+            _happen(event, location, run)
         case _:
-            run.engine.happening.append((event, location))
+            _happen(event, location, run)
+
+
+def _happen(event: Any, location: Location, run: Resolution) -> None:
+    """Let an event come to the handlers: in the run where that is when it is emitted, else after the visit."""
+    if run.later and run.occasion is not None:
+        run.occasion.do.append(ResolvedDeferred(defer(Deferred("event", event), location, run), location))
+    else:
+        run.engine.happening.append((event, location))
 
 
 def handle_events(run: Resolution) -> None:
-    """Hand the events that have happened to the handlers that want them, newest first, and visit what they return."""
+    """Hand the events that have happened to the handlers that want them, newest first, and visit what they return.
+
+    A description that an event brings is visited then, by the oldest handler of all, which is launch's own.
+    """
     engine = run.engine
     while engine.happening:
         event, location = engine.happening.pop(0)
@@ -64,6 +79,8 @@ def handle_events(run: Resolution) -> None:
             if returned is not None:
                 visit_entities([returned] if not isinstance(returned, list | tuple) else returned, run)
             context._pop_locals()
+        if isinstance(event, IncludeLaunchDescription):
+            visit_entities([event.launch_description], run)
 
 
 def _stop(location: Location, indexes: tuple[int, ...]) -> ResolvedStop:

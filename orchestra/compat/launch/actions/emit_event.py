@@ -15,13 +15,17 @@ if TYPE_CHECKING:
 
 
 class EmitEvent(ModelledAction):
-    """Let an event happen after what is being visited. Raises `RuntimeError` for anything but an event."""
+    """Let an event happen after what is being visited; of a class of events, one that is made without arguments.
+
+    Raises `RuntimeError` for anything but an event, `TypeError` for a class that wants arguments.
+    """
 
     def __init__(self, *, event: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         if not (isinstance(event, Event) or (isinstance(event, type) and issubclass(event, Event))):
             raise RuntimeError(f"EmitEvent takes a launch.Event, not {event!r}")  # noqa: TRY004 - as upstream
         self.__event = event
+        self.__emitted = event() if isinstance(event, type) else event
 
     @property
     def event(self) -> Any:
@@ -29,4 +33,4 @@ class EmitEvent(ModelledAction):
         return self.__event
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        return EmitEventModel.at(self._place.span, event=self.event, **common)
+        return EmitEventModel.at(self._place.span, event=self.__emitted, **common)
