@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.launch.frontend.parse_substitution import Given
 from orchestra.compat.launch.frontend.reading.attributes import (
     ENTITIES,
     condition,
@@ -81,6 +82,9 @@ def _settings(entity: Entity, parser: Any) -> dict[str, Any]:
 def _components(entity: Entity, parser: Any, *, optional: bool) -> list[ComposableNode]:
     found = []
     for item in entity.get_attr("composable_node", data_type=ENTITIES, optional=optional) or ():
-        found.append(ComposableNode(**composable_node(item, parser)))
+        made = ComposableNode(**composable_node(item, parser))
         item.assert_entity_completely_parsed()
+        if item._span is not None:
+            made._place = Given(item._span)
+        found.append(made)
     return found
