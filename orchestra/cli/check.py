@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.cli import boundary
 from orchestra.cli.inputs import as_errors
+from orchestra.cli.leaving import contained
 from orchestra.cli.parser import CommandParser
 from orchestra.cli.problems.formats import FORMATS
 from orchestra.errors import Severity, UsageError
@@ -52,7 +53,8 @@ def run(options: Namespace) -> int:
     from orchestra.resolve.packages import InstalledPackages  # noqa: PLC0415
 
     found = targets(places(paths, InstalledPackages(os.environ)))
-    problems = problems_in(found, inputs_from(words, environment=os.environ))
+    with contained():
+        problems = problems_in(found, inputs_from(words, environment=os.environ))
     if options.strict:
         problems = as_errors(problems)
     boundary.show_problems(problems, options.format, sys.stdout, command_line=" ".join(words))

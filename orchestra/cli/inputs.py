@@ -5,9 +5,10 @@ from __future__ import annotations
 import dataclasses
 import os
 import sys
+from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
-from orchestra.cli import boundary, launch_prefix
+from orchestra.cli import boundary, launch_prefix, leaving
 from orchestra.errors import DescriptionError, Problems, Severity, UsageError
 
 if TYPE_CHECKING:
@@ -65,7 +66,8 @@ def plan_from(options: Namespace, *, launching: bool) -> Plan:
     from orchestra import pipeline  # noqa: PLC0415 - heavy, and `--help` does not need it
 
     file, given = file_and_inputs(options)
-    plan = pipeline.make_plan(file, dataclasses.replace(given, launching=launching))
+    with nullcontext() if launching else leaving.contained():
+        plan = pipeline.make_plan(file, dataclasses.replace(given, launching=launching))
     if options.strict and plan.problems:
         raise DescriptionError(as_errors(plan.problems))
     return plan

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, TypeVar
 
 from orchestra.cli.boundary import Telling, guarded
 from orchestra.cli.commands import COMMANDS, overview
+from orchestra.cli.leaving import end_at_once, threads
 from orchestra.errors import UsageError
 from orchestra.nearest import nearest
 
@@ -24,7 +25,11 @@ _ResultT = TypeVar("_ResultT")
 def main(words: Sequence[str]) -> int:
     """Carry out the command line, without the program's name, and return the exit status."""
     name = words[0] if words else ""
-    return guarded(lambda: _dispatch(words), Telling(name if name in COMMANDS else ""))
+    before = threads()
+    status = guarded(lambda: _dispatch(words), Telling(name if name in COMMANDS else ""))
+    if threads() - before:
+        end_at_once(status)
+    return status
 
 
 def prepare(words: Sequence[str], stream: BinaryIO) -> int | Answer:

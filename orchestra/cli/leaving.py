@@ -1,0 +1,53 @@
+"""What code of launch files leaves running when nothing is launched: it ends with the command."""
+
+from __future__ import annotations
+
+import os
+import sys
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from threading import Thread
+
+
+@contextmanager
+def contained() -> Iterator[None]:
+    """Kill the processes that have been started meanwhile and are still there, and those that they have started."""
+    # Here, because only commands that read launch files need it.
+    from orchestra.resolve.command_reaper import children, kill, set_subreaper  # noqa: PLC0415
+
+    known = set(children())
+    before = set_subreaper(1)
+    try:
+        yield
+    finally:
+        while left := [child for child in children() if child not in known]:
+            for child in left:
+                with suppress(ProcessLookupError):  # user code has waited for it since
+                    kill(child)
+            for child in left:
+                with suppress(ChildProcessError):  # as above
+                    os.waitpid(child, 0)
+        set_subreaper(before)
+
+
+def threads() -> set[Thread]:
+    """Return the threads for which the interpreter would wait before it ends."""
+    threading = sys.modules.get("threading")
+    if threading is None:
+        return set()
+    return {
+        thread
+        for thread in threading.enumerate()
+        if not thread.daemon and thread is not threading.main_thread()
+    }
+
+
+def end_at_once(status: int) -> None:
+    """End this process without waiting for threads."""
+    for stream in (sys.stdout, sys.stderr):
+        with suppress(OSError):  # nobody reads it any more
+            stream.flush()
+    os._exit(status)
