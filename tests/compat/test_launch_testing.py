@@ -206,3 +206,31 @@ def test_calls_are_aggregated() -> None:
     assert not called
     aggregator.ready_fn()
     assert called == ["ready"]
+
+
+@pytest.mark.conforms(
+    "1.18 event_handlers.StdoutReadyListener", "1.19 fixture", "1.19 actions.ReadyToTest", "D60"
+)
+def test_descriptions_of_pytest_files_can_be_made(tmp_path: Path) -> None:
+    plan, problems = _planned(
+        tmp_path / "test_a.py",
+        """
+from launch_testing.event_handlers import StdoutReadyListener
+
+@launch_pytest.fixture
+def plain():
+    return launch.LaunchDescription([launch_pytest.actions.ReadyToTest()])
+
+@launch_pytest.fixture(scope="module", auto_shutdown=False)
+def generate_launch_description():
+    process = launch.actions.ExecuteProcess(cmd=["prog"])
+    ready = StdoutReadyListener(target_action=process, ready_txt="up", actions=[launch.actions.LogInfo(msg="ready")])
+    return launch.LaunchDescription([plain(), launch.actions.RegisterEventHandler(ready), process])
+""",
+    )
+    assert not problems
+    assert plan is not None
+    assert [process.command for process in plan.processes] == [("prog",)]
+    assert [(trigger.on.event, trigger.on.stream, trigger.deferred) for trigger in plan.triggers] == [
+        ("process_output", "stdout", True)
+    ]

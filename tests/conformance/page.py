@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -19,6 +20,8 @@ there means the same here.
 This page is written by `python -m tests.conformance` from `docs/compatibility.toml` and the marks of the tests.
 """
 _TESTS = "../tests"
+_CODE = re.compile(r"[A-Z_.:=-]")
+_DIFFERENCE = re.compile(r"\bD\d+\b")
 
 
 def faults(language: Language, tests: Mapping[str, Sequence[str]]) -> list[str]:
@@ -46,7 +49,7 @@ def _dangling(language: Language) -> Iterator[str]:
 def render(language: Language, tests: Mapping[str, Sequence[str]]) -> str:
     """Return the page."""
     parts = [_HEAD, *(_table(section, tests) for section in language.sections), _differences(language, tests)]
-    return "\n".join(parts)
+    return "\n".join([*parts, _targets(tests)])
 
 
 def _table(section: Section, tests: Mapping[str, Sequence[str]]) -> str:
@@ -58,12 +61,15 @@ def _table(section: Section, tests: Mapping[str, Sequence[str]]) -> str:
 
 
 def _status(row: Row, found: Sequence[str]) -> str:
-    names = ", ".join(f"[{name}](#{name.lower()})" for name in row.differs)
     if row.absent:
-        return f"not provided: {row.absent}"
-    if names:
-        return f"differs: {names}"
+        return f"not provided: {_DIFFERENCE.sub(_to_difference, row.absent)}"
+    if row.differs:
+        return f"differs: {_DIFFERENCE.sub(_to_difference, ', '.join(row.differs))}"
     return "as upstream" if found else "not tested"
+
+
+def _to_difference(name: re.Match[str]) -> str:
+    return f"[{name[0]}](#{name[0].lower()})"
 
 
 def _differences(language: Language, tests: Mapping[str, Sequence[str]]) -> str:
@@ -80,7 +86,7 @@ def _line(*cells: str) -> str:
 
 
 def _code(name: str) -> str:
-    return name if " " in name or name.isdigit() else f"`{name}`"
+    return f"`{name}`" if _CODE.search(name) and " " not in name else name
 
 
 def _links(found: Sequence[str]) -> str:
@@ -89,4 +95,15 @@ def _links(found: Sequence[str]) -> str:
     for test in found:
         path, _, name = test.partition("::")
         files.setdefault(path, []).append(name.removeprefix("test_").replace("_", " "))
-    return "; ".join(f"[{path}]({_TESTS}/{path}): {', '.join(names)}" for path, names in files.items())
+    return "; ".join(f"[{_short(path)}]: {', '.join(names)}" for path, names in files.items())
+
+
+def _targets(tests: Mapping[str, Sequence[str]]) -> str:
+    """Return where the links to files lead."""
+    paths = {test.partition("::")[0] for found in tests.values() for test in found}
+    return "".join(f"[{_short(path)}]: {_TESTS}/{path}\n" for path in sorted(paths))
+
+
+def _short(path: str) -> str:
+    """Return the name of a file of tests without what all of them have."""
+    return path.removesuffix(".py").replace("test_", "")
