@@ -211,7 +211,9 @@ class System:
         return None
 
     def end_with(self, reason: str) -> None:
-        """End the run because the plan says so."""
+        """End the run because the plan says so; a required process that failed just before gives it its status."""
+        if not self.stopping.begun:
+            self._blame()
         self._ended_by = reason if self._ended_by is None else self._ended_by
         self._stop(reason, f"{reason}: stopping")
 
@@ -250,14 +252,21 @@ class System:
 
     def _judge_ends(self) -> None:
         """A required process that is over for good takes the run with it."""
-        over = [unit for unit in self._units.values() if unit.process.required and unit.over]
+        over = self._required_ends()
         if not over:
             return
-        unit = next((unit for unit in over if unit.state.phase is Phase.FAILED), over[0])
-        if unit.state.phase is Phase.FAILED:
+        unit = next(filter(_has_failed, over), over[0])
+        self.end_with(f"required process {unit.name} has ended")
+
+    def _blame(self) -> None:
+        """Keep the first required process that failed, whether its end or a trigger on its end stops the run."""
+        unit = next(filter(_has_failed, self._required_ends()), None)
+        if unit:
             self._required = (unit.name, unit.state.ending or Ending(code=1))
             self._show_last_lines(unit)
-        self.end_with(f"required process {unit.name} has ended")
+
+    def _required_ends(self) -> list[Unit]:
+        return [unit for unit in self._units.values() if unit.process.required and unit.over]
 
     def _show_last_lines(self, unit: Unit) -> None:
         if unit.tail.lines:
@@ -280,3 +289,7 @@ class System:
         self.stopping.begin(cause)
         self._triggers.happened(happenings.shutdown(cause, due_to_sigint=due_to_sigint))
         self.changed()
+
+
+def _has_failed(unit: Unit) -> bool:
+    return unit.state.phase is Phase.FAILED

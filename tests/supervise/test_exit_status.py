@@ -98,6 +98,16 @@ LINGERS = process("lingers", "polite", "linger")
             "required process b could not begin: a never was completed; failed: a (exit code 1)",
         ),
         (plan(LINGERS, triggers=(at_start(shutdown("enough")),)), RunOptions(), 0, "shut down: enough"),
+        (
+            plan(
+                process("a", "exit=77", required=True),
+                LINGERS,
+                triggers=(when_ended("a", shutdown("a ended")),),
+            ),
+            RunOptions(),
+            77,
+            "required process a failed (exit code 77)",
+        ),
     ],
 )
 def test_a_run_that_ends_by_itself(
