@@ -9,6 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.seam import connected
+from orchestra.compat.suggestions import in_place
 from orchestra.errors import DescriptionError, Problem, Problems
 from orchestra.load.files import load
 from orchestra.location import displayed, point
@@ -111,6 +112,7 @@ def opened(
             if description is not None:
                 resolved = _symbolic(carry_through(description, run), isolation.files)
                 launch = Launch(build(resolved, problems), run, isolation.files)
+            problems.amend(in_place)
         yield launch
 
 
@@ -175,6 +177,10 @@ def _loading(path: str, inputs: Inputs, load: LoadFile, packages: InstalledPacka
     words = (f"{item.name}:={item.value}" for item in inputs.arguments)
     with (
         isolated(inputs.environment, ("ros2", "launch", path, *words)) as isolation,
-        connected(LoadingConnection(packages, begin_alone, isolation.prepare, debug=inputs.debug)),
+        connected(
+            LoadingConnection(
+                packages, begin_alone, isolation.prepare, debug=inputs.debug, launching=inputs.launching
+            )
+        ),
     ):
         yield isolation

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from orchestra.description.entity import Action, Entity
     from orchestra.description.source import Keyed, Written
     from orchestra.description.text import Template
-    from orchestra.errors import Problem
+    from orchestra.errors import Problem, Severity
 
 EntityT = TypeVar("EntityT", bound="Entity")
 
@@ -128,6 +128,9 @@ class Connection(Protocol):
 
     def package_prefixes(self) -> dict[str, str]:
         """Return the install prefixes of all packages by name."""
+
+    def missing_package(self, package: str) -> tuple[Severity, str, str | None]:
+        """Return what is to be said where code goes no further without a package, and the name that was meant."""
 
     def package_prefix(self, package: str) -> str | None:
         """Return the install prefix of a package."""

@@ -115,10 +115,15 @@ def _refuse_in_include(
         run.problems.warning(Code.UNREAD_ARGUMENT, message, item.location, suggestion=meant)
 
 
+def lacking(name: str) -> str:
+    """Return what is said of an argument that cannot be without a value."""
+    return f"the argument '{name}' has no default and no value"
+
+
 def _report_missing(
     name: str, declared_at: Location, description: Description, run: Resolution, included_at: Location | None
 ) -> None:
-    message = f"the argument '{name}' has no default and no value"
+    message = lacking(name)
     if included_at is None:
         run.problems.error(Code.MISSING_ARGUMENT, f"{message}: give '{name}:=VALUE'", declared_at)
         return

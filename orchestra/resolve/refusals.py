@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from orchestra.errors import Code
+from orchestra.errors import Code, Severity
 from orchestra.nearest import is_slip, nearest
 from orchestra.resolve.context import POISON
 
@@ -47,16 +48,31 @@ def report_missing_package(package: str, written: Template, context: Context) ->
     Where nothing will be started it may be elsewhere: then it is a warning, given once, unless the name is a slip for
     one that is installed.
     """
-    meant = nearest(package, context.packages.names())
-    if not context.launching and not (meant is not None and is_slip(package, meant)):
+    missing = missing_package(package, context.packages.names(), launching=context.launching)
+    if missing.severity is Severity.WARNING:
         if package not in context.elsewhere:
-            told = f"there is no package {package!r} on this machine: what it would give is left open"
-            context.problems.warning(Code.MISSING_PACKAGE, told, context.at(written.span))
+            context.problems.warning(Code.MISSING_PACKAGE, missing.told, context.at(written.span))
         context.elsewhere.add(package)
         return POISON
-    return refuse(
-        written, context, Code.MISSING_PACKAGE, f"there is no package {package!r} here", meant=meant
-    )
+    return refuse(written, context, Code.MISSING_PACKAGE, missing.told, meant=missing.meant)
+
+
+@dataclass(frozen=True, slots=True)
+class MissingPackage:
+    """What is to be said of a package that is not here, and the name that was meant."""
+
+    severity: Severity
+    told: str
+    meant: str | None
+
+
+def missing_package(package: str, known: Iterable[str], *, launching: bool) -> MissingPackage:
+    """Return what is to be said of a package that is none of those that are known."""
+    meant = nearest(package, known)
+    if launching or (meant is not None and is_slip(package, meant)):
+        return MissingPackage(Severity.ERROR, f"there is no package {package!r} here", meant)
+    told = f"there is no package {package!r} on this machine: what it would give is left open"
+    return MissingPackage(Severity.WARNING, told, None)
 
 
 def report_missing_executable(executable: str, package: str, written: Template, context: Context) -> Poison:

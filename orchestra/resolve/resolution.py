@@ -232,6 +232,20 @@ class Resolution:
         self.found.occasions.append(occasion)
 
     @contextmanager
+    def reporting_to(self, problems: Problems) -> Iterator[Problems]:
+        """Let what comes up for a while be reported elsewhere."""
+        outer = self.problems
+        self._report_to(problems)
+        try:
+            yield problems
+        finally:
+            self._report_to(outer)
+
+    def _report_to(self, problems: Problems) -> None:
+        self.problems = self.scope.problems = problems
+        self.context = replace(self.context, problems=problems)
+
+    @contextmanager
     def scoped(self, scope: Scope) -> Iterator[None]:
         """Carry on in another scope for a while."""
         outer, outer_context = self.scope, self.context

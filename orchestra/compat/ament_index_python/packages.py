@@ -13,7 +13,9 @@ _NAME = re.compile(r"[a-zA-Z0-9][a-zA-Z0-9_-]+")
 
 
 class PackageNotFoundError(KeyError):
-    """There is no such package here."""
+    """There is no such package here. `package` is its name, where Orchestra has looked for it."""
+
+    package: str | None = None
 
     def __str__(self) -> str:
         """Return the message without the quotes that a `KeyError` puts around it."""
@@ -72,7 +74,9 @@ def _check(package_name: str) -> None:
 def _missing(package_name: str) -> PackageNotFoundError:
     meant = nearest(package_name, connection().package_prefixes())
     hint = f", did you mean {meant!r}?" if meant is not None else ""
-    return PackageNotFoundError(f"there is no package {package_name!r} here{hint}")
+    error = PackageNotFoundError(f"there is no package {package_name!r} here{hint}")
+    error.package = package_name
+    return error
 
 
 def _no_folder(package_name: str, share: str) -> str:

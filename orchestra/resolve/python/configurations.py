@@ -67,9 +67,20 @@ class Configurations(MutableMapping[str, Any]):
             raise KeyError(name)
         self._run.scope.forget(name)
 
+    def __contains__(self, name: object) -> bool:
+        """Return whether a value is set; one that is not known for its faults is none."""
+        if name in (_PARAMETERS, _REMAPS) and self._made_up(str(name)):
+            return True
+        self._run.scope.ledger.read.add(str(name))
+        return self._has_value(name)
+
+    def _has_value(self, name: object) -> bool:
+        variable = self._run.scope.variables.get(str(name))
+        return variable is not None and isinstance(variable.value, Value)
+
     def __iter__(self) -> Iterator[str]:
         self._run.scope.ledger.read.update(self._run.scope.names())
-        yield from self._run.scope.names()
+        yield from filter(self._has_value, self._run.scope.names())
         yield from (name for name in (_PARAMETERS, _REMAPS) if self._made_up(name))
 
     def __len__(self) -> int:

@@ -6,11 +6,13 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Problems
+from orchestra.resolve.refusals import missing_package
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from orchestra.compat.seam import Engine, FrontEnd
+    from orchestra.errors import Severity
     from orchestra.resolve.packages import InstalledPackages
     from orchestra.resolve.resolution import Resolution
 
@@ -18,7 +20,8 @@ if TYPE_CHECKING:
 class LoadingConnection:
     """Serves the launch files of one resolution. `begin` makes a state of its own for a context that users build.
 
-    `prepare` gets ready for their code; with `debug` what that raises is told with all calls.
+    `prepare` gets ready for their code; with `debug` what that raises is told with all calls, without
+    `launching` a package that is not here is a fault of this host.
     """
 
     def __init__(
@@ -28,11 +31,13 @@ class LoadingConnection:
         prepare: Callable[[], None] = lambda: None,
         *,
         debug: bool = False,
+        launching: bool = True,
     ) -> None:
         self.debug = debug
         self.prepare = prepare
         self._packages = packages
         self._begin = begin
+        self._launching = launching
 
     @cached_property
     def front_end(self) -> FrontEnd:
@@ -47,6 +52,11 @@ class LoadingConnection:
         del argv  # the context itself keeps the words
         engine: Engine = self._begin(Problems()).engine
         return engine
+
+    def missing_package(self, package: str) -> tuple[Severity, str, str | None]:
+        """Return what is to be said where code goes no further without a package, and the name that was meant."""
+        missing = missing_package(package, self._packages.names(), launching=self._launching)
+        return missing.severity, missing.told, missing.meant
 
     def package_prefix(self, package: str) -> str | None:
         """Return the install prefix of a package, None for an unknown one."""

@@ -6,9 +6,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
-from orchestra.compat.faults import ReportedError
 from orchestra.compat.launch.launch_context import LaunchContext
-from orchestra.compat.launch.substitutions.substitution_failure import SubstitutionFailure
 from orchestra.compat.place import here
 from orchestra.description.actions.register_event_handler import RegisterEventHandler
 from orchestra.description.actions.reset_env import ResetEnv
@@ -18,8 +16,9 @@ from orchestra.description.actions.stacks import (
     PushEnvironment,
     PushLaunchConfigurations,
 )
-from orchestra.errors import Problems, Severity
+from orchestra.errors import Code, Problems
 from orchestra.location import Location
+from orchestra.resolve.arguments import lacking
 from orchestra.resolve.context import Value
 from orchestra.resolve.evaluate import evaluate
 from orchestra.resolve.model import InlineParameter
@@ -27,6 +26,7 @@ from orchestra.resolve.occasions import Registration
 from orchestra.resolve.python.calling import our_code, user_code
 from orchestra.resolve.python.configurations import Configurations, Environment
 from orchestra.resolve.python.emitting import emit, handle_events
+from orchestra.resolve.python.failures import failure, unevaluated
 from orchestra.resolve.python.loading import load_description
 from orchestra.resolve.python.matching import accepts
 from orchestra.resolve.python.visiting import visit_entities
@@ -36,7 +36,6 @@ if TYPE_CHECKING:
 
     from orchestra.description.entity import Action
     from orchestra.description.text import Template
-    from orchestra.errors import Problem
     from orchestra.location import Span
     from orchestra.resolve.model import ResolvedProcess
     from orchestra.resolve.resolution import Resolution
@@ -69,24 +68,22 @@ class ResolvingEngine:
         return self._run.context.file
 
     def evaluate(self, template: Template) -> str:
-        """Return what a text comes to. Raises `SubstitutionFailure` with the problems, which nobody knows yet."""
+        """Return what a text comes to. Raises `SubstitutionFailure`, or what else upstream does, with the problems."""
         found = Problems()
         with our_code(self._run, here().span):
-            value = evaluate(template, replace(self._run.context, problems=found))
-        for problem in found:
-            if problem.severity is not Severity.ERROR:
-                self._run.problems.report(problem)
+            value = evaluate(template, replace(self._run.context, problems=found, elsewhere=set()))
         if isinstance(value, Value):
+            self._run.problems.extend(found)
             return value.text
-        raise EvaluationFailure(found.errors)
+        raise unevaluated(found)
 
     def carry_out(self, action: Action) -> None:
-        """Carry out an action in the current scope. Raises `ReportedError` where something is wrong with it."""
+        """Carry out an action in the current scope. Raises `RuntimeError`, or what else upstream does, where something is wrong with it."""
         with self._refusing():
             self._run.visit((action,), self._run)
 
     def visit(self, entities: Iterable[Any]) -> None:
-        """Visit Python entities. Raises `ReportedError` where something is wrong with them."""
+        """Visit Python entities. Raises `RuntimeError`, or what else upstream does, where something is wrong with them."""
         with self._refusing():
             visit_entities(entities, self._run)
 
@@ -96,7 +93,7 @@ class ResolvingEngine:
         return [(item.name, item.value) for item in set_here if isinstance(item, InlineParameter)]
 
     def load(self, path: str, language: str | None) -> Any:
-        """Return the launch description of a file. Raises `ReportedError`."""
+        """Return the launch description of a file. Raises `RuntimeError`."""
         with our_code(self._run, here().span):
             return load_description(path, language, self._run)
 
@@ -105,7 +102,7 @@ class ResolvingEngine:
         self._stack(PushLaunchConfigurations)
 
     def pop_configurations(self) -> None:
-        """Take up the configurations remembered last. Raises `ReportedError`."""
+        """Take up the configurations remembered last. Raises `RuntimeError`."""
         self._stack(PopLaunchConfigurations)
 
     def push_environment(self) -> None:
@@ -113,7 +110,7 @@ class ResolvingEngine:
         self._stack(PushEnvironment)
 
     def pop_environment(self) -> None:
-        """Take up the environment remembered last. Raises `ReportedError`."""
+        """Take up the environment remembered last. Raises `RuntimeError`."""
         self._stack(PopEnvironment)
 
     def reset_environment(self) -> None:
@@ -180,23 +177,20 @@ class ResolvingEngine:
 
     @contextmanager
     def _refusing(self) -> Iterator[None]:
-        """Raise where errors come up meanwhile: they have been reported, and user code is to stop."""
-        before = len(self._run.problems.errors)
-        with our_code(self._run, here().span):
+        """Raise where errors come up meanwhile; code that catches them has nothing of what was faulty."""
+        run, begun = self._run, len(self._run.found.processes)
+        missing = run.scope.ledger.missing
+        known = set(missing)
+        with our_code(run, here().span), run.reporting_to(Problems()) as found:
             yield
-        errors = self._run.problems.errors[before:]
-        if errors:
-            raise ReportedError(errors[0].message)
-
-
-class EvaluationFailure(SubstitutionFailure):
-    """A text that cannot be evaluated; `problems` say why, none where that has been reported."""
-
-    def __init__(self, problems: tuple[Problem, ...]) -> None:
-        told = (
-            (problems[0].message, *problems[0].notes)
-            if problems
-            else ("a value has a fault that is reported",)
-        )
-        super().__init__("\n".join(told))
-        self.problems = problems
+            for name in [name for name in missing if name not in known]:
+                found.error(Code.MISSING_ARGUMENT, lacking(name), missing.pop(name))
+        error = failure(found.errors)
+        if error is None:
+            run.problems.extend(found)
+            return
+        while len(run.found.processes) > begun and run.found.processes[-1].faulty:
+            run.found.processes.pop()
+            if run.occasion is not None:
+                run.occasion.do.pop()
+        raise error

@@ -6,11 +6,11 @@ from importlib import import_module
 from typing import TYPE_CHECKING
 
 from orchestra.compat.building import Described
-from orchestra.compat.faults import ReportedError
 from orchestra.compat.launch.launch_description import LaunchDescription
 from orchestra.description.actions.opaque import OpaqueAction
 from orchestra.errors import Problems
 from orchestra.resolve.paths import beside
+from orchestra.resolve.python.failures import failure
 
 if TYPE_CHECKING:
     from orchestra.compat.launch.frontend.parser import Parser
@@ -27,7 +27,7 @@ _PARSERS = {
 def load_description(path: str, language: str | None, run: Resolution) -> LaunchDescription:
     """Return the description of a launch file.
 
-    Raises `ReportedError` with what is wrong with it, `FileNotFoundError` where there is none.
+    Raises `RuntimeError`, or what else upstream does, with what is wrong with it.
     """
     found = Problems()
     there = beside(run.context.file, path)
@@ -35,8 +35,9 @@ def load_description(path: str, language: str | None, run: Resolution) -> Launch
         raise FileNotFoundError(f"there is no launch file {path}")
     ending = () if language is None else (ENDINGS[language],)
     description = run.load(there, found, run.context.included_from, *ending)
-    if found.errors:
-        raise ReportedError(found.errors[0].message, found.errors)
+    error = failure(found.errors)
+    if error is not None:
+        raise error
     if description is None:
         raise RuntimeError(f"{path} is no launch file")
     for action in description.actions:

@@ -7,49 +7,61 @@ from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
 
+from orchestra.compat import faults
 from orchestra.compat.building import model_of
+from orchestra.compat.explanation import told
 from orchestra.compat.launch.action import Action, ModelledAction
 from orchestra.compat.launch.launch_description import LaunchDescription
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
+from orchestra.compat.literals import item_span
+from orchestra.compat.misplaced import misplaced
 from orchestra.errors import Code
 from orchestra.location import displayed, point
 from orchestra.resolve.python.calling import user_code
 from orchestra.resolve.python.deferral import Deferred, put_off
 
 if TYPE_CHECKING:
+    from orchestra.compat.place import Place
     from orchestra.description.actions.opaque import OpaqueAction
     from orchestra.location import Span
     from orchestra.resolve.resolution import Resolution
 
 
-def visit_entities(entities: Iterable[Any], run: Resolution) -> None:
-    """Visit entities in order. An iterable that grows meanwhile is followed to its end, as upstream."""
-    for entity in entities:
-        visit_entity(entity, run)
+def visit_entities(entities: Iterable[Any], run: Resolution, place: Place | None = None) -> None:
+    """Visit entities in order, which stand at a place. An iterable that grows is followed to its end, as upstream."""
+    for index, entity in enumerate(entities):
+        if _is_entity(entity):
+            visit_entity(entity, run, place)
+        else:
+            count = len(entities) if isinstance(entities, list | tuple) else 0
+            span = _span(entity, run) if place is None else item_span(place, index, count)
+            _refuse_other(entity, span, run)
 
 
-def visit_entity(entity: Any, run: Resolution) -> None:
-    """Visit an entity, by its model where it has one."""
-    if not isinstance(entity, LaunchDescriptionEntity):
-        message = f"a launch description is made of actions and other entities, this is {entity!r}"
-        run.problems.error(Code.WRONG_TYPE, message, run.at(_span(entity, run)))
-        return
+def visit_entity(entity: Any, run: Resolution, place: Place | None = None) -> None:
+    """Visit an entity, by its model where it has one; `place` is that of what holds it."""
     try:
         model = model_of(entity)
     except ValidationError as error:
         _refuse(entity, error, run)
-        return
-    run.visit((model,), run)
+    except Exception as error:  # noqa: BLE001 - what users have given it is only looked at here
+        faults.report(error, run.problems, run.context.included_from, _span(entity, run, place))
+        run.scope.ledger.incomplete = True
+    else:
+        run.visit((model,), run)
 
 
 def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
     """Visit an entity that only its own code can carry out; its condition, where it has one, holds."""
     entity = action.target
+    if not _is_entity(entity):
+        _refuse_other(entity, action.span, run)
+        return
     if isinstance(entity, ModelledAction) and entity._is_as_described():  # its model is faulty
         visit_entity(entity, run)
         return
     if type(entity).visit is LaunchDescription.visit:
-        visit_entities(entity.entities, run)
+        visit_entities(entity.entities, run, getattr(entity, "_place", None))
         return
     if run.later:
         put_off(Deferred("entity", entity), run.at(action.span), run)
@@ -58,11 +70,22 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
     context = run.engine.context
     with user_code(run, action.span):
         judged = isinstance(entity, Action) and type(entity).visit is Action.visit
-        following = entity.execute(context) if judged else entity.visit(context)
-        if following is not None and not isinstance(following, Iterable):
-            raise TypeError(f"{_name(entity)} returns a list of entities or None, not {following!r}")
+        made = entity.execute(context) if judged else entity.visit(context)
+        if made is not None and not isinstance(made, Iterable):
+            raise TypeError(f"{_name(entity)} returns a list of actions or None, this is {told(made)}")
+        following = made
     if following is not None:
-        visit_entities(following, run)
+        visit_entities(following, run, getattr(entity, "_place", None))
+
+
+def _is_entity(value: Any) -> bool:
+    return isinstance(value, LaunchDescriptionEntity)
+
+
+def _refuse_other(value: Any, span: Span, run: Resolution) -> None:
+    """Report something that is no entity."""
+    message, notes = misplaced(value)
+    run.problems.error(Code.WRONG_TYPE, message, run.at(span), notes=notes)
 
 
 def _refuse(entity: Any, error: ValidationError, run: Resolution) -> None:
@@ -78,7 +101,6 @@ def _name(entity: Any) -> str:
     return f"{getattr(function, '__qualname__', '') or type(entity).__name__}"
 
 
-def _span(entity: Any, run: Resolution) -> Span:
-    place = getattr(entity, "_place", None)
-    span: Span = place.span if place is not None else point(displayed(run.context.file or ""))
-    return span
+def _span(entity: Any, run: Resolution, around: Place | None = None) -> Span:
+    place: Place | None = getattr(entity, "_place", around)
+    return place.span if place is not None else point(displayed(run.context.file or ""))

@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
 
     from orchestra.compat.launch.event_handler import BaseEventHandler
+    from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.description.entity import Action as Model
 
 
@@ -25,6 +26,10 @@ class UnregisterEventHandler(ModelledAction):
     def event_handler(self) -> BaseEventHandler:
         """The event handler."""
         return self.__event_handler
+
+    def execute(self, context: LaunchContext) -> None:
+        """Let the event handler wait no more. Raises `ValueError` where it does not wait."""
+        context.unregister_event_handler(self.event_handler)
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         return UnregisterModel.at(self._place.span, handler=self.event_handler, **common)

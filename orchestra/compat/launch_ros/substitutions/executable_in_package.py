@@ -37,7 +37,7 @@ class ExecutableInPackage(FindPackagePrefix):
         return f"ExecInPkg(pkg={described(self.package)}, exec={described(self.executable)})"
 
     def perform(self, context: LaunchContext) -> str:
-        """Return the path. Raises `SubstitutionFailure`."""
+        """Return the path. Raises `PackageNotFoundError`, and `SubstitutionFailure` where it has no such executable."""
         return CallSubstitution.perform(self, context)
 
     def _arguments(self) -> Sequence[Sequence[Substitution]]:

@@ -4,13 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar
 
-from orchestra.compat.ament_index_python.packages import (
-    PackageNotFoundError,
-    get_package_prefix,
-    get_package_share_directory,
-)
+from orchestra.compat.ament_index_python.packages import get_package_prefix, get_package_share_directory
 from orchestra.compat.described import described
-from orchestra.compat.launch.substitutions.substitution_failure import SubstitutionFailure
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.text import normalized
 from orchestra.description.text import Call, Opaque, Template, Words
@@ -56,10 +51,7 @@ class FindPackage(ParsedSubstitution):
         span = self._place.span
         words = Template((Words(package, span),), package, span)
         whole = Template((Call(self._name, (words,), span),), self._raw(), span)
-        try:
-            return context._engine.evaluate(whole)
-        except SubstitutionFailure as failure:
-            raise _not_found(failure) from failure
+        return context._engine.evaluate(whole)
 
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
         return (self.package,)
@@ -91,11 +83,3 @@ class FindPackageShare(FindPackage):
     def find(self, package_name: str) -> str:
         """Return the share folder of a package. Raises `PackageNotFoundError`."""
         return get_package_share_directory(package_name)
-
-
-def _not_found(failure: SubstitutionFailure) -> PackageNotFoundError:
-    """Return what upstream raises, with the problems that are to be reported where nobody catches it."""
-    error: Any = PackageNotFoundError(str(failure))
-    error.problems = getattr(failure, "problems", ())
-    not_found: PackageNotFoundError = error
-    return not_found
