@@ -78,12 +78,12 @@ class ResolvingEngine:
         raise unevaluated(found)
 
     def carry_out(self, action: Action) -> None:
-        """Carry out an action in the current scope. Raises `RuntimeError`, or what else upstream does, where something is wrong with it."""
+        """Carry out an action in the current scope. Raises what upstream does where something is wrong with it."""
         with self._refusing():
             self._run.visit((action,), self._run)
 
     def visit(self, entities: Iterable[Any]) -> None:
-        """Visit Python entities. Raises `RuntimeError`, or what else upstream does, where something is wrong with them."""
+        """Visit Python entities. Raises what upstream does where something is wrong with them."""
         with self._refusing():
             visit_entities(entities, self._run)
 
