@@ -58,6 +58,7 @@ class Occasion:
 
     `delay` is in seconds. `handler` is the object that stands for the handler, to be found when it is unregistered.
     `armed` is false where another event has to come first. `now`: it is happening, so that code can be called.
+    `timer` is the object of a Python launch file that goes off.
     """
 
     on: OpenEvent
@@ -68,4 +69,5 @@ class Occasion:
     once: bool = False
     cancel_on_shutdown: bool = True
     now: bool = False
+    timer: Any = None
     do: list[Action] = field(default_factory=list)

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from orchestra.resolve.occasions import OpenAction, Registration
+from orchestra.resolve.occasions import Occasion, OpenAction, Registration
 from orchestra.resolve.reactions import (
     ResolvedEvent,
     ResolvedRegister,
@@ -15,9 +16,19 @@ from orchestra.resolve.reactions import (
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from orchestra.resolve.occasions import Action, Occasion, OpenEvent
+    from orchestra.resolve.occasions import Action
     from orchestra.resolve.reactions import TriggeredAction
     from orchestra.resolve.resolution import Resolution
+
+
+@dataclass(frozen=True, slots=True)
+class _Due:
+    """An occasion that comes with an event. `behind`: after everything else that comes with the same event."""
+
+    occasion: Occasion
+    event: ResolvedEvent
+    delay: float | None
+    behind: bool = False
 
 
 def settled(run: Resolution) -> tuple[ResolvedTrigger, ...]:
@@ -28,23 +39,27 @@ def settled(run: Resolution) -> tuple[ResolvedTrigger, ...]:
         for occasion in run.found.occasions
         if occasion.do and not (idle and _serves_code(occasion.handler))
     )
-    events = [(occasion, event) for occasion in full for event in _events(occasion, run)]
-    for position, (occasion, _) in enumerate(events, run.found.triggers):
-        if occasion.handler is not None:
-            run.found.positions.setdefault(id(occasion.handler), []).append(position)
-    run.found.triggers += len(events)
+    due = [found for occasion in full for found in _due(occasion, run)]
+    due.sort(key=lambda found: found.behind)
+    for position, found in enumerate(due, run.found.triggers):
+        if found.occasion.handler is not None:
+            run.found.positions.setdefault(id(found.occasion.handler), []).append(position)
+    run.found.triggers += len(due)
+    triggers = tuple(_trigger(found, run) for found in due)
     run.found.occasions = []
-    return tuple(
-        ResolvedTrigger(
-            event,
-            settled_actions(occasion, run),
-            occasion.delay,
-            occasion.location,
-            occasion.armed,
-            occasion.once,
-            occasion.cancel_on_shutdown,
-        )
-        for occasion, event in events
+    return triggers
+
+
+def _trigger(due: _Due, run: Resolution) -> ResolvedTrigger:
+    occasion = due.occasion
+    return ResolvedTrigger(
+        due.event,
+        settled_actions(occasion, run),
+        due.delay,
+        occasion.location,
+        occasion.armed,
+        occasion.once,
+        occasion.cancel_on_shutdown,
     )
 
 
@@ -67,24 +82,30 @@ def _serves_code(handler: Any) -> bool:  # noqa: ANN401 - an event handler or No
     return bool(getattr(handler, "_serves_code", False))
 
 
-def _events(occasion: Occasion, run: Resolution) -> Iterable[ResolvedEvent]:
+def _due(occasion: Occasion, run: Resolution) -> Iterable[_Due]:
     on = occasion.on
-    if on.event == "process_completed":
-        yield from _completions(on, run)
+    if on.event == "process_completed" and on.target is not None:
+        yield from _completions(occasion, run)
         return
     targets: tuple[int | None, ...] = (None,) if on.target is None else processes_of(on.target, run)
     for target in targets:
-        yield ResolvedEvent(on.event, target, on.stream, on.transition, on.start_state, on.goal_state)
+        event = ResolvedEvent(on.event, target, on.stream, on.transition, on.start_state, on.goal_state)
+        yield _Due(occasion, event, occasion.delay)
 
 
-def _completions(on: OpenEvent, run: Resolution) -> Iterable[ResolvedEvent]:
-    if on.target is None:
-        yield ResolvedEvent("process_completed")
+def _completions(occasion: Occasion, run: Resolution) -> Iterable[_Due]:
+    """Return when an action is done: a process with its last end, a timer when it goes off, another at its visit."""
+    target = occasion.on.target
+    found = processes_of(target, run)
+    yield from (_Due(occasion, ResolvedEvent("process_completed", index), occasion.delay) for index in found)
+    if found or id(target) not in run.found.carried_out:
         return
-    found = processes_of(on.target, run)
-    yield from (ResolvedEvent("process_completed", index) for index in found)
-    if not found and id(on.target) in run.found.carried_out:
-        yield ResolvedEvent("run_started")
+    for timer in run.found.occasions:
+        if timer.timer is target:
+            delay = (timer.delay or 0.0) + (occasion.delay or 0.0)
+            yield from (_Due(occasion, due.event, delay, behind=True) for due in _due(timer, run))
+            return
+    yield _Due(occasion, ResolvedEvent("run_started"), occasion.delay, behind=True)
 
 
 def _actions(action: Action, run: Resolution) -> Iterable[TriggeredAction]:

@@ -41,6 +41,8 @@ process = ExecuteProcess(cmd=['a'])
 say = lambda name: LogInfo(msg=LC(name, default='none'))
 node = lambda name='n', **keywords: Node(executable='/bin/true', name=name, **keywords)
 read = lambda name: OpaqueFunction(function=lambda context: [LogInfo(msg=repr(context.launch_configurations.get(name)))])
+logged = LogInfo(msg='logged')
+timer = TimerAction(period=1.5, actions=[LogInfo(msg='timed')])
 described = LaunchDescription([LogInfo(msg='inner')])
 """
 
@@ -219,6 +221,20 @@ CASES: dict[str, tuple[str, Callable[[Planned], Any], Any]] = {
         "RegisterEventHandler(OnIncludeLaunchDescription()), EmitEvent(event=events.IncludeLaunchDescription(described)), "
         "LogInfo(msg='after')",
         _messages, ["after", "inner", "inner"],
+    ),
+    "1.7 OnExecutionComplete, of an action that is done at its visit": (
+        "RegisterEventHandler(OnExecutionComplete(target_action=logged, on_completion=[LogInfo(msg='done')])), logged, "
+        "LogInfo(msg='after')",
+        _messages, ["logged", "after", "done"],
+    ),
+    "1.7 OnExecutionComplete, of a timer": (
+        "RegisterEventHandler(OnExecutionComplete(target_action=timer, on_completion=[LogInfo(msg='done')])), timer",
+        lambda plan: [(trigger["delay"], trigger["do"][0]["message"]) for trigger in plan.triggers],
+        [(1.5, "timed"), (1.5, "done")],
+    ),
+    "1.7 OnExecutionComplete, of an action that is not visited": (
+        "RegisterEventHandler(OnExecutionComplete(target_action=logged, on_completion=[LogInfo(msg='done')]))",
+        _messages, [],
     ),
     "D42": (
         "process, EmitEvent(event=ProcessStdin(text=b'x', action=process, name='a', cmd=['a'], cwd=None, env=None, pid=1))",
