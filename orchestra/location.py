@@ -36,13 +36,13 @@ def point(file: str, line: int = 1, column: int = 1) -> Span:
     return Span(file, line, column, line, column)
 
 
-def is_yaml(place: Span | Location) -> bool:
-    """Return whether a place is in a YAML file: strictness that files of others cannot stand is kept to these.
+def is_python(place: Span | Location) -> bool:
+    """Return whether a place is in a Python file: strictness that files of others cannot stand ends there.
 
-    Nearly all launch files that exist are in Python and XML; what upstream lets pass in them is told, not refused.
+    Most launch files that exist are in Python; what upstream lets pass in them is told, not refused.
     """
     span = place.span if isinstance(place, Location) else place
-    return span.file.endswith((".yaml", ".yml"))
+    return span.file.endswith(".py")
 
 
 def displayed(path: str) -> str:

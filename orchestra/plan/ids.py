@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
-from orchestra.location import is_yaml
+from orchestra.location import is_python
 from orchestra.resolve.model import ResolvedComponent, ResolvedProcess
 from orchestra.resolve.names import full_name
 
@@ -60,7 +60,7 @@ def check_names(processes: Sequence[ResolvedProcess | ResolvedComponent], proble
     """Report nodes that were given the same full name.
 
     It is only a warning where a condition stands on one of them, where one is a component, which its container may
-    refuse, and where one is written in Python or XML: files that exist already do this, and upstream starts both.
+    refuse, and where one is written in Python: files that exist already do this, and upstream starts both.
     """
     first: dict[str, ResolvedProcess | ResolvedComponent] = {}
     told: set[tuple[Location | Span, Location | Span]] = set()
@@ -87,7 +87,7 @@ def _is_refused(process: ResolvedProcess | ResolvedComponent) -> bool:
     """Return whether there must not be another one of its name."""
     if isinstance(process, ResolvedComponent) or process.conditional:
         return False
-    return is_yaml(process.location)
+    return not is_python(process.location)
 
 
 def _mistake(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.compat import argv
 from orchestra.errors import Code, Problems
-from orchestra.location import Location, is_yaml
+from orchestra.location import Location, is_python
 from orchestra.nearest import is_slip, nearest
 from orchestra.resolve.mentions import names_behind, names_in
 
@@ -44,7 +44,7 @@ def settle(
 
     A lacking one for which a given name is misspelt is reported as that. An include may give more than a file takes,
     as upstream: then what is not a slip for something that it could have given is only a warning, as is all such
-    outside YAML files.
+    in Python files.
     """
     others = ledger.declared - {item.name for item in given if included_at is not None}
     misspelt = set()
@@ -107,7 +107,7 @@ def _refuse_in_include(
     item: Given, meant: str | None, description: Description, ledger: Ledger, run: Resolution
 ) -> None:
     message = f"{description.file} has no argument '{item.name}'"
-    slip = meant is not None and is_slip(item.name, meant) and is_yaml(item.location)
+    slip = meant is not None and is_slip(item.name, meant) and not is_python(item.location)
     if slip or meant in ledger.missing:
         run.problems.error(Code.UNKNOWN_ARGUMENT, message, item.location, suggestion=meant)
     elif not ledger.incomplete:

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code, Problems
-from orchestra.location import displayed, is_yaml
+from orchestra.location import displayed
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import FileParameters
 from orchestra.resolve.paths import beside, existing_file, folder_of
@@ -59,11 +59,11 @@ def _lacking(value: Value, run: Resolution) -> str | None:
 
     Upstream warns of every file that is not there. An empty path is how an argument makes one optional; a file neither
     beside the launch file nor where packages are is of the machine (`/etc/robot/control.yaml`), and may come later. All
-    others are mistakes, as everything is that a YAML file names.
+    others are mistakes.
     """
     if not value.text:
         return "the path of the parameter file is empty"
-    if is_yaml(value.location) or beside(run.context.file, value.text) is not None:
+    if beside(run.context.file, value.text) is not None:
         return None
     folder = folder_of(run.context.file)
     path = os.path.normpath(os.path.join(folder, os.path.expanduser(value.text)))  # noqa: PTH111, PTH118 - no `~x` fails
