@@ -96,11 +96,16 @@ def add_process(action: Running, program: Program, run: Resolution) -> int:
 
 
 def texts(argv: Template | tuple[Template, ...] | None, run: Resolution) -> tuple[str, ...] | Poison:
-    """Return words: a text is split as a shell would, an item of a list is one word."""
+    """Return words: a text is split as a shell would, an item of a list is one word.
+
+    A text that is empty, or blank, is one empty word (launch, `ExecuteProcess._parse_cmdline`).
+    """
     if argv is None:
         return ()
     words = split(argv, run.context)
-    return POISON if isinstance(words, Poison) else tuple(word.text for word in words)
+    if isinstance(words, Poison):
+        return POISON
+    return tuple(word.text for word in words) or (() if isinstance(argv, tuple) else ("",))
 
 
 class _Sound:

@@ -2,8 +2,8 @@
 
 Upstream splits each literal piece on its own, so that quotes around a substitution are an error there. Here the pieces
 are read as one text in which the result of a substitution is an indivisible character: it is never split, whether it
-stands in quotes or not, and an empty one by itself is an empty word. An empty text has no words; where it must have
-one, as `cmd` must, that is for the caller to say (upstream makes it one empty word).
+stands in quotes or not, and an empty one by itself is an empty word. An empty text has no words; what
+that means is for the caller to say (upstream makes it one empty word).
 """
 
 from __future__ import annotations

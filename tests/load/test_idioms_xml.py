@@ -64,3 +64,26 @@ def test_an_argument_of_an_include_reads_those_before_it(arguments: str, shown: 
     main = f'<launch><arg name="id" default="2"/>{include}</launch>'
     content, share = resolved(tmp_path, {"main.launch.xml": main, "shown.launch.xml": SHOWN})
     assert messages(content) == [shown.format(share=share)]
+
+
+@pytest.mark.parametrize(
+    ("written", "words"),
+    [
+        ('args=""', [""]),
+        ('args=" "', [""]),
+        ('args="$(var none)"', [""]),
+        ('args="-x $(var none)"', ["-x", ""]),
+        ('ros_args=""', ["--ros-args", ""]),
+        ("", []),
+    ],
+)
+def test_arguments_that_are_written_empty_are_one_empty_word(
+    written: str, words: list[str], tmp_path: Path
+) -> None:
+    node = f'<node pkg="demo" exec="tool" {written}/>'
+    container = f'<node_container pkg="demo" exec="tool" name="c" namespace="" {written}/>'
+    main = f'<launch><arg name="none" default=""/>{node}{container}</launch>'
+    content, _ = resolved(tmp_path, {"main.launch.xml": main})
+    first, second = (process["command"][1:] for process in content["processes"])
+    assert first == [*words, "--ros-args"]
+    assert second[: len(words) + 1] == first

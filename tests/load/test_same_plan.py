@@ -11,6 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from orchestra.description.written import escaped
+from orchestra.errors import Code
 from tests.load.planning import planned
 from tests.load.written import WRITERS, Actions
 from tests.plan.strategies import NAMES, inner_actions
@@ -18,6 +19,8 @@ from tests.plan.strategies import actions as ordinary
 
 if TYPE_CHECKING:
     from pathlib import Path
+
+    from tests.load.planning import Planned
 
 _ENVIRONMENT = {"PATH": "/bin", "A_1": "outside"}
 _quickly = settings(
@@ -149,7 +152,14 @@ def test_a_description_gives_the_same_plan_in_both_formats_however_many_are_trie
 
 def _compare(folder: Path, written: Actions, inner: Actions) -> None:
     plans = [planned(folder, language, written, _ENVIRONMENT, inner=inner) for language in WRITERS]
-    assert plans[0] == plans[1]
+    assert plans[0].content == plans[1].content
+    assert _as_grave(plans[0]) == _as_grave(plans[1])
+
+
+def _as_grave(plan: Planned) -> list[tuple[str, str]]:
+    """Return the problems; two nodes of one name are an error in YAML alone, upstream takes them."""
+    twice = Code.DUPLICATE_NODE.value
+    return [(code, "error" if code == twice else severity) for code, severity in plan.problems]
 
 
 @given(st.sampled_from(sorted(WRITERS)), any_text)
