@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING
 from orchestra.location import Location, Span
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
 _BREAKS = re.compile(r"\s*[\n\r\x0b\x0c\x85\u2028\u2029]\s*")
 
@@ -144,6 +144,10 @@ class Problems:
         """Take over problems that another collector found."""
         for problem in problems:
             self.report(problem)
+
+    def amend(self, amended: Callable[[Problem], Problem]) -> None:
+        """Put another problem in place of each."""
+        self._found = {key: amended(problem) for key, problem in self._found.items()}
 
     def __iter__(self) -> Iterator[Problem]:
         return iter(self._found.values())

@@ -8,9 +8,9 @@ from typing import TYPE_CHECKING, Any, Final
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-_ROOM: Final = __name__.rpartition(".")[0]
+ROOM: Final = __name__.rpartition(".")[0]
 # Where a name is looked for, in this order: `Parameter` is also a substitution, `Shutdown` also an event.
-_PACKAGES: Final = (
+PACKAGES: Final = (
     "launch_ros.descriptions",
     "launch_ros.actions",
     "launch_ros.parameter_descriptions",
@@ -35,11 +35,11 @@ def borrowing(module: str) -> Callable[[str], Any]:
 
     Packages tell what they export, so that only single modules borrow: `launch_ros.actions.node.ParameterFile`.
     """
-    packages = [name for name in _PACKAGES if module.startswith(f"{_ROOM}.launch_ros") or "_ros" not in name]
+    packages = [name for name in PACKAGES if module.startswith(f"{ROOM}.launch_ros") or "_ros" not in name]
 
     def attribute(name: str) -> Any:
         for package in () if name.startswith("_") else packages:
-            exporting = import_module(f"{_ROOM}.{package}")
+            exporting = import_module(f"{ROOM}.{package}")
             if name in getattr(exporting, "__all__", vars(exporting)):
                 return getattr(exporting, name)
         raise AttributeError(f"module {module!r} has no attribute {name!r}")

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.explanation import told
 from orchestra.compat.launch.action import Action, ModelledAction
+from orchestra.compat.launch.condition import Condition
+from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
+from orchestra.compat.literals import item_span
 from orchestra.compat.place import Place, here
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Mapping
 
-    from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
     from orchestra.description.entity import Action as Model
+    from orchestra.location import Span
 
 
 def model_of(entity: LaunchDescriptionEntity) -> Model:
@@ -20,10 +25,12 @@ def model_of(entity: LaunchDescriptionEntity) -> Model:
 
     if isinstance(entity, ModelledAction) and entity._is_as_described():
         return entity._to_model(conditioned(entity))
-    place: Place = getattr(entity, "_place", None) or here()
+    place: Place | None = getattr(entity, "_place", None)
     if isinstance(entity, Action) and type(entity).visit is Action.visit:
+        if place is None:
+            raise TypeError(f"{type(entity).__name__}.__init__ does not call super().__init__()")
         return OpaqueAction.at(place.span, target=entity, **conditioned(entity))
-    return OpaqueAction.at(place.span, target=entity, origin=entity)
+    return OpaqueAction.at((place or here()).span, target=entity, origin=entity)
 
 
 class Described(ModelledAction):
@@ -37,23 +44,41 @@ class Described(ModelledAction):
         return self._model
 
 
-def models_of(entities: Iterable[LaunchDescriptionEntity]) -> tuple[Model, ...]:
-    """Return the models of several entities. One that has none stays opaque: the visit tells why, at its own place."""
-    return tuple(_model_or_opaque(entity) for entity in entities)
+def models_of(entities: Iterable[Any], place: Place) -> tuple[Model, ...]:
+    """Return the models of the entities that stand at a place.
+
+    One that has none stays opaque: the visit tells why, at its own place. Raises `TypeError` for what is no iterable.
+    """
+    if not isinstance(entities, Iterable):
+        raise TypeError(f"a list of actions is expected here, this is {told(entities)}")
+    known = list(entities)
+    return tuple(_model_or_opaque(known, index, place) for index in range(len(known)))
 
 
-def _model_or_opaque(entity: LaunchDescriptionEntity) -> Model:
+def _model_or_opaque(entities: list[Any], index: int, place: Place) -> Model:
+    from orchestra.description.actions.opaque import OpaqueAction  # noqa: PLC0415 - as above
+
+    entity = entities[index]
+    if not isinstance(entity, LaunchDescriptionEntity):
+        return OpaqueAction.at(item_span(place, index, len(entities)), target=entity, origin=entity)
     try:
         return model_of(entity)
-    except ValueError:  # pydantic's ValidationError is one
-        from orchestra.description.actions.opaque import OpaqueAction  # noqa: PLC0415 - as above
-
-        place: Place = getattr(entity, "_place", None) or here()
-        return OpaqueAction.at(place.span, target=entity, origin=entity)
+    except Exception:  # noqa: BLE001 - the visit of the entity alone comes upon the same
+        at: Place = getattr(entity, "_place", None) or place
+        return OpaqueAction.at(at.span, target=entity, origin=entity)
 
 
 def conditioned(action: Action) -> dict[str, Any]:
-    """Return the fields that every model of an action has."""
+    """Return the fields that every model of an action has. Raises `TypeError` for what is no condition."""
     if action.condition is None:
         return {"origin": action}
-    return {"origin": action, **action.condition._fields(action._place.span)}
+    return {"origin": action, **condition_fields(action.condition, action._place.span)}
+
+
+def condition_fields(condition: Any, span: Span) -> dict[str, Any]:
+    """Return the field of a model for a condition. Raises `TypeError` for what is none."""
+    if isinstance(condition, Condition):
+        return condition._fields(span)
+    if callable(getattr(condition, "evaluate", None)):  # one that derives from nothing, as upstream
+        return Condition(predicate=condition.evaluate)._fields(span)
+    raise TypeError(f"a condition is made by IfCondition or UnlessCondition, this is {told(condition)}")

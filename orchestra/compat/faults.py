@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import sysconfig
 from traceback import format_exception
+from types import ModuleType
 from typing import TYPE_CHECKING
 
-from orchestra.compat.place import is_own, shown, span_of
+from orchestra.compat.explanation import Explanation, in_their_words
+from orchestra.compat.place import Place, is_own, shown
 from orchestra.compat.seam import debugging
 from orchestra.errors import Code, Problem, Severity
 from orchestra.location import Span
-from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -36,32 +37,41 @@ def report(error: BaseException, problems: Problems, chain: tuple[Span, ...], fa
         for problem in known:
             problems.report(problem)
         return
-    spans = _calls(error.__traceback__)
+    calls = _calls(error.__traceback__)
+    spans = [Place(call.tb_frame.f_code, call.tb_lasti).span for call in calls]
     if isinstance(error, SyntaxError) and error.filename is not None:
         spans.append(_syntax(error))
-    at = spans[-1] if spans else fallback
-    notes = tuple(f"called at {span}" for span in spans[-2 : -2 - _MOST_CALLS : -1])
+    explanation = _explained(error, calls[-1] if calls else None)
+    at = explanation.span or (spans[-1] if spans else fallback)
+    callers = list(dict.fromkeys(f"called at {span}" for span in spans[-2::-1]))
+    notes = (*explanation.notes, *callers[:_MOST_CALLS])
     if debugging():
-        notes = ("".join(format_exception(error)).rstrip(),)
-    code = Code.SYNTAX if isinstance(error, SyntaxError) else Code.USER_CODE
+        notes = (*explanation.notes, "".join(format_exception(error)).rstrip())
     problems.report(
-        Problem(code, Severity.ERROR, _message(error), at, chain, suggestion=_suggestion(error), notes=notes)
+        Problem(
+            explanation.code,
+            Severity.ERROR,
+            explanation.message,
+            at,
+            chain,
+            suggestion=explanation.suggestion,
+            notes=notes,
+        )
     )
 
 
-def _calls(traceback: TracebackType | None) -> list[Span]:
+def _calls(traceback: TracebackType | None) -> list[TracebackType]:
     """Return the user's lines on the way to where it happened, outermost first.
 
     Lines of libraries stand for the user's only where there is no line of the user's own.
     """
-    own: list[Span] = []
-    libraries: list[Span] = []
+    own: list[TracebackType] = []
+    libraries: list[TracebackType] = []
     while traceback is not None:
-        code = traceback.tb_frame.f_code
-        file = code.co_filename
+        file = traceback.tb_frame.f_code.co_filename
         if not is_own(file) and not file.startswith("<"):
             found = libraries if file.startswith(_PYTHON) else own
-            found.append(span_of(code, traceback.tb_lasti))
+            found.append(traceback)
         traceback = traceback.tb_next
     return own or libraries[-1:]
 
@@ -73,18 +83,37 @@ def _syntax(error: SyntaxError) -> Span:
     return Span(shown(str(error.filename)), line, column, end_line, end_column)
 
 
+def _explained(error: BaseException, call: TracebackType | None) -> Explanation:
+    """Return what the exception means; what Python says of it where nothing better is known."""
+    found = None if call is None else _better(error, call)
+    if found is not None:
+        return found
+    code = Code.SYNTAX if isinstance(error, SyntaxError) else Code.USER_CODE
+    return Explanation(_message(error), code)
+
+
+def _better(error: BaseException, call: TracebackType) -> Explanation | None:
+    # Here, because only mistakes need them, and what they import.
+    from orchestra.compat import refused_calls, too_early, unknown_names  # noqa: PLC0415
+
+    frame, place = call.tb_frame, Place(call.tb_frame.f_code, call.tb_lasti)
+    match error:
+        case ImportError():
+            return unknown_names.not_in_module(error, place)
+        case TypeError():
+            return refused_calls.explained(error, frame, place) or too_early.explained(error)
+        case NameError() if call.tb_next is None:
+            return unknown_names.unbound(error, frame, place)
+        case AttributeError() if call.tb_next is None or isinstance(error.obj, ModuleType):
+            return unknown_names.no_attribute(error, place)
+        case _:
+            return None
+
+
 def _message(error: BaseException) -> str:
     if isinstance(error, SyntaxError):
         return f"this is not Python: {error.msg}"
     if isinstance(error, SystemExit):
         return f"the code ends the program: SystemExit({error.code!r})"
-    text = " ".join(str(error).split("\n"))
+    text = in_their_words(" ".join(str(error).split("\n")))
     return f"{type(error).__name__}: {text}" if text else type(error).__name__
-
-
-def _suggestion(error: BaseException) -> str | None:
-    """Return the name that was meant, where Python itself would guess one."""
-    name = getattr(error, "name", None)
-    if isinstance(error, AttributeError) and name:
-        return nearest(name, [other for other in dir(error.obj) if not other.startswith("_")])
-    return None

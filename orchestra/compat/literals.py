@@ -18,9 +18,27 @@ if TYPE_CHECKING:
 
 def keyword(place: Place, name: str) -> Literal:
     """Return where the value of a keyword of the call at a place stands; the whole call where it cannot be told."""
-    call = _calls(place.file, _text(place.file)).get(place.span)
+    call = call_at(place)
     found = None if call is None else next((item.value for item in call.keywords if item.arg == name), None)
     return Literal(place.file, found, place.span)
+
+
+def call_at(place: Place) -> ast.Call | None:
+    """Return the call at a place, None where there is none."""
+    return _calls(place.file, _text(place.file)).get(place.span)
+
+
+def item_span(place: Place, index: int, count: int) -> Span:
+    """Return where an item stands of the list, of so many, that the call at a place takes; else the whole call."""
+    call = call_at(place)
+    arguments = [] if call is None else [*call.args, *(item.value for item in call.keywords)]
+    lists = [node for node in arguments if isinstance(node, ast.List | ast.Tuple) and len(node.elts) == count]
+    return Literal(place.file, lists[0] if lists else None, place.span).item(index, count).span
+
+
+def keyword_span(place: Place, keyword: ast.keyword) -> Span:
+    """Return where the name of a keyword stands."""
+    return _span(place.file, keyword)
 
 
 class Literal:

@@ -32,7 +32,16 @@ def optional(value: Any, span: Span) -> Template | None:
 
 
 def pairs(items: Iterable[tuple[Sub, Sub]], span: Span) -> tuple[Pair, ...]:
-    """Return names with their values."""
-    return tuple(
-        Pair.at(span, name=template(name, span), value=template(value, span)) for name, value in items
-    )
+    """Return names with their values. Raises `TypeError` for anything else."""
+    return tuple(_pair(item, span) for item in items)
+
+
+def _pair(item: tuple[Sub, Sub], span: Span) -> Pair:
+    try:
+        name, value = item
+    except (TypeError, ValueError):
+        raise TypeError(f"a name and its value are expected, not {item!r}: ('name', 'value')") from None
+    try:
+        return Pair.at(span, name=template(name, span), value=template(value, span))
+    except TypeError as error:
+        raise TypeError(f"{name if isinstance(name, str) else 'a name'}: {error}") from None

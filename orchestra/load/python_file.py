@@ -11,10 +11,11 @@ import os
 import sys
 from functools import lru_cache
 from importlib.machinery import ModuleSpec
-from types import CodeType, ModuleType
+from types import CodeType, FunctionType, ModuleType
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat import faults
+from orchestra.compat.explanation import told
 from orchestra.compat.launch.launch_description import LaunchDescription
 from orchestra.compat.seam import connection
 from orchestra.description.actions.opaque import OpaqueAction
@@ -40,23 +41,19 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
     at = point(file)
     try:
         connection().prepare()
-        made = _made(path)
+        module = load_module(path)
+        at = _definition(module, at)
+        made = _made(module)
     except (Exception, SystemExit) as error:  # noqa: BLE001 - the boundary of user code
         faults.report(error, problems, included_from, at)
         return None
     if isinstance(made, LaunchDescription):
+        at = point(file)
         return Description(
             path, file, (OpaqueAction.at(at, target=made, origin=made),), _deprecated(made, at)
         )
-    if isinstance(made, ModuleType):
-        names = [name for name, value in vars(made).items() if callable(value)]
-        message = f"{file} has no function {FUNCTION}()"
-        meant = nearest(FUNCTION, names)
-        notes = () if meant is None else (f"it has {meant}()",)
-        problems.error(Code.NO_DESCRIPTION, message, Location(at, included_from), notes=notes)
-    else:
-        message = f"{FUNCTION}() returns a LaunchDescription, not {made!r}"
-        problems.error(Code.NO_DESCRIPTION, message, Location(at, included_from))
+    message, *notes = _undescribed(module, made, file)
+    problems.error(Code.NO_DESCRIPTION, message, Location(at, included_from), notes=notes)
     return None
 
 
@@ -85,14 +82,41 @@ def _compiled(path: str, _modified: int, _size: int) -> CodeType:
         return compile(stream.read(), path, "exec", dont_inherit=True)
 
 
-def _made(path: str) -> Any:  # noqa: ANN401 - whatever the user's function returns
+def _made(module: ModuleType) -> Any:  # noqa: ANN401 - whatever the user's function returns
     """Return what the file's function returns, or the module where it has no such function."""
-    module = load_module(path)
     generate = getattr(module, FUNCTION, None)
     if generate is not None:
+        if _needs_arguments(generate):
+            raise TypeError(f"{FUNCTION} is called without arguments: an OpaqueFunction is given the context")
         return generate()
     tested = description_in(module)
     return module if tested is None else tested
+
+
+def _needs_arguments(function: Any) -> bool:  # noqa: ANN401 - whatever has the name
+    code = getattr(function, "__code__", None)
+    return code is not None and code.co_argcount > len(function.__defaults__ or ())
+
+
+def _definition(module: ModuleType, otherwise: Span) -> Span:
+    """Return where the file's function is defined, the beginning of the file where that is elsewhere."""
+    code = getattr(getattr(module, FUNCTION, None), "__code__", None)
+    if code is None or code.co_filename != module.__file__:
+        return otherwise
+    return point(otherwise.file, code.co_firstlineno)
+
+
+def _undescribed(module: ModuleType, made: object, file: str) -> tuple[str, ...]:
+    """Return why nothing is described, and what may help."""
+    if made is module:
+        functions = (item for item in vars(module).values() if isinstance(item, FunctionType))
+        names = [item.__name__ for item in functions if item.__code__.co_filename == module.__file__]
+        meant = nearest(FUNCTION, names)
+        return (f"{file} has no function {FUNCTION}()", *([] if meant is None else [f"it has {meant}()"]))
+    if made is None:
+        return (f"{FUNCTION}() returns nothing: its `return` is missing",)
+    message = f"{FUNCTION}() returns a LaunchDescription, not {told(made)}"
+    return (message, "put it into LaunchDescription([...])") if isinstance(made, list | tuple) else (message,)
 
 
 def _deprecated(made: LaunchDescription, at: Span) -> Template | None:

@@ -53,9 +53,10 @@ def file_below(
     found = _found(folder, value.text)
     if found is None:
         path = folder / _expanded(value.text)
-        message = f"there is no {what} {displayed(str(path))}"
-        suggestion = near_path(path, value.text if written is None else written)
-        run.problems.error(Code.MISSING_FILE, message, value.location, suggestion=suggestion)
+        folder_there = _exists(path)
+        message = f"there is no {what} {displayed(str(path))}" + (": it is a folder" if folder_there else "")
+        near = None if folder_there else near_path(path, value.text if written is None else written)
+        run.problems.error(Code.MISSING_FILE, message, value.location, suggestion=near)
     return found
 
 

@@ -98,7 +98,7 @@ class EventHandler(BaseEventHandler):
     def _to_models(self) -> tuple[Handler, ...]:
         if not is_of_ours(self, "handle"):
             return super()._to_models()
-        return (self._model("custom", children=models_of(entities_of(self.entities))),)
+        return (self._model("custom", children=models_of(entities_of(self.entities), self._place)),)
 
 
 def entities_of(entities: Any) -> list[LaunchDescriptionEntity]:

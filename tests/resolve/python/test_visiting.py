@@ -299,10 +299,10 @@ _FAULTS = {
         "def generate_launch_description():\n    LaunchDescription()\n",
         Code.NO_DESCRIPTION,
         None,
-        "not None",
+        "returns nothing",
     ),
     "no Python": ("def generate_launch_description(:\n    pass\n", Code.SYNTAX, 1, "this is not Python"),
-    "an import that fails": ("import no_such_module_at_all\n", Code.USER_CODE, 1, "No module named"),
+    "an import that fails": ("import no_such_module_at_all\n", Code.USER_CODE, 1, "no Python module"),
     "a wrong type": (
         "def generate_launch_description():\n    return LaunchDescription([\n        LogInfo(msg=5)])\n",
         Code.USER_CODE,

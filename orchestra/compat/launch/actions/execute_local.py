@@ -45,6 +45,8 @@ class ExecuteLocal(ModelledAction):
     `output_format` and `log_cmd`. Orchestra's own keys are keywords too (`orchestra.compat.extensions.RUNNING`).
     """
 
+    _more_keywords = RUNNING
+
     def __init__(  # noqa: PLR0913 - upstream's signature
         self,
         *,
@@ -63,7 +65,7 @@ class ExecuteLocal(ModelledAction):
         respawn_max_retries: int = -1,
         **kwargs: Any,
     ) -> None:
-        self.__extensions = taken(kwargs, RUNNING)
+        self.__extensions = taken(kwargs, self._more_keywords)
         super().__init__(**kwargs)
         self.__process_description = process_description
         self.__shell = shell

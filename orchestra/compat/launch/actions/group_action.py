@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.building import models_of
@@ -34,6 +35,8 @@ class GroupAction(ModelledAction):
     of Orchestra's own, they are visited once per value: `{"robot": ["robot1", "robot2"]}`.
     """
 
+    _more_keywords = ("for_each",)
+
     def __init__(
         self,
         actions: Iterable[LaunchDescriptionEntity],
@@ -43,7 +46,7 @@ class GroupAction(ModelledAction):
         launch_configurations: Mapping[Sub, Sub] | None = None,
         **left_over_kwargs: Any,
     ) -> None:
-        self.__extensions = taken(left_over_kwargs, ("for_each",))
+        self.__extensions = taken(left_over_kwargs, self._more_keywords)
         super().__init__(**left_over_kwargs)
         self.__actions = actions
         self.__scoped = scoped
@@ -82,13 +85,14 @@ class GroupAction(ModelledAction):
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
-        self.__actions = list(self.__actions)
+        if isinstance(self.__actions, Iterator):
+            self.__actions = list(self.__actions)
         return Group.at(
             span,
             scoped=None if self.__scoped else scalar(value=False, span=span),
             forwarding=None if self.__forwarding else scalar(value=False, span=span),
             keep=pairs(self.__launch_configurations.items(), span),
-            children=models_of(self.__actions),
+            children=models_of(self.__actions, self._place),
             **extension_fields(Group, self.__extensions, self._place, children=()),
             **common,
         )

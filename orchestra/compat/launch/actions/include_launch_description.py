@@ -38,6 +38,7 @@ class IncludeLaunchDescription(ModelledAction):
     """
 
     _role = "include"
+    _more_keywords = INCLUDED
 
     def __init__(
         self,
@@ -46,7 +47,7 @@ class IncludeLaunchDescription(ModelledAction):
         launch_arguments: Iterable[tuple[Sub, Sub]] | Mapping[Sub, Sub] | None = None,
         **kwargs: Any,
     ) -> None:
-        self.__extensions = taken(kwargs, INCLUDED)
+        self.__extensions = taken(kwargs, self._more_keywords)
         super().__init__(**kwargs)
         source = launch_description_source
         if not isinstance(source, LaunchDescriptionSource):
@@ -115,7 +116,7 @@ class IncludeLaunchDescription(ModelledAction):
         extensions = extension_fields(Include, self.__extensions, self._place, file=file)
         include = Include.at(span, file=file, arg=arguments, **extensions, **common)
         if not self.__launch_description_source._reads_file:
-            return include.holding(models_of((_Sourced(self.__launch_description_source),)))
+            return include.holding(models_of((_Sourced(self.__launch_description_source),), self._place))
         return include.read_as(self.__launch_description_source._language)
 
 

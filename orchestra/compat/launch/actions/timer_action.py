@@ -90,6 +90,6 @@ class TimerAction(ModelledAction):
             span,
             period=scalar(self.period, span),
             cancel_on_shutdown=None if cancelled is True else scalar(cancelled, span),
-            children=models_of(self.actions),
+            children=models_of(self.actions, self._place),
             **common,
         )

@@ -7,6 +7,7 @@ import shlex
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from orchestra.compat.explanation import told
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.launch_configuration import LaunchConfiguration
 from orchestra.compat.text import Sub, normalized, template
@@ -162,6 +163,8 @@ def _words(words: Iterable[Sub], name: str) -> Iterable[Sub]:
 def _normalized_pairs(items: Mapping[Sub, Sub] | None) -> _Pairs | None:
     if items is None:
         return None
+    if not hasattr(items, "items"):
+        raise TypeError(f"an environment is a dict of names and values, this is {told(items)}")
     return [(normalized(name), normalized(value)) for name, value in items.items()]
 
 

@@ -95,7 +95,7 @@ class OnActionEventBase(BaseEventHandler):
         events = _EVENTS.get(self.__target_event_cls, _CUSTOM) if known else _CUSTOM
         done: dict[str, Any] = {"callback": self.handle}
         if self.__function is None and is_of_ours(self, "handle"):
-            done = {"children": models_of(self.__entities)}
+            done = {"children": models_of(self.__entities, self._place)}
         return tuple(
             self._model(event, target=self.__action_matcher, **fields, **done) for event, fields in events
         )

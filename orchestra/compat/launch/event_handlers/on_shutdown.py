@@ -50,7 +50,7 @@ class OnShutdown(BaseEventHandler):
             return super()._to_models()
         if self.__function is not None or not is_of_ours(self, "handle"):
             return (self._model("shutdown", callback=self.handle),)
-        return (self._model("shutdown", children=models_of(self.__entities)),)
+        return (self._model("shutdown", children=models_of(self.__entities, self._place)),)
 
 
 def _is_shutdown(event: Any) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch_ros.actions.node import Node
+from orchestra.compat.launch_ros.descriptions.composable_node import component_models
 from orchestra.description.actions.node_container import NodeContainer
 
 if TYPE_CHECKING:
@@ -33,6 +34,6 @@ class ComposableNodeContainer(Node):
 
     def _process_model(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
-        components = tuple(item._to_model() for item in self.__composable_node_descriptions or ())
+        components = component_models(self.__composable_node_descriptions or ())
         fields = self._node_fields() | self._running_fields()
         return NodeContainer.at(span, composable_node=components, **fields, **common)

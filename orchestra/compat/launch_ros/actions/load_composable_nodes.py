@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch_ros.actions.composable_node_container import ComposableNodeContainer
+from orchestra.compat.launch_ros.descriptions.composable_node import component_models
 from orchestra.compat.launch_ros.load_requests import get_composable_node_load_request
 from orchestra.compat.text import template
 from orchestra.description.actions.group import Group
@@ -47,7 +48,7 @@ class LoadComposableNodes(ModelledAction):
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
-        components = tuple(item._to_model() for item in self.__composable_node_descriptions)
+        components = component_models(self.__composable_node_descriptions)
         if not components:
             return Group.at(span, children=(), **common)
         return LoadComposableNode.at(span, target=self.__target(), composable_node=components, **common)

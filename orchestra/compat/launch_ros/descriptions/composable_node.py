@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Self
 
+from orchestra.compat.building import condition_fields
+from orchestra.compat.explanation import told
 from orchestra.compat.launch_ros.models import params, remaps
 from orchestra.compat.launch_ros.utilities.normalize_parameters import normalize_parameters
 from orchestra.compat.launch_ros.utilities.normalize_remap_rule import normalize_remap_rules
@@ -103,9 +106,22 @@ class ComposableNode:
             remap=remaps(self.remappings or (), span),
             extra_arg=params(self.extra_arguments or (), span),
             **self._more(),
-            **({} if condition is None else condition._fields(span)),
+            **({} if condition is None else condition_fields(condition, span)),
         )
 
     def _more(self) -> dict[str, Any]:
         """Return the fields that a kind of component has beside these."""
         return {}
+
+
+def component_models(components: Any) -> tuple[ComposableNodeModel, ...]:
+    """Return the models of components. Raises `TypeError` for anything else than a list of them."""
+    if isinstance(components, ComposableNode | str) or not isinstance(components, Iterable):
+        raise TypeError(f"composable_node_descriptions is a list, this is {told(components)}")
+    return tuple(_component_model(item) for item in components)
+
+
+def _component_model(item: Any) -> ComposableNodeModel:
+    if not isinstance(item, ComposableNode):
+        raise TypeError(f"composable_node_descriptions are of the class ComposableNode, this is {told(item)}")
+    return item._to_model()

@@ -72,7 +72,7 @@ class OnStateTransition(EventHandler):
         if not is_of_ours(self, "handle"):
             done: dict[str, Any] = {"callback": self.handle}
         else:
-            done = {"children": models_of(entities_of(self.entities))}
+            done = {"children": models_of(entities_of(self.entities), self._place)}
         return (self._model("state_changed", target=self.__target, **done, **self.__labels),)
 
 

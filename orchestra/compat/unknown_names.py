@@ -1,0 +1,87 @@
+"""Names that are not there: the one that was meant, and where a name of the launch language is to be had."""
+
+from __future__ import annotations
+
+import builtins
+import re
+import sys
+from importlib import import_module
+from pkgutil import iter_modules
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.compat.borrowed import PACKAGES, ROOM
+from orchestra.compat.explanation import Explanation
+from orchestra.compat.source_text import word_in
+from orchestra.nearest import nearest
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+    from types import FrameType, ModuleType
+
+    from orchestra.compat.place import Place
+
+_IMPORTED: Final = re.compile(r"cannot import name '(\w+)'")
+
+
+def unbound(error: NameError, frame: FrameType, place: Place) -> Explanation | None:
+    """Explain a name that nobody has defined or imported."""
+    if not error.name:
+        return None
+    known = {*frame.f_locals, *frame.f_globals, *vars(builtins)}
+    exporting = _exporting(error.name)
+    meant = None if exporting else nearest(error.name, (name for name in known if not name.startswith("_")))
+    notes = tuple(f"to have it, write: from {package} import {error.name}" for package in exporting[:1])
+    return Explanation(
+        f"there is no name '{error.name}' here", span=place.span, suggestion=meant, notes=notes
+    )
+
+
+def not_in_module(error: ImportError, place: Place) -> Explanation | None:
+    """Explain a name that a module does not have; a module that is not there is explained too."""
+    if isinstance(error, ModuleNotFoundError):
+        return _no_module(error.name or "", place)
+    match = _IMPORTED.search(str(error))
+    module = sys.modules.get(error.name or "")
+    return None if match is None or module is None else _no_name(match[1], module, place)
+
+
+def no_attribute(error: AttributeError, place: Place) -> Explanation | None:
+    """Explain an attribute that an object does not have."""
+    if not error.name or error.obj is None:
+        return None
+    if isinstance(error.obj, type(sys)):
+        return _no_name(error.name, error.obj, place)
+    meant = nearest(error.name, _public(dir(error.obj)))
+    kind = error.obj.__name__ if isinstance(error.obj, type) else type(error.obj).__name__
+    message = f"{kind} has no attribute '{error.name}'"
+    span = word_in(place.file, place.span, error.name)
+    return Explanation(message, span=span, suggestion=meant if span is not None else None)
+
+
+def _no_name(name: str, module: ModuleType, place: Place) -> Explanation:
+    module_name = module.__name__.removeprefix(f"{ROOM}.")
+    elsewhere = [package for package in _exporting(name) if package != module_name]
+    notes = tuple(f"it is in {package}" for package in elsewhere[:1])
+    meant = None if elsewhere else nearest(name, _public(getattr(module, "__all__", dir(module))))
+    span = word_in(place.file, place.span, name)
+    return Explanation(f"{module_name} has no '{name}'", span=span, suggestion=meant, notes=notes)
+
+
+def _no_module(name: str, place: Place) -> Explanation:
+    name = name.removeprefix(f"{ROOM}.")
+    parent, _, last = name.rpartition(".")
+    path: Any = getattr(sys.modules.get(parent or ROOM), "__path__", ())
+    meant = nearest(last, (module.name for module in iter_modules(path) if parent or module.ispkg))
+    full = None if meant is None else f"{parent}.{meant}".lstrip(".")
+    span = word_in(place.file, place.span, name)
+    return Explanation(f"there is no Python module '{name}' here", span=span, suggestion=full)
+
+
+def _exporting(name: str) -> list[str]:
+    """Return the packages of the launch language that export a name."""
+    modules = {package: import_module(f"{ROOM}.{package}") for package in PACKAGES}
+    return [package for package, module in modules.items() if name in getattr(module, "__all__", ())]
+
+
+def _public(names: Iterable[str]) -> list[str]:
+    return [name for name in names if not name.startswith("_")]
