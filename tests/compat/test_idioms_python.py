@@ -172,6 +172,57 @@ COMMANDS: dict[str, tuple[str, list[str]]] = {
         """,
         ["talker --ros-args -r x:=y -r a:=b"],
     ),
+    "defaults are decided while the context is at hand": (
+        """
+        class Either(Substitution):
+            def __init__(self, chosen, other, holds):
+                self.texts = chosen, other
+                self.holds = holds
+            def perform(self, context):
+                return self.texts[0] if self.holds else self.texts[1]
+        def setup(context):
+            stereo = IfCondition(PythonExpression(["'", LC("mode"), "' == 'stereo'"]))._predicate_func(context)
+            return [DeclareLaunchArgument("depth", default_value=Either("false", "true", stereo)),
+                    DeclareLaunchArgument("rgb", default_value=LC("depth")),
+                    Node(package="demo", executable="talker", arguments=[["--rgb=", LC("rgb")], LC("none", default="")])]
+        return LaunchDescription([DeclareLaunchArgument("mode", default_value="mono"), OpaqueFunction(function=setup)])
+        """,
+        ["talker --rgb=true  --ros-args"],
+    ),
+    "what is missing is done without": (
+        """
+        from ament_index_python.packages import PackageNotFoundError
+        try:
+            get_package_share_directory("no_such_package")
+        except PackageNotFoundError:
+            found = []
+        def known(context):
+            try:
+                return [Node(package="demo", executable="listener", name=LC("unset").perform(context))]
+            except Exception:
+                return [Node(package="demo", executable="talker")]
+        return LaunchDescription([*found, OpaqueFunction(function=known)])
+        """,
+        ["talker --ros-args"],
+    ),
+    "conditions of one's own are made of upstream's": (
+        """
+        from launch.conditions import evaluate_condition_expression
+        from launch.utilities import normalize_to_list_of_substitutions
+        class All(launch.Condition):
+            def __init__(self, conditions):
+                self.__all = [normalize_to_list_of_substitutions(item) for item in conditions]
+                super().__init__(predicate=self._predicate_func)
+            def _predicate_func(self, context):
+                return all(evaluate_condition_expression(context, item) for item in self.__all)
+        return LaunchDescription([
+            DeclareLaunchArgument("a", default_value="True"),
+            Node(package="demo", executable="talker", condition=All([LC("a"), "1"])),
+            Node(package="demo", executable="listener", condition=All([LC("a"), "0"])),
+        ])
+        """,
+        ["talker --ros-args"],
+    ),
     "modules have the names that upstream's import, and submodules their place": (
         """
         from launch_ros.actions.node import ParameterFile as File, SomeRemapRules
