@@ -18,19 +18,26 @@ from orchestra.plan.remappings import check_remaps, readiness
 from orchestra.plan.triggers import triggers
 
 if TYPE_CHECKING:
+    from collections.abc import Collection
+
     from orchestra.errors import Problems
     from orchestra.plan.model import Dependency
-    from orchestra.resolve.model import Resolved, ResolvedProcess
+    from orchestra.resolve.model import Resolved, ResolvedComponent, ResolvedProcess
 
 
-def build(resolved: Resolved, problems: Problems, *, triggers_before: int = 0) -> Plan:
+def build(
+    resolved: Resolved, problems: Problems, *, triggers_before: int = 0, known: Collection[str] = ()
+) -> Plan:
     """Return the plan. What cannot work is reported; the problems found so far become part of the plan.
 
-    `triggers_before` counts the triggers of a plan that is added to.
+    `triggers_before` counts the triggers of a plan that is added to, and `known` are the ids in it. A node that is
+    added may have the name of one of these: most often it replaces one that has ended.
     """
     ids = identities(resolved.processes)
     loaded = identities(resolved.components, ids)
-    check_names((*resolved.processes, *resolved.components), problems)
+    nodes: list[ResolvedProcess | ResolvedComponent] = [*resolved.processes, *resolved.components]
+    new = [node for identity, node in zip((*ids, *loaded), nodes, strict=True) if identity not in known]
+    check_names(new, problems)
     targets = Targets(resolved, ids)
     edges = {
         identity: dependencies(process, identity, targets, problems)

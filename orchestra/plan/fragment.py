@@ -24,9 +24,9 @@ def fragment(
 
     `resolved` has everything; its triggers are the new ones alone, before which there were `triggers` in all.
     """
-    after = build(resolved, problems, triggers_before=triggers)
-    known = {process.id for process in before.processes}
-    known |= {component.id for component in before.components} | {trigger.id for trigger in before.triggers}
+    named = {process.id for process in before.processes} | {component.id for component in before.components}
+    known = named | {trigger.id for trigger in before.triggers}
+    after = build(resolved, problems, triggers_before=triggers, known=named)
     new = {
         "processes": [record for record in after.processes if record.id not in known],
         "components": [record for record in after.components if record.id not in known],

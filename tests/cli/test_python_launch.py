@@ -62,6 +62,35 @@ def test_handlers_and_functions_decide_during_the_run(orchestra: Command, folder
     assert "[decided] decided" in ran.stdout
 
 
+_AGAIN = """
+from launch import LaunchDescription
+from launch.actions import *
+from launch.event_handlers import OnProcessExit
+from launch_ros.actions import Node
+
+runs = []
+
+def node():
+    return Node(package='demo', executable='talker', name='worn', on_exit=again)
+
+def again(event, context):
+    runs.append(event.returncode)
+    return node() if len(runs) < 3 else Shutdown(reason=f'worn out: {runs}')
+
+def generate_launch_description():
+    return LaunchDescription([node()])
+"""
+
+
+def test_a_node_that_a_handler_starts_again_keeps_its_name_without_a_warning(
+    orchestra: Command, folder: Path, prefix: Path
+) -> None:
+    (folder / "again.launch.py").write_text(_AGAIN)
+    ran = orchestra("launch", "again.launch.py", AMENT_PREFIX_PATH=str(prefix))
+    assert "shut down: worn out: [0, 0, 0]" in ran.stderr
+    assert "warning" not in ran.stderr
+
+
 @pytest.mark.conforms("4.1 7")
 def test_code_that_fails_during_the_run_ends_it_with_the_place(orchestra: Command, folder: Path) -> None:
     (folder / "broken.launch.py").write_text(
