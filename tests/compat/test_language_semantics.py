@@ -214,6 +214,11 @@ CASES: dict[str, tuple[str, Callable[[Planned], Any], Any]] = {
         "EmitEvent(event=events.Shutdown(reason='r')), Shutdown(reason='s'), EmitEvent(event=events.Shutdown)",
         _steps("action", "reason"), [["shutdown", "r"], ["shutdown", "s"], ["shutdown", "reason not given"]],
     ),
+    "1.2 LaunchDescription.visit, of a deprecated one": (
+        "LaunchDescription([LogInfo(msg='a')], deprecated_reason='use the other')",
+        lambda plan: [plan.messages, [problem.partition("launch.py ")[2] for problem in plan.problems]],
+        [["a"], ["is deprecated: use the other"]],
+    ),
     "1.7 OnIncludeLaunchDescription": (
         "EmitEvent(event=events.IncludeLaunchDescription(described)), LogInfo(msg='after')", _messages, ["after", "inner"],
     ),
@@ -261,3 +266,57 @@ def test_a_row_of_the_language_holds(case: str, tmp_path: Path) -> None:
     plans.write(tmp_path / "needs.launch.py", "DeclareLaunchArgument('needed')")
     found = plans.python(tmp_path, actions, _BEFORE)
     assert view(found) == expected, found.problems
+
+
+# Every action with what it needs, and what it would leave in a plan.
+CONDITIONAL = {
+    "1.3 AppendEnvironmentVariable": "AppendEnvironmentVariable('OLD', 'x'",
+    "1.3 DeclareLaunchArgument": "DeclareLaunchArgument('x'",
+    "1.3 EmitEvent": "EmitEvent(event=events.Shutdown()",
+    "1.3 ExecuteLocal": "ExecuteLocal(process_description=Executable(cmd=['b'])",
+    "1.3 ExecuteProcess": "ExecuteProcess(cmd=['b']",
+    "1.3 GroupAction": "GroupAction([LogInfo(msg='b')]",
+    "1.3 IncludeLaunchDescription": "IncludeLaunchDescription('gone.launch.py'",
+    "1.3 LogInfo": "LogInfo(msg='b'",
+    "1.3 OpaqueCoroutine": "OpaqueCoroutine(coroutine=wait",
+    "1.3 OpaqueFunction": "OpaqueFunction(function=lambda context: 1 / 0",
+    "1.3 PopEnvironment": "PopEnvironment(",
+    "1.3 PopLaunchConfigurations": "PopLaunchConfigurations(",
+    "1.3 RegisterEventHandler": "RegisterEventHandler(OnShutdown(on_shutdown=LogInfo(msg='b'))",
+    "1.3 ResetEnvironment": "SetEnvironmentVariable('X', '1'), ResetEnvironment(",
+    "1.3 ResetLaunchConfigurations": "ResetLaunchConfigurations(",
+    "1.3 SetEnvironmentVariable": "SetEnvironmentVariable('OLD', 'x'",
+    "1.3 SetLaunchConfiguration": "SetLaunchConfiguration('a', 'x'",
+    "1.3 Shutdown": "Shutdown(",
+    "1.3 TimerAction": "TimerAction(period=1.0, actions=[LogInfo(msg='b')]",
+    "1.3 UnregisterEventHandler": "UnregisterEventHandler(OnShutdown(on_shutdown=[])",
+    "1.3 UnsetEnvironmentVariable": "UnsetEnvironmentVariable('OLD'",
+    "1.3 UnsetLaunchConfiguration": "UnsetLaunchConfiguration('a'",
+    "1.12 Node": "Node(package='gone', executable='x'",
+    "1.12 LifecycleNode": "LifecycleNode(package='gone', executable='x', name='n', namespace=''",
+    "1.12 ComposableNodeContainer": "ComposableNodeContainer(package='gone', executable='x', name='n', namespace=''",
+    "1.12 LoadComposableNodes": "LoadComposableNodes(target_container='/c', composable_node_descriptions=["
+    "ComposableNode(package='p', plugin='A')]",
+    "1.12 LifecycleTransition": "LifecycleTransition(lifecycle_node_names=['/n'], transition_ids=[1]",
+    "1.12 PushROSNamespace": "PushROSNamespace('x'",
+    "1.12 SetParameter": "SetParameter('x', 1",
+    "1.12 SetParametersFromFile": "SetParametersFromFile('gone.yaml'",
+    "1.12 SetRemap": "SetRemap('x', 'y'",
+    "1.12 SetROSLogDir": "SetROSLogDir('x'",
+    "1.12 SetUseSimTime": "SetUseSimTime(True",
+    "1.12 ROSTimer": "ROSTimer(period=1.0, actions=[LogInfo(msg='b')]",
+}
+_WITHOUT = "SetLaunchConfiguration('a', '1'), SetEnvironmentVariable('X', '1'), {}node(), say('a')"
+
+
+@pytest.mark.parametrize("case", conforming(CONDITIONAL))
+@pytest.mark.parametrize("condition", ["IfCondition('false')", "UnlessCondition(LC('a'))"])
+def test_an_action_whose_condition_does_not_hold_does_nothing(
+    case: str, condition: str, tmp_path: Path
+) -> None:
+    before = f"{_BEFORE}\nasync def wait(context): pass\n"
+    comma = "" if CONDITIONAL[case].endswith("(") else ", "
+    written = f"{CONDITIONAL[case]}{comma}condition={condition}), "
+    found = plans.python(tmp_path, _WITHOUT.format(written), before)
+    assert found.problems == []
+    assert {**found.content, "skipped": []} == plans.python(tmp_path, _WITHOUT.format(""), before).content

@@ -60,6 +60,9 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
     if isinstance(entity, ModelledAction) and entity._is_as_described():  # its model is faulty
         visit_entity(entity, run)
         return
+    if isinstance(entity, LaunchDescription) and entity.deprecated:
+        message = f"{displayed(run.context.file or '')} is deprecated: {entity.deprecated_reason}"
+        run.problems.warning(Code.DEPRECATED, message, run.at(action.span))
     if type(entity).visit is LaunchDescription.visit:
         visit_entities(entity.entities, run, getattr(entity, "_place", None))
         return
