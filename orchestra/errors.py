@@ -182,7 +182,7 @@ class DescriptionError(OrchestraError):
     """What the user wrote cannot be run; `problems` says why."""
 
     def __init__(self, problems: tuple[Problem, ...]) -> None:
-        super().__init__(f"{len(problems)} problems")
+        super().__init__(f"{len(problems)} problem{'' if len(problems) == 1 else 's'}")
         self.problems = problems
 
 

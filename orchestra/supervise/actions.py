@@ -37,7 +37,7 @@ class Actions:
         beginning: Beginning,
         triggers: Triggers,
         nodes: Nodes,
-        end: Callable[[str], None],
+        end: Callable[[str, str], None],
     ) -> None:
         self._units = units
         self._beginning = beginning
@@ -61,7 +61,7 @@ class Actions:
             case UnregisterAction(trigger):
                 self._triggers.unregister(trigger)
             case ShutdownAction(reason):
-                self._end(f"shut down: {reason}")
+                self._end(reason, f"shut down: {reason}")
 
     def _end_processes(self, action: StopAction | SignalAction) -> None:
         for process in action.processes:

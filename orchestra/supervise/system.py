@@ -210,12 +210,16 @@ class System:
         self._take_up(fragment)
         return None
 
-    def end_with(self, reason: str) -> None:
-        """End the run because the plan says so; a required process that failed just before gives it its status."""
+    def end_with(self, reason: str, told: str | None = None) -> None:
+        """End the run because the plan says so; a required process that failed just before gives it its status.
+
+        Triggers on the end hear the reason; `told` is what the terminal shows instead of it.
+        """
+        told = reason if told is None else told
         if not self.stopping.begun:
             self._blame()
-        self._ended_by = reason if self._ended_by is None else self._ended_by
-        self._stop(reason, f"{reason}: stopping")
+        self._ended_by = told if self._ended_by is None else self._ended_by
+        self._stop(reason, f"{told}: stopping")
 
     # What follows from it.
 

@@ -58,7 +58,7 @@ def test_handlers_and_functions_decide_during_the_run(orchestra: Command, folder
         < told.index("a little later")
         < told.index("own event")
     )
-    assert any(line.startswith("because ") and "time is up" in line for line in told)
+    assert "because time is up" in told
     assert "[decided] decided" in ran.stdout
 
 
@@ -98,7 +98,7 @@ def test_code_that_fails_during_the_run_ends_it_with_the_place(orchestra: Comman
     )
     ran = orchestra("launch", "broken.launch.py")
     assert ran.returncode == 1, ran.stderr
-    assert "NameError" in ran.stderr
+    assert "there is no name 'undefined_name' here" in ran.stderr
     assert "broken.launch.py:12" in ran.stderr
 
 

@@ -251,7 +251,7 @@ def test_arguments_components_triggers_and_what_was_left_out() -> None:
         "  output of /a, once t7 is registered: the first time, register t1  (two.yaml:7:5)\n"
         "  a change of state of /a by configure to inactive, once t8 is registered: the first time,"
         " configure, activate /a  (two.yaml:7:5)\n"
-        "  the beginning of the end, once t9 is registered: the first time, unregister t1  (two.yaml:7:5)\n"
+        "  the shutdown of the run, once t9 is registered: the first time, unregister t1  (two.yaml:7:5)\n"
         "  the start of the run, once t10 is registered: the first time, decided when it happens"
         "  (two.yaml:7:5)\n"
         "\n"

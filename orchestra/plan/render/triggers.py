@@ -38,7 +38,7 @@ def _event(event: TriggerEvent) -> str:
         case "run_started":
             return "the start of the run"
         case "shutdown":
-            return "the beginning of the end"
+            return "the shutdown of the run"
         case "process_started":
             return f"the start of {target}"
         case "process_exited":
