@@ -6,17 +6,9 @@ from typing import Any
 
 from orchestra.compat.lazy import exported
 
-_NAMES = {
-    "Entity": "entity",
-    "Parser": "parser",
-    "entity": "",
-    "launch_description_sources": "",
-    "parser": "",
-}
-
 __all__ = ["Entity", "Parser"]
 
-_attribute = exported(__name__, _NAMES)
+_attribute = exported(__name__, {"Entity": "entity", "Parser": "parser"})
 
 
 def __getattr__(name: str) -> Any:

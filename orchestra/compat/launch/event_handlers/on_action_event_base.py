@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat.building import models_of
 from orchestra.compat.launch.event import Event
-from orchestra.compat.launch.event_handler import BaseEventHandler, entities_of, is_of_ours
+from orchestra.compat.launch.event_handler import is_of_ours
+from orchestra.compat.launch.event_handlers.reacting import ReactingEventHandler
 from orchestra.compat.launch.events.execution_complete import ExecutionComplete
 from orchestra.compat.launch.events.process.process_exited import ProcessExited
 from orchestra.compat.launch.events.process.process_io import ProcessIO
@@ -16,8 +16,6 @@ from orchestra.compat.launch.events.process.process_stdout import ProcessStdout
 
 if TYPE_CHECKING:
     from orchestra.compat.launch.action import Action
-    from orchestra.compat.launch.launch_context import LaunchContext
-    from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
     from orchestra.description.handlers import Handler
 
 # What each event is in a plan: names, and fields of the model.
@@ -32,7 +30,7 @@ _EVENTS: Final[dict[type[Event], tuple[tuple[str, dict[str, str]], ...]]] = {
 _CUSTOM: Final[tuple[tuple[str, dict[str, str]], ...]] = (("custom", {}),)
 
 
-class OnActionEventBase(BaseEventHandler):
+class OnActionEventBase(ReactingEventHandler):
     """Wait for an event of a class whose `action` is the one that is meant.
 
     `action_matcher` is an action, a predicate on actions, or None for any; `on_event` entities, or a callable that
@@ -53,26 +51,10 @@ class OnActionEventBase(BaseEventHandler):
         if not (isinstance(target_event_cls, type) and issubclass(target_event_cls, Event)):
             raise TypeError(f"target_event_cls is a kind of event, not {target_event_cls!r}")
         _check_target(action_matcher, target_action_cls)
-        super().__init__(matcher=self.__matches, **kwargs)
+        super().__init__(matcher=self.__matches, reaction=on_event, **kwargs)
         self.__action_matcher = action_matcher
         self.__target_event_cls = target_event_cls
         self.__target_action_cls = target_action_cls
-        self.__function = on_event if callable(on_event) else None
-        self.__entities = [] if callable(on_event) else entities_of(on_event)
-
-    def handle(self, event: Event, context: LaunchContext) -> Any:
-        """Return the entities, or what the callable returns."""
-        super().handle(event, context)
-        return self.__entities if self.__function is None else self.__function(event, context)
-
-    def describe(self) -> tuple[str, list[LaunchDescriptionEntity]]:
-        """Return what the handler is, and the entities that are known to follow."""
-        return super().describe()[0], list(self.__entities)
-
-    @property
-    def handler_description(self) -> str:
-        """What is done."""
-        return "<actions>" if self.__function is None else f"{self.__function}"
 
     @property
     def matcher_description(self) -> str:
@@ -93,9 +75,7 @@ class OnActionEventBase(BaseEventHandler):
     def _to_models(self) -> tuple[Handler, ...]:
         known = is_of_ours(self, "matches")
         events = _EVENTS.get(self.__target_event_cls, _CUSTOM) if known else _CUSTOM
-        done: dict[str, Any] = {"callback": self.handle}
-        if self.__function is None and is_of_ours(self, "handle"):
-            done = {"children": models_of(self.__entities, self._place)}
+        done = self._done()
         return tuple(
             self._model(event, target=self.__action_matcher, **fields, **done) for event, fields in events
         )

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from types import MappingProxyType
 from typing import Any, Final
 
-_PACKAGES: Final = {
-    "launch": "orchestra.compat.launch.substitutions",
-    "launch_ros": "orchestra.compat.launch_ros.substitutions",
-}
+from orchestra.compat.launch.frontend.classes import class_at
 
 CALLS: Final = MappingProxyType({
     "all": "launch:AllSubstitution",
@@ -42,5 +38,4 @@ CALLS: Final = MappingProxyType({
 
 def class_of_call(name: str) -> Any:
     """Return the class that a name of the launch language stands for."""
-    package, _, attribute = CALLS[name].partition(":")
-    return getattr(import_module(_PACKAGES[package]), attribute)
+    return class_at(CALLS[name], "substitutions")

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from types import MappingProxyType
 from typing import Any, Final
 
-_PACKAGES: Final = {
-    "launch": "orchestra.compat.launch.actions",
-    "launch_ros": "orchestra.compat.launch_ros.actions",
-}
+from orchestra.compat.launch.frontend.classes import class_at
 
 TAGS: Final = MappingProxyType({
     "append_env": "launch:AppendEnvironmentVariable",
@@ -42,7 +38,4 @@ TAGS: Final = MappingProxyType({
 def class_of_tag(name: str) -> Any:
     """Return the class that a tag of the launch language stands for, None for an unknown one."""
     place = TAGS.get(name.replace("-", "_"))
-    if place is None:
-        return None
-    package, _, attribute = place.partition(":")
-    return getattr(import_module(_PACKAGES[package]), attribute)
+    return None if place is None else class_at(place, "actions")

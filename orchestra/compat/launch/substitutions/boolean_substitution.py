@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Self
 
 from orchestra.compat.described import described
+from orchestra.compat.launch.substitutions.two_sided import TwoSided
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.text import normalized
 
@@ -38,41 +39,13 @@ class NotSubstitution(ParsedSubstitution):
         return (self.value,)
 
 
-class _OfTwo(ParsedSubstitution):
-    """The values on both sides; both are evaluated."""
-
-    _parameters = ("left", "right")
-
-    def __init__(self, left: Sub, right: Sub) -> None:
-        super().__init__()
-        self.__left = normalized(left)
-        self.__right = normalized(right)
-
-    @property
-    def left(self) -> list[Substitution]:
-        """The first value."""
-        return self.__left
-
-    @property
-    def right(self) -> list[Substitution]:
-        """The second value."""
-        return self.__right
-
-    def describe(self) -> str:
-        """Return both values and what they are in."""
-        return f"{type(self).__name__}({described(self.left)}, {described(self.right)})"
-
-    def _arguments(self) -> Sequence[Sequence[Substitution]]:
-        return (self.left, self.right)
-
-
-class AndSubstitution(_OfTwo):
+class AndSubstitution(TwoSided):
     """True where both values are."""
 
     _name = "and"
 
 
-class OrSubstitution(_OfTwo):
+class OrSubstitution(TwoSided):
     """True where at least one of two values is."""
 
     _name = "or"
