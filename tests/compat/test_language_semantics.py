@@ -214,6 +214,15 @@ CASES: dict[str, tuple[str, Callable[[Planned], Any], Any]] = {
         "EmitEvent(event=events.Shutdown(reason='r')), Shutdown(reason='s'), EmitEvent(event=events.Shutdown)",
         _steps("action", "reason"), [["shutdown", "r"], ["shutdown", "s"], ["shutdown", "reason not given"]],
     ),
+    "4.8 required": (
+        "ExecuteProcess(cmd=['a'], on_exit=Shutdown()), ExecuteProcess(cmd=['b'], on_exit=[Shutdown(reason=['why ', LC('x', default='not')])])",
+        lambda plan: [
+            [process["required"] for process in plan.content["processes"]],
+            [(trigger["on"]["event"], trigger["on"]["target"]) for trigger in plan.triggers],
+            [step["reason"] for step in plan.steps],
+        ],
+        [[True, True], [("process_exited", "a"), ("process_exited", "b")], ["a has ended", "why not"]],
+    ),
     "1.2 LaunchDescription.visit, of a deprecated one": (
         "LaunchDescription([LogInfo(msg='a')], deprecated_reason='use the other')",
         lambda plan: [plan.messages, [problem.partition("launch.py ")[2] for problem in plan.problems]],

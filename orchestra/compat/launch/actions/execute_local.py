@@ -173,12 +173,14 @@ class ExecuteLocal(ModelledAction):
 
     def _running_fields(self) -> dict[str, Any]:
         """Return the fields that the models of all processes share, without the name."""
-        span = self._place.span
+        span, ending = self._place.span, self.__ending()
+        explained = ending is not None and ending._has_reason
         fields = {
             "shell": scalar(self.__shell, span) if self.__shell else None,
             "emulate_tty": optional(self.__emulate_tty, span),
             "output": _output_field(self.__output, span),
-            "on_exit": template("shutdown", span) if self.__ends_run() else None,
+            "on_exit": template("shutdown", span) if ending is not None and not explained else None,
+            "required": scalar(value=True, span=span) if explained else None,
             "respawn": scalar(self.__respawn, span) if self.__respawn else None,
             "respawn_delay": optional(_delay(self.__respawn_delay), span),
             "respawn_max_retries": None
@@ -192,8 +194,8 @@ class ExecuteLocal(ModelledAction):
 
     def _handlers(self) -> list[Handler]:
         """Return what is done about the events of this process."""
-        handlers = []
-        if self.__on_exit is not None and not self.__ends_run():
+        handlers, ending = [], self.__ending()
+        if self.__on_exit is not None and (ending is None or ending._has_reason):
             handlers.append(self.__handler(ProcessExited, self.__on_exit))
         if self.__cached_output:
             keeper = self.__handler(ProcessIO, self.__cache)
@@ -229,12 +231,13 @@ class ExecuteLocal(ModelledAction):
             raise RuntimeError(f"the {stream} of a process is only kept with cached_output=True")
         return self.__written[stream].decode(errors="replace")
 
-    def __ends_run(self) -> bool:
-        """Return whether `on_exit` is nothing but the action that ends the run."""
+    def __ending(self) -> Shutdown | None:
+        """Return the action that ends the run where `on_exit` is nothing else."""
         entities = self.__on_exit if isinstance(self.__on_exit, list | tuple) else [self.__on_exit]
         if len(entities) != 1 or not isinstance(entities[0], Shutdown):
-            return False
-        return entities[0].condition is None and type(entities[0]).visit is Action.visit
+            return None
+        ending = entities[0]
+        return ending if ending.condition is None and type(ending).visit is Action.visit else None
 
     def __timeout(self, name: str) -> list[Substitution]:
         value = self.__timeouts[name]

@@ -25,8 +25,12 @@ class Shutdown(EmitEvent):
         self.__reason = normalized(reason)
         super().__init__(event=ShutdownEvent(reason=reason), **kwargs)
 
+    @property
+    def _has_reason(self) -> bool:
+        """Whether somebody has said why."""
+        return template(self.__reason, self._place.span).constant != _NO_REASON
+
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
-        reason = template(self.__reason, span)
-        given = None if reason.constant == _NO_REASON else reason
+        given = template(self.__reason, span) if self._has_reason else None
         return ShutdownModel.at(span, reason=given, **common)
