@@ -9,6 +9,7 @@ from orchestra.errors import Problems
 from orchestra.pipeline import collect, inputs_from
 from orchestra.plan.codec import encode
 from tests.load.written import WRITERS, Actions
+from tests.load.written_python import as_python
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -47,7 +48,7 @@ def planned(
 ) -> Planned:
     """Return the plan of a description; `inner` are files that it includes, by name as `NAME.launch.yaml`."""
     for name, content in {"a": actions, **inner}.items():
-        text = WRITERS[language](content)
+        text = (as_python if language == "py" else WRITERS[language])(content)
         for other in inner:
             text = text.replace(f"{other}.launch.yaml", f"{other}.launch.{language}")
         (folder / f"{name}.launch.{language}").write_text(text, "utf-8")

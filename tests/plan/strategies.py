@@ -90,7 +90,7 @@ _plain = st.one_of(
         "node",
         exec=st.just("prog"),
         namespace=st.sampled_from(["n", "/m"]),
-        args=_texts.map(lambda text: text.replace("'", "").replace('"', "")),
+        args=st.one_of(st.sampled_from(["", "x", "y z", "ärm # -c [1,"]), st.lists(_texts, max_size=2)),
         param=st.lists(st.fixed_dictionaries({"name": _names, "value": st.integers(0, 9)}), max_size=2),
         respawn=_flags,
     ),
