@@ -104,7 +104,10 @@ def _share(package: str, packages: Packages) -> Path:
     if share is not None:
         return Path(share)
     meant = nearest(package, packages.names())
-    raise UsageError(f"there is no package '{package}'" + (f": did you mean '{meant}'?" if meant else ""))
+    hint = f": did you mean '{meant}'?" if meant else ""
+    if not os.environ.get("AMENT_PREFIX_PATH"):
+        hint += " (AMENT_PREFIX_PATH is not set: the setup file of a workspace sets it)"
+    raise UsageError(f"there is no package '{package}'{hint}")
 
 
 def _in_share(share: Path, package: str, name: str) -> str:

@@ -131,6 +131,8 @@ def test_a_package_that_is_not_there_is_a_mistake(orchestra: Command) -> None:
     assert checked.startswith(
         "error: there is no file, folder or package dmeo; did you mean the package 'demo'?\n"
     )
+    unset = orchestra("launch", "dmeo", "python", AMENT_PREFIX_PATH="").stderr
+    assert "(AMENT_PREFIX_PATH is not set: the setup file of a workspace sets it)\n" in unset
 
 
 @pytest.mark.conforms("5.2 no file")

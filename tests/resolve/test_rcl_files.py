@@ -132,6 +132,14 @@ def test_a_list_of_several_types_is_told_at_the_item_that_does_not_fit() -> None
     assert problem.message == "a list must hold values of one type, not integer and float"
 
 
+def test_a_word_in_a_list_that_is_a_boolean_is_pointed_out() -> None:
+    """The `y` of YAML 1.1."""
+    _, problems = _read("/n: {ros__parameters: {axes: [x, y]}}")
+    assert [problem.notes for problem in problems.errors] == [
+        ("'y' is read as true where it is not in quotes",)
+    ]
+
+
 def test_one_reading_tells_of_several_errors() -> None:
     sections, problems = _read(
         "/a:\n"

@@ -151,7 +151,7 @@ class Reader:
         items = current.items if current.items is not None else []
         if current.sound and items and type(items[0]) is not type(read):
             message = f"a list must hold values of one type, not {kind_of(items[0])} and {kind_of(read)}"
-            self.problems.error(Code.PARAMETER_TYPE, message, self.at(event))
+            self.problems.error(Code.PARAMETER_TYPE, message, self.at(event), notes=_odd_boolean(read, event))
             current.sound = False
         items.append(read)
         current.items = items
@@ -280,3 +280,10 @@ class Reader:
         """Report what rcl refuses and what leaves nothing to go on with; raise what is returned."""
         self.error(message, self.at(event))
         return Unreadable(message)
+
+
+def _odd_boolean(read: Scalar, event: yaml.ScalarEvent) -> tuple[str, ...]:
+    """Return what is to be said of a word that hardly anybody means as a boolean."""
+    if not isinstance(read, bool) or event.value.lower() in ("true", "false"):
+        return ()
+    return (f"'{event.value}' is read as {str(read).lower()} where it is not in quotes",)
