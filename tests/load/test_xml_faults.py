@@ -156,7 +156,7 @@ FILES: dict[str, tuple[str, int, int, str]] = {
 }  # fmt: skip
 
 
-@pytest.mark.conforms("2.1 root", "2.1 empty", "D7")
+@pytest.mark.conforms("2.1 root", "2.1 empty", "D7", "D77")
 @pytest.mark.parametrize("case", FILES)
 def test_a_file_that_is_no_launch_file_is_told_once(case: str, tmp_path: Path) -> None:
     text, line, column, message = FILES[case]

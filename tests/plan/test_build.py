@@ -75,6 +75,7 @@ def test_a_name_like_a_repeat_is_kept_apart_too(tmp_path: Path) -> None:
     assert [process.id for process in found.plan.processes] == ["a", "a#2", "a#3", "a#3#2", "a#4"]
 
 
+@pytest.mark.conforms("D74")
 def test_two_nodes_with_one_name_are_refused_where_the_second_is(tmp_path: Path) -> None:
     text = "launch:\n- node: {exec: a, name: n}\n- push_ros_namespace: {namespace: /}\n- node: {exec: b, name: n}"
     assert outcome(tmp_path, text).faults == [(Code.DUPLICATE_NODE, "main.yaml", 4, 25)]

@@ -90,6 +90,7 @@ def test_what_cannot_be_started_says_why(argv: tuple[str, ...], reason: str) -> 
     assert run_command(argv, _ENVIRONMENT).failure == f"cannot be started: {reason}"
 
 
+@pytest.mark.conforms("D75")
 def test_a_command_may_not_run_for_ever() -> None:
     result = run_command(
         ("sh", "-c", "trap '' INT TERM; echo begun; while :; do sleep 1; done"), _ENVIRONMENT, timeout=1
@@ -128,6 +129,7 @@ def test_nothing_outlives_a_command(script: str, tmp_path: Path) -> None:
     assert _gone(int(result.stdout))
 
 
+@pytest.mark.conforms("D75")
 def test_nothing_outlives_a_command_that_ran_too_long() -> None:
     script = (
         "setsid sh -c 'echo $$; exec sleep 1000' & (setsid sh -c 'echo $$; exec sleep 1000' &); sleep 1000"

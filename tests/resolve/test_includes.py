@@ -38,6 +38,7 @@ def test_an_empty_list_of_values_ends_it_too(tmp_path: Path) -> None:
     assert list(found.problems) == []
 
 
+@pytest.mark.conforms("D78")
 @pytest.mark.parametrize(
     ("files", "file", "line", "way"),
     [

@@ -161,6 +161,7 @@ def generate_launch_description():
     assert not list(tmp_path.rglob("__pycache__"))
 
 
+@pytest.mark.conforms("D76")
 def test_what_launch_files_print_is_not_the_product(
     tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
