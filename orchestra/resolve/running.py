@@ -92,7 +92,29 @@ def add_process(action: Running, program: Program, run: Resolution) -> int:
     if run.occasion is not None:
         run.occasion.do.append(ResolvedStart(len(run.found.processes), location))
     run.found.processes.append(process)
+    _tell(process, run)
     return len(run.found.processes) - 1
+
+
+def name_in_launch(process: ResolvedProcess, index: int) -> str:
+    """Return the name that upstream has for a process: its label, with a number that counts all processes."""
+    return f"{process.label or Path(process.executable).name}-{index + 1}"
+
+
+def words_of(process: ResolvedProcess) -> list[str]:
+    """Return the command line without what the plan adds for ROS."""
+    return [*process.prefix, *process.program, *process.arguments]
+
+
+def _tell(process: ResolvedProcess, run: Resolution) -> None:
+    """Let the object of a Python launch file know what the process is started with: user code asks for it."""
+    if process.faulty or not hasattr(process.origin, "_prepared_as"):
+        return
+    environment = dict(run.scope.environment) if process.inherit_environment else {}
+    changed = {name: changes[-1].value for name, changes in process.environment.items()}
+    environment |= {name: value for name, value in changed.items() if value is not None}
+    name = name_in_launch(process, len(run.found.processes) - 1)
+    process.origin._prepared_as(name, words_of(process), process.cwd, environment)  # noqa: SLF001 - a class of ours
 
 
 def texts(argv: Template | tuple[Template, ...] | None, run: Resolution) -> tuple[str, ...] | Poison:

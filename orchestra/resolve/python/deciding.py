@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 from orchestra.resolve.occasions import Occasion, OpenEvent
@@ -12,6 +11,7 @@ from orchestra.resolve.python.deferral import copied
 from orchestra.resolve.python.emitting import emit
 from orchestra.resolve.python.occurrences import observed
 from orchestra.resolve.python.visiting import visit_entities, visit_entity
+from orchestra.resolve.running import name_in_launch
 from orchestra.resolve.settling import settled_actions
 
 if TYPE_CHECKING:
@@ -76,5 +76,4 @@ def _carry_out(kept: Kept, event: Any, run: Resolution) -> None:
 
 def _event(happened: Mapping[str, Any], index: int | None, run: Resolution) -> Any:
     process = None if index is None else run.found.processes[index]
-    label = "" if process is None else process.label or PurePath(process.executable).name
-    return observed(happened, process, f"{label}-{(index or 0) + 1}")
+    return observed(happened, process, "" if process is None else name_in_launch(process, index or 0))

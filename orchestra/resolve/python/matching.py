@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import PurePath
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.events.matchers import ActionMatcher
 from orchestra.resolve.python.calling import user_code
+from orchestra.resolve.running import name_in_launch
 
 if TYPE_CHECKING:
     from orchestra.resolve.model import ResolvedProcess
@@ -29,9 +29,8 @@ def _looked_for(matcher: ActionMatcher, index: int, process: ResolvedProcess) ->
     match matcher.by:
         case "action":
             return process.origin is matcher.target
-        case "name":  # upstream counts all processes of a launch
-            label = process.label or PurePath(process.executable).name
-            return bool(matcher.target == f"{label}-{index + 1}")
+        case "name":
+            return bool(matcher.target == name_in_launch(process, index))
         case "executable":
             end: str = matcher.target
             return bool(process.program) and process.program[0].endswith(end)

@@ -15,6 +15,7 @@ from orchestra.compat.launch.events.process.process_stdout import ProcessStdout
 from orchestra.compat.launch.events.process.running_process_event import RunningProcessEvent
 from orchestra.compat.launch.events.shutdown import Shutdown
 from orchestra.compat.launch_ros.events.lifecycle.state_transition import StateTransition
+from orchestra.resolve.running import words_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -61,13 +62,13 @@ def event_object(happened: Mapping[str, Any], process: ResolvedProcess | None, n
 
 
 def _running(happened: Mapping[str, Any], process: ResolvedProcess, name: str) -> dict[str, Any]:
-    words = [*process.prefix, *process.program, *process.arguments]
+    details = getattr(process.origin, "process_details", None) or {}
     return {
         "action": process.origin,
         "name": name,
-        "cmd": words,
+        "cmd": words_of(process),
         "cwd": process.cwd,
-        "env": None,
+        "env": details.get("env"),
         "pid": happened.get("pid") or 0,
     }
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.compat.extensions import RUNNING, extension_fields, taken
 from orchestra.compat.launch.action import Action, ModelledAction
 from orchestra.compat.launch.actions.shutdown_action import Shutdown
+from orchestra.compat.launch.event_handler import is_of_ours
 from orchestra.compat.launch.event_handlers.on_action_event_base import OnActionEventBase
 from orchestra.compat.launch.events.process.process_exited import ProcessExited
 from orchestra.compat.launch.events.process.process_io import ProcessIO
@@ -127,18 +128,23 @@ class ExecuteLocal(ModelledAction):
         """Return the entities of `on_exit` where they are a list."""
         return self.__on_exit if isinstance(self.__on_exit, list) else []
 
+    def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
+        """Start the process, prepared first where a subclass says how."""
+        if not is_of_ours(self, "prepare"):
+            self.prepare(context)
+        return super().execute(context)
+
     def prepare(self, context: LaunchContext) -> None:
         """Perform the substitutions of the program."""
         description = self.process_description
         description.prepare(context, self)
         description._add(self._words_of_its_own(context))
-        self._details = {
-            "action": self,
-            "name": description.final_name,
-            "cmd": description.final_cmd,
-            "cwd": description.final_cwd,
-            "env": description.final_env,
-        }
+        self._details = {"action": self, **description._final}
+
+    def _prepared_as(self, name: str, cmd: list[str], cwd: str | None, env: dict[str, str]) -> None:
+        """Take note of what a visit has come to."""
+        self.process_description._final = {"name": name, "cmd": cmd, "cwd": cwd, "env": env}
+        self._details = {"action": self, **self.process_description._final}
 
     def _words_of_its_own(self, context: LaunchContext) -> list[str]:  # noqa: ARG002 - for subclasses
         """Return the words that a kind of process adds to its command line."""
@@ -151,6 +157,9 @@ class ExecuteLocal(ModelledAction):
     def get_stderr(self) -> str:
         """Return what the process has written to standard error. Raises `RuntimeError` without `cached_output`."""
         return self.__cached("stderr")
+
+    def _is_as_described(self) -> bool:
+        return super()._is_as_described() and is_of_ours(self, "prepare")
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         """Return the model of the process; in a group where handlers of its own are to wait before it starts."""

@@ -52,7 +52,7 @@ class Executable:
         self.__cwd = None if cwd is None else normalized(cwd)
         self.__env = _normalized_pairs(env)
         self.__additional_env = _normalized_pairs(additional_env)
-        self.__final: dict[str, Any] = {}
+        self._final: dict[str, Any] = {}
 
     @property
     def name(self) -> _Subs | None:
@@ -94,22 +94,22 @@ class Executable:
     @property
     def final_name(self) -> str | None:
         """The label with a number, None before `prepare`."""
-        return self.__final.get("name")
+        return self._final.get("name")
 
     @property
     def final_cmd(self) -> list[str] | None:
         """The command line with its prefix, None before `prepare`."""
-        return self.__final.get("cmd")
+        return self._final.get("cmd")
 
     @property
     def final_cwd(self) -> str | None:
         """The working directory, None before `prepare`."""
-        return self.__final.get("cwd")
+        return self._final.get("cwd")
 
     @property
     def final_env(self) -> dict[str, str] | None:
         """The whole environment, None before `prepare`."""
-        return self.__final.get("env")
+        return self._final.get("env")
 
     def prepare(self, context: LaunchContext, action: Any) -> None:  # noqa: ARG002 - upstream's signature
         """Perform the substitutions."""
@@ -118,7 +118,7 @@ class Executable:
         label = program if self.name is None else _performed(self.name, context)
         number = context.get_locals_as_dict().get(_COUNT, 0) + 1
         context.extend_globals({_COUNT: number})
-        self.__final = {
+        self._final = {
             "name": f"{label}-{number}",
             "cmd": [*self.__prefix_words(program, context), *cmd],
             "cwd": None if self.cwd is None else _performed(self.cwd, context),
@@ -127,7 +127,7 @@ class Executable:
 
     def _add(self, words: Iterable[str]) -> None:
         """Add words to the command line that has been prepared."""
-        self.__final["cmd"] += words
+        self._final["cmd"] += words
 
     def __prefix_words(self, program: str, context: LaunchContext) -> list[str]:
         """Return the prefix where it applies; a prefix of the program's own is not filtered."""
