@@ -260,6 +260,13 @@ def test_arguments_components_triggers_and_what_was_left_out() -> None:
     )
 
 
+def test_lines_of_a_program_stand_below_each_other_and_long_texts_are_cut() -> None:
+    process = replace(_TALKER, command=("python3", "-c", "a\nb"), parameters={"urdf": "x" * 5000})
+    text = _text(_plan(process))
+    assert "        command     python3 -c 'a\n                    b'\n" in text
+    assert f'        parameters  urdf: "{"x" * 399} ... (4602 more characters, see --format json)\n' in text
+
+
 def test_a_plan_of_nothing_says_so() -> None:
     assert _text(_plan()) == "two.yaml: nothing to run\n"
 

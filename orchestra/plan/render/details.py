@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from orchestra.values import ParameterValue, Restart, Stop
 
 _WIDTH = 11
+_LONGEST = 400  # characters of a value: the description of a robot has thousands, and JSON shows all of them
 _REACHED = {
     "started": "has started",
     "ready": "is ready",
@@ -23,11 +24,11 @@ _REACHED = {
 
 def process_details(process: Process) -> Iterator[str]:
     """Yield the lines; a setting that has nothing to say has no line."""
-    yield from _labelled("command", [_command(process)])
+    yield from _labelled("command", _command(process).split("\n"))
     yield from _labelled("folder", [process.cwd] if process.cwd else [])
     yield from _labelled("environment", _environment(process))
     yield from _labelled(
-        "parameters", [f"{name}: {scalar(value)}" for name, value in process.parameters.items()]
+        "parameters", [f"{name}: {_shortened(scalar(value))}" for name, value in process.parameters.items()]
     )
     yield from _labelled("files", [file.path for file in process.parameter_files])
     yield from _labelled("remaps", [f"{old} -> {new}" for old, new in process.remappings])
@@ -43,6 +44,12 @@ def process_details(process: Process) -> Iterator[str]:
 def scalar(value: ParameterValue | None) -> str:
     """Return a parameter value so that its type can be seen: text in quotes, lists in brackets."""
     return json.dumps(value, ensure_ascii=False)
+
+
+def _shortened(value: str) -> str:
+    if len(value) <= _LONGEST:
+        return value
+    return f"{value[:_LONGEST]} ... ({len(value) - _LONGEST} more characters, see --format json)"
 
 
 def _labelled(label: str, values: Iterator[str] | list[str] | map[str]) -> Iterator[str]:
