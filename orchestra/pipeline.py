@@ -103,7 +103,7 @@ def opened(
     What is wrong is in `problems`. None where the file itself cannot be read as a launch file.
     """
     packages = InstalledPackages(inputs.environment)
-    with _loading(path, inputs, load, packages) as isolation:
+    with _loading(path, inputs, load, packages, problems) as isolation:
         with _collector_paused():
             run = begin(inputs, problems, load=load, packages=packages, run_command=run_command)
             description = load(path, problems, ())
@@ -166,7 +166,9 @@ def _collector_paused() -> Iterator[None]:
 
 
 @contextmanager
-def _loading(path: str, inputs: Inputs, load: LoadFile, packages: InstalledPackages) -> Iterator[Isolation]:
+def _loading(
+    path: str, inputs: Inputs, load: LoadFile, packages: InstalledPackages, problems: Problems
+) -> Iterator[Isolation]:
     """Let launch files in Python be loaded, and leave this process as it was."""
 
     def begin_alone(problems: Problems) -> Resolution:
@@ -179,7 +181,12 @@ def _loading(path: str, inputs: Inputs, load: LoadFile, packages: InstalledPacka
         isolated(inputs.environment, ("ros2", "launch", path, *words)) as isolation,
         connected(
             LoadingConnection(
-                packages, begin_alone, isolation.prepare, debug=inputs.debug, launching=inputs.launching
+                packages,
+                begin_alone,
+                isolation.prepare,
+                problems=problems,
+                debug=inputs.debug,
+                launching=inputs.launching,
             )
         ),
     ):

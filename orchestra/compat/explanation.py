@@ -6,7 +6,7 @@ import re
 from dataclasses import dataclass
 from typing import Any, Final
 
-from orchestra.errors import Code
+from orchestra.errors import Code, Severity
 from orchestra.location import Span
 
 _ROOM: Final = re.compile(r"\borchestra\.compat\.(?=\w)")
@@ -23,6 +23,7 @@ class Explanation:
     span: Span | None = None
     suggestion: str | None = None
     notes: tuple[str, ...] = ()
+    severity: Severity = Severity.ERROR
 
 
 def in_their_words(text: str) -> str:

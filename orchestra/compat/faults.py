@@ -7,10 +7,11 @@ from traceback import format_exception
 from types import ModuleType
 from typing import TYPE_CHECKING
 
+from orchestra.compat.ament_index_python.packages import PackageNotFoundError
 from orchestra.compat.explanation import Explanation, in_their_words
 from orchestra.compat.place import Place, is_own, shown
 from orchestra.compat.seam import debugging
-from orchestra.errors import Code, Problem, Severity
+from orchestra.errors import Code, Problem
 from orchestra.location import Span
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ def report(error: BaseException, problems: Problems, chain: tuple[Span, ...], fa
     problems.report(
         Problem(
             explanation.code,
-            Severity.ERROR,
+            explanation.severity,
             explanation.message,
             at,
             chain,
@@ -94,10 +95,12 @@ def _explained(error: BaseException, call: TracebackType | None) -> Explanation:
 
 def _better(error: BaseException, call: TracebackType) -> Explanation | None:
     # Here, because only mistakes need them, and what they import.
-    from orchestra.compat import refused_calls, too_early, unknown_names  # noqa: PLC0415
+    from orchestra.compat import missing_packages, refused_calls, too_early, unknown_names  # noqa: PLC0415
 
     frame, place = call.tb_frame, Place(call.tb_frame.f_code, call.tb_lasti)
     match error:
+        case PackageNotFoundError():
+            return missing_packages.explained(error, place)
         case ImportError():
             return unknown_names.not_in_module(error, place)
         case TypeError():

@@ -36,6 +36,15 @@ def item_span(place: Place, index: int, count: int) -> Span:
     return Literal(place.file, lists[0] if lists else None, place.span).item(index, count).span
 
 
+def argument_span(place: Place, text: str) -> Span | None:
+    """Return where a text stands as an argument of the call at a place, None where it comes from elsewhere."""
+    call = call_at(place)
+    for node in () if call is None else (*call.args, *(item.value for item in call.keywords)):
+        if isinstance(node, ast.Constant) and node.value == text:
+            return _span(place.file, node)
+    return None
+
+
 def keyword_span(place: Place, keyword: ast.keyword) -> Span:
     """Return where the name of a keyword stands."""
     return _span(place.file, keyword)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import linecache
 import os
 import sys
+from dataclasses import replace
 from functools import lru_cache
 from importlib.machinery import ModuleSpec
 from types import CodeType, FunctionType, ModuleType
@@ -21,13 +22,13 @@ from orchestra.compat.seam import connection
 from orchestra.description.actions.opaque import OpaqueAction
 from orchestra.description.launch import Description
 from orchestra.description.text import Template, Words
-from orchestra.errors import Code
+from orchestra.errors import Code, Problems, Severity
 from orchestra.load.tested import description_in
 from orchestra.location import Location, displayed, point
 from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
-    from orchestra.errors import Problems
+    from orchestra.errors import Problem
     from orchestra.location import Span
 
 FUNCTION: Final = "generate_launch_description"
@@ -45,7 +46,9 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
         at = _definition(module, at)
         made = _made(module)
     except (Exception, SystemExit) as error:  # noqa: BLE001 - the boundary of user code
-        faults.report(error, problems, included_from, at)
+        found = Problems()
+        faults.report(error, found, included_from, at)
+        problems.extend(found if included_from else map(_grave, found))
         return None
     if isinstance(made, LaunchDescription):
         at = point(file)
@@ -55,6 +58,11 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
     message, *notes = _undescribed(module, made, file)
     problems.error(Code.NO_DESCRIPTION, message, Location(at, included_from), notes=notes)
     return None
+
+
+def _grave(problem: Problem) -> Problem:
+    """Return what keeps the file from being read with which all begins: an error, even if only on this host."""
+    return replace(problem, severity=Severity.ERROR)
 
 
 def load_module(path: str) -> ModuleType:

@@ -51,7 +51,8 @@ def report_missing_package(package: str, written: Template, context: Context) ->
     missing = missing_package(package, context.packages.names(), launching=context.launching)
     if missing.severity is Severity.WARNING:
         if package not in context.elsewhere:
-            context.problems.warning(Code.MISSING_PACKAGE, missing.told, context.at(written.span))
+            told = f"{missing.told}: what it would give is left open"
+            context.problems.warning(Code.MISSING_PACKAGE, told, context.at(written.span))
         context.elsewhere.add(package)
         return POISON
     return refuse(written, context, Code.MISSING_PACKAGE, missing.told, meant=missing.meant)
@@ -71,8 +72,7 @@ def missing_package(package: str, known: Iterable[str], *, launching: bool) -> M
     meant = nearest(package, known)
     if launching or (meant is not None and is_slip(package, meant)):
         return MissingPackage(Severity.ERROR, f"there is no package {package!r} here", meant)
-    told = f"there is no package {package!r} on this machine: what it would give is left open"
-    return MissingPackage(Severity.WARNING, told, None)
+    return MissingPackage(Severity.WARNING, f"there is no package {package!r} on this machine", None)
 
 
 def report_missing_executable(executable: str, package: str, written: Template, context: Context) -> Poison:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-import shlex
+import re
 from typing import TYPE_CHECKING, Any
 
 from orchestra.description.text import Call, Template, Words
@@ -27,6 +27,7 @@ from launch_ros.parameter_descriptions import ParameterFile, ParameterValue
 
 Text = TextSubstitution
 """
+_WORD = re.compile(r"(?:\$\((?:[^()]|\$\([^()]*\))*\)|\S)+")
 _CALLS = {
     "equals": "EqualsSubstitution",
     "if": "IfElseSubstitution",
@@ -144,8 +145,10 @@ def _rules(rules: list[Content]) -> str:
 
 
 def _condition(content: Content) -> dict[str, str]:
-    kinds = {"if": "IfCondition", "unless": "UnlessCondition"}
-    return {"condition": f"{kinds[key]}({text(content[key])})" for key in kinds if key in content}
+    for key, kind in (("if", "IfCondition"), ("unless", "UnlessCondition")):
+        if key in content:
+            return {"condition": f"{kind}({text(content[key])})"}
+    return {}
 
 
 def _running(content: Content) -> dict[str, str]:
@@ -172,8 +175,7 @@ def _node(content: Content) -> dict[str, str]:
     if "pkg" in content:
         found["package"] = text(content["pkg"])
     if "args" in content:
-        words = shlex.split(content["args"]) if isinstance(content["args"], str) else content["args"]
-        found["arguments"] = f"[{', '.join(map(text, words))}]"
+        found["arguments"] = f"[{', '.join(map(text, _WORD.findall(content['args'])))}]"
     return found | _settings(content)
 
 
@@ -222,7 +224,9 @@ def _arg(content: Content) -> str:
 
 
 def _append_env(content: Content) -> str:
-    found = {key: text(content[key]) for key in ("name", "value", "separator") if key in content}
+    found: dict[str, str] = {
+        key: text(content[key]) for key in ("name", "value", "separator") if key in content
+    }
     found |= {"prepend": _flag(content["prepend"])} if "prepend" in content else {}
     return _call("AppendEnvironmentVariable", found | _condition(content))
 

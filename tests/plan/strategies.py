@@ -90,7 +90,12 @@ _plain = st.one_of(
         "node",
         exec=st.just("prog"),
         namespace=st.sampled_from(["n", "/m"]),
-        args=st.one_of(st.sampled_from(["", "x", "y z", "ärm # -c [1,"]), st.lists(_texts, max_size=2)),
+        args=st.lists(
+            st.sampled_from(
+                ["x", "ärm", "#", "-c", "[1,", "$(var a none)", "y$(env A_1 unset)", "$(not $(var b 0))"]
+            ),
+            max_size=3,
+        ).map(" ".join),
         param=st.lists(st.fixed_dictionaries({"name": _names, "value": st.integers(0, 9)}), max_size=2),
         respawn=_flags,
     ),

@@ -20,8 +20,9 @@ if TYPE_CHECKING:
 class LoadingConnection:
     """Serves the launch files of one resolution. `begin` makes a state of its own for a context that users build.
 
-    `prepare` gets ready for their code; with `debug` what that raises is told with all calls, without
-    `launching` a package that is not here is a fault of this host.
+    What comes up in such a state and stops nobody is reported to `problems`. `prepare` gets ready for their code; with
+    `debug` what that raises is told with all calls, without `launching` a package that is not here is a fault of this
+    host.
     """
 
     def __init__(
@@ -30,6 +31,7 @@ class LoadingConnection:
         begin: Callable[[Problems], Resolution],
         prepare: Callable[[], None] = lambda: None,
         *,
+        problems: Problems | None = None,
         debug: bool = False,
         launching: bool = True,
     ) -> None:
@@ -38,6 +40,7 @@ class LoadingConnection:
         self._packages = packages
         self._begin = begin
         self._launching = launching
+        self._problems = Problems() if problems is None else problems
 
     @cached_property
     def front_end(self) -> FrontEnd:
@@ -50,7 +53,7 @@ class LoadingConnection:
     def engine(self, argv: Sequence[str]) -> Engine:
         """Return an engine with a state of its own, for a context that a user builds."""
         del argv  # the context itself keeps the words
-        engine: Engine = self._begin(Problems()).engine
+        engine: Engine = self._begin(self._problems).engine
         return engine
 
     def missing_package(self, package: str) -> tuple[Severity, str, str | None]:
