@@ -14,7 +14,7 @@ from orchestra.compat.launch.frontend.reading.attributes import (
 )
 from orchestra.compat.launch.frontend.reading.parameters import parameters
 from orchestra.compat.launch.frontend.reading.processes import execute_process
-from orchestra.compat.launch.frontend.reading.words import parse_cmdline
+from orchestra.compat.launch.frontend.reading.words import words
 from orchestra.compat.launch_ros.descriptions import ComposableNode
 
 if TYPE_CHECKING:
@@ -32,9 +32,9 @@ def node(entity: Entity, parser: Any, ignored: frozenset[str]) -> dict[str, Any]
     found |= texts(entity, parser, {"exec": "executable"})
     found |= texts(entity, parser, _OPTIONAL, optional=True)
     for name, keyword in _WORDS.items():
-        text = entity.get_attr(name, optional=True)
-        if text is not None:
-            found[keyword] = parse_cmdline(text, parser)
+        given = words(entity, name, parser, optional=True)
+        if given is not None:
+            found[keyword] = given
     return found | _settings(entity, parser)
 
 

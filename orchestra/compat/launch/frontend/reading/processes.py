@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.frontend.reading.attributes import texts, value_or_text, values, variables
-from orchestra.compat.launch.frontend.reading.words import parse_cmdline
+from orchestra.compat.launch.frontend.reading.words import words
 from orchestra.compat.launch.frontend.tags import class_of_tag
 
 if TYPE_CHECKING:
@@ -22,7 +22,7 @@ def execute_process(entity: Entity, parser: Any, ignored: frozenset[str]) -> dic
     names = {name: keyword for name, keyword in _TEXTS.items() if name not in ignored}
     found |= texts(entity, parser, names, optional=True)
     if "cmd" not in ignored:
-        found["cmd"] = parse_cmdline(entity.get_attr("cmd"), parser)
+        found["cmd"] = words(entity, "cmd", parser)
     if "env" not in ignored:
         environment = variables(entity, parser, "env")
         found |= {"additional_env": environment} if environment else {}

@@ -14,10 +14,21 @@ from orchestra.compat.launch.substitutions.text_substitution import TextSubstitu
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from orchestra.compat.launch.frontend.entity import Entity
     from orchestra.compat.launch.substitution import Substitution
 
 _FIRST = 0xF0000  # the first of 65,534 characters that no text has
 _MARK = re.compile("([\U000f0000-\U000ffffd])")
+
+
+def words(entity: Entity, name: str, parser: Any, *, optional: bool = False) -> list[Any] | None:
+    """Return the words of an attribute: a command, or a list with one word each; None where it is absent."""
+    try:
+        text = entity.get_attr(name, optional=optional)
+    except TypeError:
+        items = entity.get_attr(name, data_type=list[str])
+        return [parser.parse_substitution(item) for item in items]
+    return None if text is None else parse_cmdline(text, parser)
 
 
 def parse_cmdline(command: str, parser: Any) -> list[list[Substitution]]:
