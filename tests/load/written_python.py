@@ -175,7 +175,7 @@ def _node(content: Content) -> dict[str, str]:
     if "pkg" in content:
         found["package"] = text(content["pkg"])
     if "args" in content:
-        found["arguments"] = f"[{', '.join(map(text, _WORD.findall(content['args'])))}]"
+        found["arguments"] = f"[{', '.join(map(text, _WORD.findall(content['args']) or ['']))}]"
     return found | _settings(content)
 
 
