@@ -178,3 +178,32 @@ def test_output_is_only_kept_for_code_that_may_ask_for_it(
     """
     content, problems = planned(tmp_path, text)
     assert ([trigger["on"]["event"] for trigger in content["triggers"]], problems) == (events, [])
+
+
+def test_an_include_that_is_not_made_may_have_an_argument_of_nothing(tmp_path: Path) -> None:
+    text = """\
+    from launch import LaunchDescription
+    from launch.actions import DeclareLaunchArgument, IncludeLaunchDescription, LogInfo
+    from launch.conditions import IfCondition
+    from launch.substitutions import LaunchConfiguration, PythonExpression, ThisLaunchFileDir
+    MODELS = {"oak": "OAK-D"}
+    def generate_launch_description():
+        sensor = LaunchConfiguration("sensor")
+        is_oak = PythonExpression(["'", sensor, "' in ", str(list(MODELS))])
+        return LaunchDescription([
+            DeclareLaunchArgument("sensor", default_value="lidar"),
+            IncludeLaunchDescription(
+                [ThisLaunchFileDir(), "/shown.launch.xml"],
+                launch_arguments={"model": MODELS.get(sensor)}.items(),
+                condition=IfCondition(is_oak),
+            ),
+            LogInfo(msg=sensor),
+        ])
+    """
+    files = {"launch/shown.launch.xml": '<launch><arg name="model"/></launch>'}
+    content, problems = planned(tmp_path, text, files=files)
+    assert (messages(content), problems) == (["lidar"], [])
+    _, (problem,) = planned(tmp_path, text, "sensor:=oak", files=files)
+    assert "model: expected a text" in problem.message
+    assert problem.span is not None
+    assert problem.span.line == 11

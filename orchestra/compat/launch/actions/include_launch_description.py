@@ -111,13 +111,36 @@ class IncludeLaunchDescription(ModelledAction):
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
-        arguments = pairs(self.launch_arguments, span)
+        try:
+            arguments = pairs(self.launch_arguments, span)
+        except TypeError as error:
+            return self._refused(error, common)
         file = self.__launch_description_source._file(span)
         extensions = extension_fields(Include, self.__extensions, self._place, file=file)
         include = Include.at(span, file=file, arg=arguments, **extensions, **common)
         if not self.__launch_description_source._reads_file:
             return include.holding(models_of((_Sourced(self.__launch_description_source),), self._place))
         return include.read_as(self.__launch_description_source._language)
+
+    def _refused(self, error: TypeError, common: Mapping[str, Any]) -> Model:
+        """Return what raises an error once the condition holds: upstream looks at the arguments at the visit."""
+        from orchestra.description.actions.opaque import OpaqueAction  # noqa: PLC0415 - pydantic, only where files are read
+
+        if self.condition is None:
+            raise error
+        return OpaqueAction.at(self._place.span, **{**common, "target": _Refused(error)})
+
+
+class _Refused(LaunchDescriptionEntity):
+    """What has faulty arguments."""
+
+    def __init__(self, error: TypeError) -> None:
+        self._place = here()
+        self.__error = error
+
+    def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity]:  # noqa: ARG002 - what entities have
+        """Raise the error."""
+        raise self.__error
 
 
 class _Sourced(LaunchDescriptionEntity):
