@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING
 from orchestra.description.parts import VALUE_TYPES, Override
 from orchestra.description.text import Constant, span_of
 from orchestra.errors import Code
+from orchestra.location import is_python
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.model import InlineParameter, ParameterSource
 from orchestra.resolve.parameter_files import file_parameters
 from orchestra.resolve.rcl.overrides import override_value
 from orchestra.resolve.scalars import checked, coerced, described, differs, unified, upstream_value
+from orchestra.resolve.yaml_scalars import QUOTE
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,6 +26,8 @@ if TYPE_CHECKING:
     from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
     from orchestra.values import ParameterValue
+
+_AS_TEXT = "ParameterValue(..., value_type=str) keeps it a text"
 
 
 def parameters(
@@ -52,22 +56,30 @@ def everywhere(action: SetParameter, run: Resolution) -> list[InlineParameter | 
 
 
 def _typed(
-    value: Typed | tuple[Typed, ...], type_word: str | None, run: Resolution, at: Location, *, quotes: bool
+    name: str,
+    value: Typed | tuple[Typed, ...],
+    type_word: str | None,
+    run: Resolution,
+    at: Location,
+    *,
+    quotes: bool,
 ) -> ParameterValue | Poison:
     """Return a value with the type that upstream gives it; one that can have none is reported.
 
     Without `quotes`, a text in quotes is typed as any other.
     """
     if isinstance(value, tuple):
-        return _list(value, type_word, run, at)
+        return _list(name, value, type_word, run, at)
     if isinstance(value, Constant):
-        return _constant(value, type_word, run)
+        return _constant(name, value, type_word, run)
     evaluated = run.evaluate(value)
-    return _text(value, evaluated, type_word, run, quotes=quotes) if isinstance(evaluated, Value) else POISON
+    if not isinstance(evaluated, Value):
+        return POISON
+    return _text(name, value, evaluated, type_word, run, quotes=quotes)
 
 
 def _text(
-    value: Template, evaluated: Value, type_word: str | None, run: Resolution, *, quotes: bool
+    name: str, value: Template, evaluated: Value, type_word: str | None, run: Resolution, *, quotes: bool
 ) -> ParameterValue | Poison:
     constant = value.constant
     try:
@@ -77,8 +89,7 @@ def _text(
             return evaluated.text
         result = upstream_value(evaluated.text)
     except ValueError as error:
-        run.problems.error(Code.PARAMETER_TYPE, str(error), evaluated.location)
-        return POISON
+        return _refuse(name, error, evaluated.location, run)
     if constant is not None:
         _warn_of_surprise(constant, evaluated.location, run)
     return result
@@ -100,7 +111,7 @@ def _inline(
     if isinstance(type_word, Poison):
         return [None]
     at = run.at(span_of(param.value) or param.span)
-    value = _typed(param.value, type_word, run, at, quotes=quotes)
+    value = _typed(above + name, param.value, type_word, run, at, quotes=quotes)
     if isinstance(value, Poison):
         return [None]
     if everywhere and not quotes and type_word is None and isinstance(param.value, Constant):
@@ -108,12 +119,11 @@ def _inline(
     return [InlineParameter(above + name, value, at, everywhere)]
 
 
-def _constant(value: Constant, type_word: str | None, run: Resolution) -> ParameterValue | Poison:
+def _constant(name: str, value: Constant, type_word: str | None, run: Resolution) -> ParameterValue | Poison:
     try:
         return checked(value.value, type_word)
     except ValueError as error:
-        run.problems.error(Code.PARAMETER_TYPE, str(error), run.at(value.span))
-        return POISON
+        return _refuse(name, error, run.at(value.span), run)
 
 
 def _retyped(given: ParameterValue, location: Location, run: Resolution) -> ParameterValue:
@@ -135,20 +145,19 @@ def _retyped(given: ParameterValue, location: Location, run: Resolution) -> Para
 
 
 def _list(
-    items: tuple[Typed, ...], type_word: str | None, run: Resolution, at: Location
+    name: str, items: tuple[Typed, ...], type_word: str | None, run: Resolution, at: Location
 ) -> ParameterValue | Poison:
     element = type_word.removeprefix("list_of_") if type_word is not None else None
     if element == type_word and element not in (None, "yaml"):
-        run.problems.error(Code.PARAMETER_TYPE, f"a list is no {element}", at)
-        return POISON
+        return _refuse(name, f"a list is no {element}", at, run)
     texts: list[str] = []
     values: list[ParameterValue] = []
     for item in items:
         evaluated = item.value if isinstance(item, Constant) else run.evaluate(item)
         if isinstance(item, Constant):
-            value = _constant(item, element, run)
+            value = _constant(name, item, element, run)
         elif isinstance(evaluated, Value):
-            value = _text(item, evaluated, element, run, quotes=True)
+            value = _text(name, item, evaluated, element, run, quotes=True)
             texts.append(evaluated.text)
         else:
             value = POISON
@@ -159,8 +168,19 @@ def _list(
     try:
         return unified(values, texts)
     except ValueError as error:
-        run.problems.error(Code.PARAMETER_TYPE, str(error), at)
-        return POISON
+        return _refuse(name, error, at, run)
+
+
+def _refuse(name: str, reason: object, location: Location, run: Resolution) -> Poison:
+    """Report a value that no parameter can have. In Python its place is often that of the whole node: it is named."""
+    told = str(reason)
+    if is_python(location):
+        told = told.removesuffix(QUOTE).removesuffix(": ")
+        notes = (_AS_TEXT,) if len(told) < len(str(reason)) else ()
+        run.problems.error(Code.PARAMETER_TYPE, f"parameter '{name}': {told}", location, notes=notes)
+    else:
+        run.problems.error(Code.PARAMETER_TYPE, told, location)
+    return POISON
 
 
 def _warn_of_surprise(text: str, location: Location, run: Resolution) -> None:

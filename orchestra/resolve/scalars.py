@@ -11,9 +11,10 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.description.source import shortened
 from orchestra.nearest import nearest
 from orchestra.resolve.rcl import scalars as rcl
-from orchestra.resolve.yaml_scalars import Plain, by_core, by_pyyaml, read_scalars
+from orchestra.resolve.yaml_scalars import QUOTE, Plain, by_core, by_pyyaml, read_scalars
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -147,7 +148,7 @@ def _list_of(text: str, type_word: str) -> ParameterValue:
     kind = _KINDS[type_word.removeprefix("list_of_")]
     read = read_scalars(text, by_pyyaml)
     if not isinstance(read, list):
-        raise ValueError(f"'{text}' is no list")  # noqa: TRY004
+        raise ValueError(f"'{shortened(text)}' is no list")  # noqa: TRY004
     items = [_retyped(item) if kind is float else _sayable(_text(item)) for item in read]
     if kind is float:
         items = [float(item) if type(item) is int else item for item in items]
@@ -170,7 +171,7 @@ def _converted(text: str, kind: type) -> Scalar:
             return int(text) if kind is int else float(text)
         except ValueError:
             pass
-    raise ValueError(f"'{text}' is no {_WORDS[kind]}")
+    raise ValueError(f"'{shortened(text)}' is no {_WORDS[kind]}")
 
 
 def _uniform(values: Sequence[Any]) -> ParameterValue:
@@ -188,10 +189,10 @@ def _uniform(values: Sequence[Any]) -> ParameterValue:
 def _sayable(value: Any) -> Scalar:  # noqa: ANN401 - whatever PyYAML made
     """Return a value that rcl can hold. Raises `ValueError` for any other."""
     if value is None:
-        raise ValueError("null cannot be a parameter: quote it to mean a text")
+        raise ValueError(f"null cannot be a parameter: {QUOTE}")
     if type(value) not in _WORDS:
         word = {bytes: "binary data"}.get(type(value), "a date")
-        raise ValueError(f"{word} cannot be a parameter: quote it to mean a text")
+        raise ValueError(f"{word} cannot be a parameter: {QUOTE}")
     if isinstance(value, int) and value not in _INTEGERS:
         raise ValueError(f"{value} does not fit into 64 bits")
     if isinstance(value, str) and ("\0" in value or re.search("[\ud800-\udfff]", value)):

@@ -10,10 +10,14 @@ import yaml
 from yaml.constructor import SafeConstructor
 from yaml.resolver import Resolver
 
+from orchestra.description.source import shortened
+
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 Construct: TypeAlias = Callable[[yaml.ScalarEvent], Any]
+
+QUOTE: Final = "quote it to mean a text"
 
 
 class Plain(str):
@@ -31,18 +35,18 @@ def read_scalars(text: str, construct: Construct) -> Any:  # noqa: ANN401 - a sc
         events = list(yaml.parse(text, Loader=yaml.SafeLoader))[2:-1]
     except yaml.YAMLError as error:
         reason = getattr(error, "problem", None) or str(error).partition("\n")[0]
-        raise ValueError(f"'{text}' is not YAML ({reason}): quote it to mean a text") from None
+        raise ValueError(f"'{shortened(text)}' is not YAML ({reason}): {QUOTE}") from None
     if any(isinstance(event, yaml.DocumentStartEvent) for event in events):
-        raise ValueError(f"'{text}' holds more than one YAML document")
+        raise ValueError(f"'{shortened(text)}' holds more than one YAML document")
     if not events:
         return None
     first, *rest = events
     if isinstance(first, yaml.AliasEvent):
-        raise ValueError(f"'{text}' is an alias without an anchor: quote it to mean a text")  # noqa: TRY004
+        raise ValueError(f"'{shortened(text)}' is an alias without an anchor: {QUOTE}")  # noqa: TRY004
     if isinstance(first, yaml.ScalarEvent):
         return construct(first)
     if not isinstance(first, yaml.SequenceStartEvent):
-        raise ValueError(f"'{text}' is a mapping, which no parameter can be: quote it to mean a text")  # noqa: TRY004
+        raise ValueError(f"'{shortened(text)}' is a mapping, which no parameter can be: {QUOTE}")  # noqa: TRY004
     return _items(rest[:-2], construct)
 
 
@@ -71,7 +75,7 @@ def by_pyyaml(event: yaml.ScalarEvent) -> Any:  # noqa: ANN401 - what PyYAML mak
     try:
         value = _CONSTRUCTOR.construct_object(yaml.ScalarNode(tag, event.value))
     except yaml.YAMLError:
-        raise ValueError(f"'{event.value}' means nothing as a parameter: quote it to mean a text") from None
+        raise ValueError(f"'{shortened(event.value)}' means nothing as a parameter: {QUOTE}") from None
     return Plain(value) if isinstance(value, str) and event.implicit[0] else value
 
 

@@ -255,7 +255,7 @@ _FAULTS: dict[str, tuple[str, str]] = {
     ),
     "a value that cannot be one": (
         "Node(package='demo', executable='tool', parameters=[{'a': None}])",
-        "a parameter cannot have the value None",
+        "None is no value of a parameter",
     ),
     "a value that is not of its type": (
         "Node(package='demo', executable='tool', parameters=[{'a': ParameterValue(LC('v', default='x'), value_type=int)}])",

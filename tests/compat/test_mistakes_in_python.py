@@ -257,7 +257,18 @@ _VALUES = {
         "[«Node(**TALKER, parameters={'a': 1})»]", "'parameters' of a Node is a list, not dict: {'a': 1}"
     ),
     "a parameter without a value": Mistake(
-        "[«Node(**TALKER, parameters=[{'a': None}])»]", "a parameter cannot have the value None"
+        "[«Node(**TALKER, parameters=[{'a': None}])»]", "parameter 'a': None is no value of a parameter"
+    ),
+    "a parameter that no node can have": Mistake(
+        "[«Node(**TALKER, parameters=[{'a': {'b': [1, 'c']}}])»]",
+        "parameter 'a.b': a list must hold values of one type, not 1 and 'c'",
+        Code.PARAMETER_TYPE,
+    ),
+    "a text that looks like something else": Mistake(
+        "[«Node(**TALKER, parameters=[{'robot_description': Command('echo \\'<robot name=\"a: b\"/>\\'')}])»]",
+        "parameter 'robot_description': '<robot name=\"a: b\"/>' is a mapping",
+        Code.PARAMETER_TYPE,
+        note="ParameterValue(..., value_type=str) keeps it a text",
     ),
     "an environment that is a list": Mistake(
         "[«Node(**TALKER, additional_env=[('a', 'b')])»]",

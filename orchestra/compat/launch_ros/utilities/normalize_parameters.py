@@ -11,6 +11,7 @@ import os
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
+from orchestra.compat.described import described
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 from orchestra.compat.launch_ros.utilities.exact import Exact, builtin
@@ -36,7 +37,7 @@ def normalize_parameter_dict(parameters: Any, *, _prefix: Sequence[Substitution]
         if isinstance(value, Mapping):
             found.update(normalize_parameter_dict(value, _prefix=(*name, *normalized("."))))
         else:
-            found[name] = _value(value)
+            found[name] = _named_value(name, value)
     return found
 
 
@@ -53,6 +54,13 @@ def _one(item: Any) -> Any:
     return ParameterFile(item)
 
 
+def _named_value(name: Sequence[Substitution], value: Any) -> Any:
+    try:
+        return _value(value)
+    except TypeError as error:
+        raise TypeError(f"parameter {described(name)}: {error}") from None
+
+
 def _value(value: Any) -> Any:
     if isinstance(value, str):
         return (Exact(builtin(value)),)
@@ -64,7 +72,7 @@ def _value(value: Any) -> Any:
         return value
     if isinstance(value, Sequence):
         return _list(value)
-    raise TypeError(f"a parameter cannot have the value {value!r}")
+    raise TypeError(f"{value!r} is no value of a parameter")
 
 
 def _list(items: Sequence[Any]) -> tuple[Any, ...]:
