@@ -107,6 +107,15 @@ class UnregisterAction:
 
 
 @dataclass(frozen=True, slots=True)
+class CancelAction:
+    """From now on a trigger waits no more, and what its delay puts off is dropped."""
+
+    trigger: str
+    location: Location
+    action: Literal["cancel"] = "cancel"
+
+
+@dataclass(frozen=True, slots=True)
 class ShutdownAction:
     """End the run."""
 
@@ -133,6 +142,7 @@ TriggeredAction: TypeAlias = (
     | ChangeStateAction
     | RegisterAction
     | UnregisterAction
+    | CancelAction
     | ShutdownAction
     | DeferredAction
 )

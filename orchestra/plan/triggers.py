@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.plan.reactions import (
+    CancelAction,
     ChangeStateAction,
     DeferredAction,
     LoadAction,
@@ -98,6 +99,8 @@ def _action(  # noqa: C901, PLR0911 - one line per action
             return RegisterAction(f"t{index + 1}", at)
         case reactions.ResolvedUnregister(index):
             return UnregisterAction(f"t{index + 1}", at)
+        case reactions.ResolvedCancel(index):
+            return CancelAction(f"t{index + 1}", at)
         case reactions.ResolvedShutdown(reason):
             return ShutdownAction(reason, at)
         case reactions.ResolvedDeferred(ref):

@@ -58,7 +58,7 @@ class Occasion:
 
     `delay` is in seconds. `handler` is the object that stands for the handler, to be found when it is unregistered.
     `armed` is false where another event has to come first. `now`: it is happening, so that code can be called.
-    `timer` is the object of a Python launch file that goes off.
+    `timers` are the objects of a Python launch file that go off, the innermost last.
     """
 
     on: OpenEvent
@@ -69,5 +69,5 @@ class Occasion:
     once: bool = False
     cancel_on_shutdown: bool = True
     now: bool = False
-    timer: Any = None
+    timers: tuple[Any, ...] = ()
     do: list[Action] = field(default_factory=list)

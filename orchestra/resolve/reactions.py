@@ -89,6 +89,14 @@ class ResolvedUnregister:
 
 
 @dataclass(frozen=True, slots=True)
+class ResolvedCancel:
+    """Disarm the trigger at `index` of the resolved triggers, and drop what its delay puts off."""
+
+    index: int
+    location: Location
+
+
+@dataclass(frozen=True, slots=True)
 class ResolvedShutdown:
     """End the run."""
 
@@ -113,6 +121,7 @@ TriggeredAction: TypeAlias = (
     | ResolvedChangeState
     | ResolvedRegister
     | ResolvedUnregister
+    | ResolvedCancel
     | ResolvedShutdown
     | ResolvedDeferred
 )

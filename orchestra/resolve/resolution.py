@@ -46,7 +46,7 @@ class Found:
     the files that include themselves without end, which are not gone into again. `simulated_time` is where timers on
     ROS time were told to go by simulated time. `carried_out` are the objects of Python launch files that were visited,
     `kept` is the code of theirs that is called during the run. `triggers` have been settled so far, `positions` are
-    those of each event handler among them.
+    those of each event handler among them, `timed` those of timers that may still be cancelled.
     """
 
     processes: list[ResolvedProcess] = field(default_factory=list)
@@ -61,6 +61,7 @@ class Found:
     kept: list[Any] = field(default_factory=list)
     triggers: int = 0
     positions: dict[int, list[int]] = field(default_factory=dict)
+    timed: list[tuple[int, Occasion]] = field(default_factory=list)
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.resolve.occasions import Occasion, OpenAction, Registration
 from orchestra.resolve.reactions import (
+    ResolvedCancel,
     ResolvedEvent,
     ResolvedRegister,
     ResolvedTrigger,
@@ -37,13 +38,15 @@ def settled(run: Resolution) -> tuple[ResolvedTrigger, ...]:
     full = (
         occasion
         for occasion in run.found.occasions
-        if occasion.do and not (idle and _serves_code(occasion.handler))
+        if occasion.do and not (idle and _serves_code(occasion.handler)) and not _is_cancelled(occasion)
     )
     due = [found for occasion in full for found in _due(occasion, run)]
     due.sort(key=lambda found: found.behind)
     for position, found in enumerate(due, run.found.triggers):
         if found.occasion.handler is not None:
             run.found.positions.setdefault(id(found.occasion.handler), []).append(position)
+        if found.occasion.timers:
+            run.found.timed.append((position, found.occasion))
     run.found.triggers += len(due)
     triggers = tuple(_trigger(found, run) for found in due)
     run.found.occasions = []
@@ -61,6 +64,17 @@ def _trigger(due: _Due, run: Resolution) -> ResolvedTrigger:
         occasion.once,
         occasion.cancel_on_shutdown,
     )
+
+
+def cancelled(run: Resolution) -> tuple[ResolvedCancel, ...]:
+    """Return that the triggers of timers are cancelled which code of the description has cancelled since."""
+    gone = [entry for entry in run.found.timed if _is_cancelled(entry[1])]
+    run.found.timed = [entry for entry in run.found.timed if not _is_cancelled(entry[1])]
+    return tuple(ResolvedCancel(position, occasion.location) for position, occasion in gone)
+
+
+def _is_cancelled(occasion: Occasion) -> bool:
+    return any(getattr(timer, "_is_cancelled", False) for timer in occasion.timers)
 
 
 def settled_actions(occasion: Occasion, run: Resolution) -> tuple[TriggeredAction, ...]:
@@ -101,7 +115,7 @@ def _completions(occasion: Occasion, run: Resolution) -> Iterable[_Due]:
     if found or id(target) not in run.found.carried_out:
         return
     for timer in run.found.occasions:
-        if timer.timer is target:
+        if timer.timers and timer.timers[-1] is target:
             delay = (timer.delay or 0.0) + (occasion.delay or 0.0)
             yield from (_Due(occasion, due.event, delay, behind=True) for due in _due(timer, run))
             return

@@ -6,6 +6,7 @@ import signal
 from typing import TYPE_CHECKING
 
 from orchestra.plan.reactions import (
+    CancelAction,
     ChangeStateAction,
     LoadAction,
     RegisterAction,
@@ -60,6 +61,8 @@ class Actions:
                 self._triggers.register(trigger)
             case UnregisterAction(trigger):
                 self._triggers.unregister(trigger)
+            case CancelAction(trigger):
+                self._triggers.cancel(trigger)
             case ShutdownAction(reason):
                 self._end(reason, f"shut down: {reason}")
 

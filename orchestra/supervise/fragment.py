@@ -13,6 +13,7 @@ from orchestra.location import Location
 from orchestra.plan import codec
 from orchestra.plan.model import Component, Process
 from orchestra.plan.reactions import (
+    CancelAction,
     ChangeStateAction,
     LoadAction,
     RegisterAction,
@@ -137,7 +138,7 @@ def _spoken_of(actions: Iterable[TriggeredAction]) -> Iterator[tuple[str, str]]:
                 yield from (("process", process) for process in processes)
             case ChangeStateAction(processes):
                 yield from (("node", process) for process in processes)
-            case RegisterAction(trigger) | UnregisterAction(trigger):
+            case RegisterAction(trigger) | UnregisterAction(trigger) | CancelAction(trigger):
                 yield "trigger", trigger
 
 

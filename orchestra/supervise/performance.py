@@ -10,6 +10,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Protocol
 
 from orchestra.plan.reactions import (
+    CancelAction,
     DeferredAction,
     LogAction,
     RegisterAction,
@@ -94,7 +95,7 @@ class Performance:
     def _perform(self, action: TriggeredAction) -> None:
         if isinstance(action, LogAction):
             self._tell(action)
-        elif not self._stage.ending or isinstance(action, RegisterAction | UnregisterAction):
+        elif not self._stage.ending or isinstance(action, RegisterAction | UnregisterAction | CancelAction):
             self._stage.carry_out(action)
         elif isinstance(action, StartAction):
             self._around.journal.say(f"{action.process} is not started: the run is ending")

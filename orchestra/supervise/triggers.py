@@ -69,6 +69,13 @@ class Triggers:
         """Let a trigger wait no more."""
         self._waiting.pop(name, None)
 
+    def cancel(self, name: str) -> None:
+        """Let a trigger wait no more, and drop what its delay puts off."""
+        self.unregister(name)
+        for timer, trigger in self._delayed:
+            if trigger.id == name and trigger.delay:
+                timer.cancel()
+
     def awaited(self, event: EventName) -> list[Trigger]:
         """Return the triggers that wait for events of a kind."""
         return [trigger for trigger in self._waiting.values() if trigger.on.event == event]

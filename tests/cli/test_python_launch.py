@@ -157,3 +157,38 @@ def test_with_debug_the_calls_inside_libraries_are_told_too(orchestra: Command, 
     assert "broken.launch.py:2:1: error: JSONDecodeError" in plain.stderr
     assert "decoder.py" not in plain.stderr
     assert "decoder.py" in debug.stderr
+
+
+_CANCELLED = """
+from launch import LaunchDescription
+from launch.actions import *
+from launch.event_handlers import *
+
+def generate_launch_description():
+    late = TimerAction(period=30.0, actions=[LogInfo(msg='too late'), Shutdown(reason='too late')])
+    outer = TimerAction(period=29.0, actions=[TimerAction(period=1.0, actions=[LogInfo(msg='inner')])])
+    early = TimerAction(period=0.2, actions=[LogInfo(msg='early')])
+    unwanted = TimerAction(period=0.1, actions=[LogInfo(msg='unwanted')])
+    again = TimerAction(period=0.1, actions=[LogInfo(msg='again')])
+    def visited(context):
+        unwanted.cancel()
+    def ended(event, context):
+        own = TimerAction(period=0.1, actions=[LogInfo(msg='own')])
+        for timer in (late, outer, early, again):
+            timer.cancel()
+            timer.cancel()
+        return [LogInfo(msg='cancelled'), own, again]
+    program = ExecuteProcess(cmd=['sleep', '1'], on_exit=ended)
+    return LaunchDescription([late, outer, early, unwanted, OpaqueFunction(function=visited), program])
+"""
+
+
+def test_a_timer_that_code_cancels_goes_off_no_more(orchestra: Command, folder: Path) -> None:
+    (folder / "cancelled.launch.py").write_text(_CANCELLED)
+    ran = orchestra("launch", "cancelled.launch.py")
+    assert ran.returncode == 0, ran.stderr
+    told = [line.removeprefix("[orchestra] ") for line in ran.stderr.splitlines()]
+    assert [line for line in told if line in _TIMED] == ["early", "cancelled", "own"], ran.stderr
+
+
+_TIMED = ("early", "cancelled", "own", "again", "unwanted", "inner", "too late")

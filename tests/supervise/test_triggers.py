@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import signal
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
 from orchestra.plan.reactions import (
+    CancelAction,
     LogAction,
     RegisterAction,
     SignalAction,
@@ -204,6 +206,18 @@ def test_delays_are_dropped_at_the_end_unless_they_say_otherwise(tmp_path: Path)
     run = finished(tmp_path, plan(process("a", "linger"), triggers=triggers))
     assert told(run.stderr, "dropped", "kept", "too late") == ["kept"]
     assert "dropped: it would come later than 3 s after the end" in run.stderr
+
+
+def test_what_is_cancelled_waits_no_more_and_its_delay_is_dropped(tmp_path: Path) -> None:
+    began = TriggerEvent("run_started")
+    triggers = (
+        replace(when(began, log("delayed"), delay=60.0, cancel_on_shutdown=False), id="delayed"),
+        on("process_exited", log("never"), identity="never"),
+        on("process_started", CancelAction("delayed", HERE), CancelAction("never", HERE)),
+        on("process_exited", CancelAction("delayed", HERE)),
+    )
+    run = finished(tmp_path, plan(process("a", "exit=0"), triggers=triggers))
+    assert told(run.stderr, "delayed", "never") == []
 
 
 @pytest.mark.parametrize(("debug", "seen"), [(True, True), (False, False)])

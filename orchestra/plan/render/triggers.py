@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.plan.reactions import (
+    CancelAction,
     ChangeStateAction,
     DeferredAction,
     LoadAction,
@@ -75,6 +76,8 @@ def _action(action: TriggeredAction) -> str:  # noqa: C901, PLR0911 - one line p
             return f"register {trigger}"
         case UnregisterAction(trigger):
             return f"unregister {trigger}"
+        case CancelAction(trigger):
+            return f"cancel {trigger}"
         case ShutdownAction(reason):
             return f"shut down, {reason}"
         case DeferredAction():

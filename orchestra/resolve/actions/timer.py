@@ -27,7 +27,7 @@ def visit(action: Timer, run: Resolution) -> None:
             delay=(outer.delay or 0.0) + seconds,
             cancel_on_shutdown=cancelled is not False,
             now=False,
-            timer=action.origin,
+            timers=(*outer.timers, action.origin),
             do=[],
         ),
         action.children,

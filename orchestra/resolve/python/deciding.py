@@ -12,7 +12,7 @@ from orchestra.resolve.python.emitting import emit
 from orchestra.resolve.python.occurrences import observed
 from orchestra.resolve.python.visiting import visit_entities, visit_entity
 from orchestra.resolve.running import name_in_launch
-from orchestra.resolve.settling import settled_actions
+from orchestra.resolve.settling import cancelled, settled_actions
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -52,7 +52,7 @@ def decide(
     run.handle_events()
     context._pop_locals()
     run.occasion = None
-    return settled_actions(occasion, run)
+    return (*settled_actions(occasion, run), *cancelled(run))
 
 
 def _carry_out(kept: Kept, event: Any, run: Resolution) -> None:
