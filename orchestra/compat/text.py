@@ -32,6 +32,8 @@ def normalized(subs: Sub) -> list[Substitution]:
 def template(subs: Sub, span: Span, *, quoted: bool = False) -> Template:
     """Return the template of some substitutions; those without a place of their own are at `span`."""
     parts = tuple(part for item in normalized(subs) for part in item._parts(span))
+    if len(parts) == 1:
+        span = parts[0].span
     raw = "".join(item._raw() for item in normalized(subs))
     return Template(parts, raw, span, quoted=quoted)
 

@@ -265,7 +265,7 @@ _VALUES = {
         Code.PARAMETER_TYPE,
     ),
     "a text that looks like something else": Mistake(
-        "[«Node(**TALKER, parameters=[{'robot_description': Command('echo \\'<robot name=\"a: b\"/>\\'')}])»]",
+        "[Node(**TALKER, parameters=[{'robot_description': «Command('echo \\'<robot name=\"a: b\"/>\\'')»}])]",
         "parameter 'robot_description': '<robot name=\"a: b\"/>' is a mapping",
         Code.PARAMETER_TYPE,
         note="ParameterValue(..., value_type=str) keeps it a text",
@@ -328,7 +328,7 @@ _THINGS = {
         "inner.launch.py",
     ),
     "a folder instead of a parameter file": Mistake(
-        "[«Node(**TALKER, parameters=[FindPackageShare('demo')])»]", ": it is a folder", Code.MISSING_FILE
+        "[Node(**TALKER, parameters=[«FindPackageShare('demo')»])]", ": it is a folder", Code.MISSING_FILE
     ),
     "an argument of an include": Mistake(
         "[IncludeLaunchDescription('inner.launch.py', launch_arguments={'«needde»': '1'}.items())]",
