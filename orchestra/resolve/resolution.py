@@ -46,7 +46,8 @@ class Found:
     the files that include themselves without end, which are not gone into again. `simulated_time` is where timers on
     ROS time were told to go by simulated time. `carried_out` are the objects of Python launch files that were visited,
     `kept` is the code of theirs that is called during the run. `triggers` have been settled so far, `positions` are
-    those of each event handler among them, `timed` those of timers that may still be cancelled.
+    those of each event handler among them, `timed` those of timers that may still be cancelled. `unmet` wait for
+    processes that are not there.
     """
 
     processes: list[ResolvedProcess] = field(default_factory=list)
@@ -62,6 +63,7 @@ class Found:
     triggers: int = 0
     positions: dict[int, list[int]] = field(default_factory=dict)
     timed: list[tuple[int, Occasion]] = field(default_factory=list)
+    unmet: list[Occasion] = field(default_factory=list)
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,11 +228,11 @@ class Resolution:
 
     def collect(self, occasion: Occasion, children: Sequence[Action]) -> None:
         """Visit actions that are carried out on an occasion: they see the scope as it is, and set nothing outside."""
+        self.found.occasions.append(occasion)  # before those inside it: as they are written
         outer, self.occasion = self.occasion, occasion
         with self.scope.nested():
             self.visit(children, self)
         self.occasion = outer
-        self.found.occasions.append(occasion)
 
     @contextmanager
     def reporting_to(self, problems: Problems) -> Iterator[Problems]:

@@ -154,8 +154,8 @@ def test_a_timer_sees_the_scope_it_was_written_in(tmp_path: Path) -> None:
     process = found.process("/a/n")
     assert process.environment == {"X": "y"}
     assert [(trigger.delay, [action.action for action in trigger.do]) for trigger in found.plan.triggers] == [
-        (3.5, ["shutdown"]),
         (2.0, ["start"]),
+        (3.5, ["shutdown"]),
     ]
 
 
