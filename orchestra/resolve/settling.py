@@ -9,7 +9,9 @@ from orchestra.resolve.occasions import Occasion, OpenAction, Registration
 from orchestra.resolve.reactions import (
     ResolvedCancel,
     ResolvedEvent,
+    ResolvedLoad,
     ResolvedRegister,
+    ResolvedStart,
     ResolvedTrigger,
     ResolvedUnregister,
 )
@@ -24,12 +26,16 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class _Due:
-    """An occasion that comes with an event. `behind`: after everything else that comes with the same event."""
+    """An occasion that comes with an event. `behind`: after everything else that comes with the same event.
+
+    `unmet`: the process that it is about is not there, so that nothing sets it off.
+    """
 
     occasion: Occasion
     event: ResolvedEvent
     delay: float | None
     behind: bool = False
+    unmet: bool = False
 
 
 def settled(run: Resolution) -> tuple[ResolvedTrigger, ...]:
@@ -40,9 +46,11 @@ def settled(run: Resolution) -> tuple[ResolvedTrigger, ...]:
         for occasion in run.found.occasions
         if occasion.do and not (idle and _serves_code(occasion.handler)) and not _is_cancelled(occasion)
     )
-    due = [found for occasion in full for found in _due(occasion, run)]
+    due = [*_met(run), *(found for occasion in full for found in _due_or_unmet(occasion, run))]
     due.sort(key=lambda found: found.behind)
     for position, found in enumerate(due, run.found.triggers):
+        if found.unmet:
+            continue
         if found.occasion.handler is not None:
             run.found.positions.setdefault(id(found.occasion.handler), []).append(position)
         if found.occasion.timers:
@@ -60,7 +68,7 @@ def _trigger(due: _Due, run: Resolution) -> ResolvedTrigger:
         settled_actions(occasion, run),
         due.delay,
         occasion.location,
-        occasion.armed,
+        occasion.armed and not due.unmet,
         occasion.once,
         occasion.cancel_on_shutdown,
     )
@@ -94,6 +102,34 @@ def processes_of(target: Any, run: Resolution) -> tuple[int, ...]:  # noqa: ANN4
 def _serves_code(handler: Any) -> bool:  # noqa: ANN401 - an event handler or None
     """Return whether all that a handler does is for other code that may be called during the run."""
     return bool(getattr(handler, "_serves_code", False))
+
+
+def _met(run: Resolution) -> list[_Due]:
+    """Return what waited for a process that has come in the meantime: code has started it."""
+    waiting, run.found.unmet = run.found.unmet, []
+    due = []
+    for occasion in waiting:
+        found = list(_due(occasion, run))
+        due += found
+        if not found and not _is_cancelled(occasion):
+            run.found.unmet.append(occasion)
+    return due
+
+
+def _due_or_unmet(occasion: Occasion, run: Resolution) -> list[_Due]:
+    """Return when an occasion comes; one that never comes still keeps what it starts from starting with the run.
+
+    A condition may leave a process out that a handler waits for, and code may start one later.
+    """
+    found = list(_due(occasion, run))
+    if found:
+        return found
+    run.found.unmet.append(occasion)
+    if not any(isinstance(action, ResolvedStart | ResolvedLoad) for action in occasion.do):
+        return []
+    on = occasion.on
+    event = ResolvedEvent(on.event, None, on.stream, on.transition, on.start_state, on.goal_state)
+    return [_Due(occasion, event, occasion.delay, unmet=True)]
 
 
 def _due(occasion: Occasion, run: Resolution) -> Iterable[_Due]:
