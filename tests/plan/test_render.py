@@ -177,7 +177,7 @@ _REACTIONS: tuple[tuple[TriggerEvent, TriggeredAction], ...] = (
     (TriggerEvent("process_started"), LoadAction("/c", _at(7))),
     (TriggerEvent("process_completed", "/a"), StopAction(("/a", "/b"), _at(7))),
     (TriggerEvent("process_output", "/a", "stderr"), SignalAction(("/a",), "SIGUSR1", _at(7))),
-    (TriggerEvent("process_output", "/a"), RegisterAction("t1", _at(7))),
+    (TriggerEvent("process_output", "/a"), RegisterAction("t5", _at(7))),
     (
         TriggerEvent("state_changed", "/a", transition="configure", goal_state="inactive"),
         ChangeStateAction(("/a",), (1, 3), _at(7)),
@@ -222,7 +222,7 @@ def test_arguments_components_triggers_and_what_was_left_out() -> None:
             Trigger("t2", ended, (ShutdownAction("/a ended", _at(6)),), None, False, _at(6)),
             Trigger("t3", ended, (DeferredAction(0, _at(6)),), None, True, _at(6)),
             *(
-                Trigger(f"t{number}", event, (action,), None, False, _at(7), armed=False, once=True)
+                Trigger(f"t{number}", event, (action,), None, False, _at(7), armed=number > 5, once=True)
                 for number, (event, action) in enumerate(_REACTIONS, 4)
             ),
         ),
@@ -245,14 +245,14 @@ def test_arguments_components_triggers_and_what_was_left_out() -> None:
         '  2.5 s after the start of the run: log "it\'s up"; start /b  (two.yaml:5:5)\n'
         "  the end of /a: shut down, /a ended  (two.yaml:6:5)\n"
         "  the end of /a: decided when it happens  (two.yaml:6:5)\n"
-        "  the start of any process, once t4 is registered: the first time, load /c  (two.yaml:7:5)\n"
+        "  the start of a process that is not started: the first time, load /c  (two.yaml:7:5)\n"
         "  the last end of /a, once t5 is registered: the first time, stop /a /b  (two.yaml:7:5)\n"
-        "  output of /a on stderr, once t6 is registered: the first time, send SIGUSR1 to /a  (two.yaml:7:5)\n"
-        "  output of /a, once t7 is registered: the first time, register t1  (two.yaml:7:5)\n"
-        "  a change of state of /a by configure to inactive, once t8 is registered: the first time,"
+        "  output of /a on stderr: the first time, send SIGUSR1 to /a  (two.yaml:7:5)\n"
+        "  output of /a: the first time, register t5  (two.yaml:7:5)\n"
+        "  a change of state of /a by configure to inactive: the first time,"
         " configure, activate /a  (two.yaml:7:5)\n"
-        "  the shutdown of the run, once t9 is registered: the first time, unregister t1  (two.yaml:7:5)\n"
-        "  the start of the run, once t10 is registered: the first time, decided when it happens"
+        "  the shutdown of the run: the first time, unregister t1  (two.yaml:7:5)\n"
+        "  the start of the run: the first time, decided when it happens"
         "  (two.yaml:7:5)\n"
         "\n"
         "skipped\n"

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.plan.model import Process
 from orchestra.plan.render.details import process_details, scalar
-from orchestra.plan.render.triggers import trigger_line
+from orchestra.plan.render.triggers import trigger_lines
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -29,7 +29,7 @@ def render(plan: Plan) -> str:
         _section("arguments", _arguments(tuple(item for item in plan.arguments if not item.given))),
         _section("processes", _processes(plan.processes)),
         _section("components", map(_component, plan.components)),
-        _section("triggers", (trigger_line(trigger) for trigger in plan.triggers)),
+        _section("triggers", trigger_lines(plan.triggers)),
         _section("skipped", map(_skipped, plan.skipped)),
     ]
     return "\n".join("".join(f"{line}\n" for line in section) for section in sections if section)

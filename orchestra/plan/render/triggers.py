@@ -19,22 +19,34 @@ from orchestra.plan.reactions import (
 )
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
     from orchestra.plan.reactions import Trigger, TriggeredAction, TriggerEvent
 
 _TRANSITIONS = {1: "configure", 2: "clean up", 3: "activate", 4: "deactivate", 5: "shut down", 6: "shut down"}
 
 
-def trigger_line(trigger: Trigger) -> str:
-    """Return the line."""
+def trigger_lines(triggers: Sequence[Trigger]) -> Iterator[str]:
+    """Yield the lines of all triggers of a plan."""
+    actions = (action for trigger in triggers for action in trigger.do)
+    registered = {action.trigger for action in actions if isinstance(action, RegisterAction)}
+    for trigger in triggers:
+        yield _line(trigger, waits=trigger.armed or trigger.id in registered)
+
+
+def _line(trigger: Trigger, *, waits: bool) -> str:
+    """Return the line; a trigger that does not wait is about a process that does not start."""
     delay = "" if trigger.delay is None else f"{trigger.delay:g} s after "
     once = "the first time, " if trigger.once else ""
-    armed = "" if trigger.armed else f", once {trigger.id} is registered"
+    armed = "" if trigger.armed or not waits else f", once {trigger.id} is registered"
     done = "; ".join(map(_action, trigger.do)) or "nothing"
-    return f"{delay}{_event(trigger.on)}{armed}: {once}{done}  ({trigger.location})"
+    event = _event(
+        trigger.on, trigger.on.target or ("any process" if waits else "a process that is not started")
+    )
+    return f"{delay}{event}{armed}: {once}{done}  ({trigger.location})"
 
 
-def _event(event: TriggerEvent) -> str:
-    target = event.target or "any process"
+def _event(event: TriggerEvent, target: str) -> str:
     match event.event:
         case "run_started":
             return "the start of the run"
