@@ -47,7 +47,10 @@ def is_python(place: Span | Location) -> bool:
 
 def displayed(path: str) -> str:
     """Return the path as it is shown to people: relative where it is below the working directory."""
-    absolute = os.path.realpath(path)
+    try:
+        absolute = os.path.realpath(path)
+    except ValueError:  # no file can have such a name, as one with NUL
+        return path
     prefix = os.path.join(os.path.realpath(os.getcwd()), "")  # noqa: PTH118, PTH109 - pathlib is slow to import
     return absolute.removeprefix(prefix)
 

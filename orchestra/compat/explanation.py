@@ -10,7 +10,7 @@ from orchestra.errors import Code, Severity
 from orchestra.location import Span
 
 _ROOM: Final = re.compile(r"\borchestra\.compat\.(?=\w)")
-_OBJECT: Final = re.compile(r"<(?:function )?(?:[\w<>]+\.)*(\w+)(?: object)? at 0x[0-9a-f]+>")
+_OBJECT: Final = re.compile(r"<(?:function )?(?:[\w<>]+\.)*([\w<>]+?)(?: object)? at 0x[0-9a-f]+>")
 _INSTALLED: Final = re.compile(r" \((?:/|unknown location)[^)]*\)$")
 
 

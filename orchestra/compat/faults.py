@@ -40,7 +40,7 @@ def report(error: BaseException, problems: Problems, chain: tuple[Span, ...], fa
         return
     calls = _calls(error.__traceback__)
     spans = [Place(call.tb_frame.f_code, call.tb_lasti).span for call in calls]
-    if isinstance(error, SyntaxError) and error.filename is not None:
+    if isinstance(error, SyntaxError) and not (error.filename or "<").startswith("<"):
         spans.append(_syntax(error))
     explanation = _explained(error, calls[-1] if calls else None)
     at = explanation.span or (spans[-1] if spans else fallback)

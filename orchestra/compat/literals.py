@@ -73,7 +73,7 @@ class Literal:
         """Return where an item of a list stands that has so many."""
         node = self._node
         items = node.elts if isinstance(node, ast.List | ast.Tuple | ast.Set) else []
-        known = len(items) == count and not any(isinstance(item, ast.Starred) for item in items)
+        known = index < len(items) == count and not any(isinstance(item, ast.Starred) for item in items)
         return Literal(self._file, items[index] if known else None, self.span)
 
     def _entry(self, key: str) -> tuple[ast.expr | ast.keyword | None, ast.expr | None]:
@@ -95,7 +95,7 @@ def _span(file: str, node: ast.expr | ast.keyword) -> Span:
     if isinstance(node, ast.keyword):
         end_line, end = node.lineno, begin + len((node.arg or "").encode())
     elif isinstance(node, ast.Constant) and isinstance(node.value, str) and end_line == node.lineno:
-        inside = len(node.value.encode())
+        inside = len(node.value.encode("utf-8", "surrogatepass"))
         if end - begin == inside + 2:  # else it has escapes or a prefix
             begin, end = begin + 1, end - 1
     return span_in(file, (node.lineno, end_line, begin, end))

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.text import Sub, template
 from orchestra.description.parts import Pair
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from orchestra.description.text import Template
     from orchestra.location import Span
 
@@ -29,6 +29,13 @@ def scalar(value: Any, span: Span) -> Template:
 def optional(value: Any, span: Span) -> Template | None:
     """Return the same, None for None."""
     return None if value is None else scalar(value, span)
+
+
+def words(given: Any, name: str) -> list[Any]:
+    """Return the words of a command line as a list. Raises `TypeError` for one text, which is not taken apart."""
+    if isinstance(given, str | Substitution) or not isinstance(given, Iterable):
+        raise TypeError(f"{name} is a list of words, not {given!r}")
+    return list(given)
 
 
 def pairs(items: Iterable[tuple[Sub, Sub]], span: Span) -> tuple[Pair, ...]:

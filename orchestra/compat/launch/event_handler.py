@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.building import models_of
+from orchestra.compat.explanation import told
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.compat.place import here
 from orchestra.description.handlers import Handler
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable
 
     from orchestra.compat.launch.event import Event
     from orchestra.compat.launch.launch_context import LaunchContext
@@ -105,10 +107,13 @@ def entities_of(entities: Any) -> list[LaunchDescriptionEntity]:
     """Return one or more entities as a list. Raises `TypeError` for anything else."""
     if entities is None:
         return []
-    found = [entities] if isinstance(entities, LaunchDescriptionEntity) else list(entities)
+    listed = [entities] if isinstance(entities, LaunchDescriptionEntity) else entities
+    if not isinstance(listed, Iterable):
+        raise TypeError(f"an event handler has a list of actions, not {told(entities)}")
+    found = list(listed)
     for entity in found:
         if not isinstance(entity, LaunchDescriptionEntity):
-            raise TypeError(f"an event handler has actions and other entities, not {entity!r}")
+            raise TypeError(f"an event handler has actions and other entities, not {told(entity)}")
     return found
 
 

@@ -7,6 +7,8 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from orchestra.location import is_file
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -43,4 +45,4 @@ def executables(prefix: Path, package: str) -> dict[str, Path]:
 
 
 def _is_marker(path: Path) -> bool:
-    return not path.name.startswith(".") and path.is_file()
+    return not path.name.startswith(".") and is_file(path)

@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.explanation import told
 from orchestra.compat.launch.launch_context import LaunchContext
 from orchestra.compat.place import here
 from orchestra.description.actions.register_event_handler import RegisterEventHandler
@@ -135,7 +136,7 @@ class ResolvingEngine:
     def unregister(self, handler: Any) -> None:
         """Let an event handler wait no more. Raises `ValueError` where it does not wait."""
         if not any(known is handler for known in self._handlers):
-            raise ValueError(f"{handler!r} is not registered")
+            raise ValueError(f"{told(handler)} is not registered")
         self._handlers = [known for known in self._handlers if known is not handler]
         found = self._run.found
         found.occasions = [occasion for occasion in found.occasions if occasion.handler is not handler]

@@ -74,7 +74,7 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
     with user_code(run, action.span):
         judged = isinstance(entity, Action) and type(entity).visit is Action.visit
         made = entity.execute(context) if judged else entity.visit(context)
-        if made is not None and not isinstance(made, Iterable):
+        if made is not None and (isinstance(made, str) or not isinstance(made, Iterable)):
             raise TypeError(f"{_name(entity)} returns a list of actions or None, this is {told(made)}")
         following = made
     if following is not None:
@@ -93,7 +93,7 @@ def _refuse_other(value: Any, span: Span, run: Resolution) -> None:
 
 def _refuse(entity: Any, error: ValidationError, run: Resolution) -> None:
     """Report values that an action of Python cannot have."""
-    for detail in error.errors(include_url=False):
+    for detail in error.errors(include_url=False, include_input=False):
         place = ".".join(str(step) for step in detail["loc"])
         at = run.at(_span(entity, run))
         run.problems.error(Code.WRONG_TYPE, f"{_name(entity)}: {place}: {detail['msg']}", at)

@@ -34,5 +34,5 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
 def _unique(name: str, file: str | None) -> str:
     """Return a name that ROS accepts where it accepts the given one; of the file, the folder does not count."""
     source = f"{name}\0{PurePath(file or '').name}"
-    suffix = hashlib.blake2s(source.encode("utf-8", "surrogateescape"), digest_size=4).hexdigest()
+    suffix = hashlib.blake2s(source.encode("utf-8", "surrogatepass"), digest_size=4).hexdigest()
     return re.sub(r"[.:-]", "_", f"{name}_{suffix}")

@@ -11,7 +11,7 @@ from orchestra.compat.explanation import told
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.launch_configuration import LaunchConfiguration
 from orchestra.compat.text import Sub, normalized, template
-from orchestra.compat.values import pairs
+from orchestra.compat.values import pairs, words
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -45,8 +45,8 @@ class Executable:
         additional_env: Mapping[Sub, Sub] | None = None,
         arguments: Iterable[Sub] | None = None,
     ) -> None:
-        self.__arguments = None if arguments is None else list(_words(arguments, "arguments"))
-        self.__cmd = [normalized(word) for word in (*_words(cmd, "cmd"), *(self.__arguments or ()))]
+        self.__arguments = None if arguments is None else words(arguments, "arguments")
+        self.__cmd = [normalized(word) for word in (*words(cmd, "cmd"), *(self.__arguments or ()))]
         self.__prefix = None if prefix is None else normalized(prefix)
         self.__name = None if name is None else normalized(name)
         self.__cwd = None if cwd is None else normalized(cwd)
@@ -152,12 +152,6 @@ class Executable:
             "env_only": None if self.env is None else pairs(self.env, span),
         }
         return {name: value for name, value in found.items() if value is not None}
-
-
-def _words(words: Iterable[Sub], name: str) -> Iterable[Sub]:
-    if isinstance(words, str | Substitution):
-        raise TypeError(f"{name} is a list of words, not {words!r}")
-    return words
 
 
 def _normalized_pairs(items: Mapping[Sub, Sub] | None) -> _Pairs | None:

@@ -6,7 +6,6 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.launch.actions.execute_process import ExecuteProcess
-from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch_ros.actions.node_action_extension import NodeActionExtension
 from orchestra.compat.launch_ros.models import params, remaps
 from orchestra.compat.launch_ros.node_words import parameter_words, rules
@@ -15,7 +14,7 @@ from orchestra.compat.launch_ros.utilities.namespace_utils import make_namespace
 from orchestra.compat.launch_ros.utilities.normalize_parameters import normalize_parameters
 from orchestra.compat.launch_ros.utilities.normalize_remap_rule import normalize_remap_rules
 from orchestra.compat.text import normalized, template
-from orchestra.compat.values import optional
+from orchestra.compat.values import optional, words
 from orchestra.description.actions.node import Node as NodeModel
 
 if TYPE_CHECKING:
@@ -23,6 +22,7 @@ if TYPE_CHECKING:
 
     from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
+    from orchestra.compat.launch.substitution import Substitution
     from orchestra.compat.text import Sub
     from orchestra.description.entity import Action as Model
     from orchestra.description.text import Template
@@ -64,7 +64,7 @@ class Node(ExecuteProcess):
         self.__node_executable = executable
         self.__node_name = name
         self.__node_namespace = namespace
-        self.__arguments = None if arguments is None else _listed(arguments)
+        self.__arguments = None if arguments is None else words(arguments, "arguments")
         # read once: a word may come out of an iterator
         self.__argument_words = [normalized(word) for word in self.__arguments or ()]
         self.__ros_arguments = _checked(ros_arguments, "ros_arguments")
@@ -204,12 +204,6 @@ def _checked(value: Any, name: str) -> Any:
     if value is not None and not isinstance(value, list):
         raise TypeError(f"'{name}' of a Node is a list, not {type(value).__name__}: {value!r}")
     return value
-
-
-def _listed(arguments: Iterable[Sub]) -> list[Sub]:
-    if isinstance(arguments, str | Substitution):
-        raise TypeError(f"'arguments' of a Node are a list of words, not {arguments!r}")
-    return list(arguments)
 
 
 def _performed(subs: Iterable[Substitution], context: LaunchContext) -> str:
