@@ -27,7 +27,7 @@ def explained(error: TypeError, frame: FrameType, place: Place) -> Explanation |
     """Return what is wrong with the arguments of a call of ours; None where the fault is another."""
     call = call_at(place)
     called = None if call is None else _value_of(call.func, frame)
-    if call is None or not (getattr(called, "__module__", None) or "").startswith("orchestra.compat."):
+    if call is None or not _is_ours(called):
         return None
     name: str = getattr(called, "__name__", "it")
     parameters = {parameter.name: parameter for parameter in _parameters(called)}
@@ -38,6 +38,10 @@ def explained(error: TypeError, frame: FrameType, place: Place) -> Explanation |
     if unexpected is not None:
         return _unknown(name, unexpected[1], parameters, place, None)
     return _missing(error, name, parameters, place)
+
+
+def _is_ours(called: Any) -> bool:
+    return (getattr(called, "__module__", None) or "").startswith("orchestra.compat.")
 
 
 def _unknown(
@@ -92,7 +96,13 @@ def _parameters(called: Any) -> Iterator[inspect.Parameter]:
 
 
 def _value_of(expression: ast.expr, frame: FrameType) -> Any:
-    """Return what a name, or an attribute of one, stands for in a frame; None for anything else."""
+    """Return what a name, or an attribute of one, stands for in a frame; None for anything else.
+
+    `super().__init__` stands for the class of ours that the object in construction derives from.
+    """
+    if ast.unparse(expression) == "super().__init__":
+        made = frame.f_locals.get(frame.f_code.co_varnames[0])
+        return next((kind for kind in type(made).__mro__ if _is_ours(kind)), None)
     if isinstance(expression, ast.Attribute):
         return getattr(_value_of(expression.value, frame), expression.attr, None)
     if not isinstance(expression, ast.Name):

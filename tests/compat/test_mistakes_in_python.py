@@ -67,6 +67,13 @@ _CALLS = {
         Code.UNKNOWN_KEY,
         note="did you mean 'executable'?",
     ),
+    "a keyword of a class of the file's own": Mistake(
+        "class Talker(Node):\n    def __init__(self, **more):\n        «super().__init__(**TALKER, **more)»\n"
+        "return LaunchDescription([Talker(naem='a')])",
+        "Node has no argument 'naem'",
+        Code.UNKNOWN_KEY,
+        note="did you mean 'name'?",
+    ),
     "a keyword of a declaration": Mistake(
         "[DeclareLaunchArgument('a', «default»='x')]",
         "DeclareLaunchArgument has no argument 'default'",
