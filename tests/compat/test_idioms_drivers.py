@@ -207,3 +207,82 @@ def test_an_include_that_is_not_made_may_have_an_argument_of_nothing(tmp_path: P
     assert "model: expected a text" in problem.message
     assert problem.span is not None
     assert problem.span.line == 11
+
+
+SETTINGS = """\
+import tempfile
+import yaml
+from launch import SomeSubstitutionsType, Substitution
+from launch.actions import DeclareLaunchArgument, GroupAction
+from launch.substitutions import LaunchConfiguration
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+def values(path):
+    with open(path) as file:
+        return yaml.safe_load(file)["/**"]["ros__parameters"]
+
+class Declared(GroupAction):
+    def __init__(self, name: str, file: SomeSubstitutionsType, **kwargs):
+        self.name, self.file = name, normalize_to_list_of_substitutions(file)
+        super().__init__(actions=[DeclareLaunchArgument(name, default_value=self.file)], scoped=False, **kwargs)
+    def execute(self, context):
+        file = perform_substitutions(context, self.file)
+        own = [DeclareLaunchArgument(name, default_value=str(value)) for name, value in values(file).items()]
+        self._GroupAction__actions = [DeclareLaunchArgument(self.name, default_value=file), *own]
+        return super().execute(context)
+
+class Merged(Substitution):
+    def __init__(self, name, file):
+        super().__init__()
+        self.name, self.file = name, normalize_to_list_of_substitutions(file)
+    def perform(self, context):
+        found = values(perform_substitutions(context, self.file))
+        found = {name: type(value)(context.launch_configurations.get(name, value)) for name, value in found.items()}
+        found |= values(LaunchConfiguration(self.name).perform(context)) if context.launch_configurations["own"] else {}
+        content = {"/**": {"ros__parameters": found}}
+        context.launch_configurations.update(content)
+        with tempfile.NamedTemporaryFile(mode="w", delete=False) as file:
+            yaml.dump(content, file)
+        return file.name
+"""
+
+
+@pytest.mark.parametrize(
+    ("words", "parameters"),
+    [
+        ([], {"frame": "base", "rate": 10}),
+        (["rate:=20"], {"frame": "base", "rate": 20}),
+        (["rate:=20", "own:=yes", "settings:={share}/own.yaml"], {"frame": "map", "rate": 20, "more": 1.5}),
+    ],
+    ids=["the file's", "from the command line", "another file over them"],
+)
+def test_settings_of_a_file_become_arguments_and_parameters(
+    words: list[str], parameters: dict[str, Any], tmp_path: Path
+) -> None:
+    text = """\
+    import os, sys
+    sys.path.append(os.path.dirname(__file__))
+    from ament_index_python.packages import get_package_share_directory
+    from launch import LaunchDescription
+    from launch.actions import DeclareLaunchArgument
+    from launch.substitutions import PathJoinSubstitution
+    from launch_ros.actions import Node
+    from settings import Declared, Merged
+    def generate_launch_description():
+        file = PathJoinSubstitution([get_package_share_directory("demo"), "default.yaml"])
+        return LaunchDescription([
+            DeclareLaunchArgument("own", default_value=""),
+            Declared("settings", file),
+            Node(package="demo", executable="tool", name="driver", parameters=[Merged("settings", file)]),
+        ])
+    """
+    files = {
+        "launch/settings.py": SETTINGS,
+        "default.yaml": "/**: {ros__parameters: {frame: base, rate: 10}}",
+        "own.yaml": "/**: {ros__parameters: {frame: map, more: 1.5}}",
+    }
+    share = str(tmp_path / "prefix/share/demo")
+    content, problems = planned(tmp_path, text, *(word.format(share=share) for word in words), files=files)
+    assert problems == []
+    assert content["processes"][0]["parameters"] == parameters
+    assert [argument["name"] for argument in content["arguments"]] == ["own", "settings", "frame", "rate"]
