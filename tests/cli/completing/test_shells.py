@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import subprocess
 from typing import TYPE_CHECKING
@@ -53,12 +54,18 @@ def _words(line: str) -> list[str]:
     return shell.stdout.splitlines()
 
 
+def _needs(shell: str, surroundings: dict[str, str]) -> None:
+    """Skip where a shell is not installed; in CI it has to be."""
+    if shutil.which(shell, path=surroundings["PATH"]) is None:
+        assert "CI" not in os.environ, f"{shell} is missing in .ci/packages.txt"
+        pytest.skip(f"{shell} is not installed")
+
+
 @pytest.mark.parametrize("start", [bash, zsh], ids=["bash", "zsh"])
 def test_a_line_is_completed(start: object, folder: Path, surroundings: dict[str, str]) -> None:
     assert callable(start)
     name = getattr(start, "__name__", "")
-    if shutil.which(name, path=surroundings["PATH"]) is None:
-        pytest.skip(f"{name} is not installed")
+    _needs(name, surroundings)
     with start(folder, surroundings) as shell:
         found = {typed: shell.words_after_tab(typed) for typed, _ in _LINES}
     assert found == {typed: _words(line) for typed, line in _LINES}
@@ -95,8 +102,7 @@ def test_bash_completes_the_command_by_its_path(folder: Path, surroundings: dict
 def test_fish_shows_what_a_line_may_become(
     typed: str, expected: list[str], folder: Path, surroundings: dict[str, str]
 ) -> None:
-    if shutil.which("fish", path=surroundings["PATH"]) is None:
-        pytest.skip("fish is not installed")
+    _needs("fish", surroundings)
     asked = f"orchestra completion fish | source; complete --do-complete {typed!r}"
     shell = subprocess.run(
         ["fish", "--no-config", "-c", asked],
