@@ -31,10 +31,11 @@ def normalized(subs: Sub) -> list[Substitution]:
 
 def template(subs: Sub, span: Span, *, quoted: bool = False) -> Template:
     """Return the template of some substitutions; those without a place of their own are at `span`."""
-    parts = tuple(part for item in normalized(subs) for part in item._parts(span))
+    items = normalized(subs)
+    parts = tuple(part for item in items for part in item._parts(span))
     if len(parts) == 1:
         span = parts[0].span
-    raw = "".join(item._raw() for item in normalized(subs))
+    raw = "".join(item._raw() for item in items)
     return Template(parts, raw, span, quoted=quoted)
 
 
