@@ -51,7 +51,9 @@ def test_there_is_nothing_else_to_visit() -> None:
     models = {model.__name__ for model in map(model_of, ACTIONS) if model is not None}
     others = {model.__name__ for model in _entities(Action)} - models - {"Running"}
     assert models | others == set(VISITORS)
-    assert all(importlib.import_module(f"orchestra.resolve.actions.{name}").visit for name in VISITORS.values())
+    assert all(
+        importlib.import_module(f"orchestra.resolve.actions.{name}").visit for name in VISITORS.values()
+    )
     assert model_of("nothing") is None
 
 
