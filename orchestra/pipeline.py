@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.seam import connected
 from orchestra.compat.suggestions import in_place
-from orchestra.errors import DescriptionError, Problem, Problems
+from orchestra.errors import Code, DescriptionError, Problem, Problems
 from orchestra.load.files import load
 from orchestra.location import displayed, point
 from orchestra.plan.build import build
@@ -111,9 +111,17 @@ def opened(
             launch = None
             if description is not None:
                 resolved = _symbolic(carry_through(description, run), isolation.files)
+                _warn_of_remaining(path, isolation, problems)
                 launch = Launch(build(resolved, problems), run, isolation.files)
             problems.amend(in_place)
         yield launch
+
+
+def _warn_of_remaining(path: str, isolation: Isolation, problems: Problems) -> None:
+    """Tell what code of the launch files has begun that is no part of the plan."""
+    if isolation.remaining is not None:
+        for told, span in isolation.remaining.told(point(displayed(path))):
+            problems.warning(Code.USER_CODE, told, span)
 
 
 class Launch:
@@ -178,7 +186,9 @@ def _loading(
 
     words = (f"{item.name}:={item.value}" for item in inputs.arguments)
     with (
-        isolated(inputs.environment, ("ros2", "launch", path, *words)) as isolation,
+        isolated(
+            inputs.environment, ("ros2", "launch", path, *words), launching=inputs.launching
+        ) as isolation,
         connected(
             LoadingConnection(
                 packages,

@@ -19,7 +19,8 @@ if TYPE_CHECKING:
 
     from orchestra.errors import Problems
 
-_PYTHON = tuple({sysconfig.get_path("stdlib"), sysconfig.get_path("purelib"), sysconfig.get_path("platlib")})
+_PYTHON = sysconfig.get_path("stdlib")
+_INSTALLED = tuple({sysconfig.get_path("purelib"), sysconfig.get_path("platlib")})
 _MOST_CALLS = 8
 
 
@@ -64,17 +65,18 @@ def report(error: BaseException, problems: Problems, chain: tuple[Span, ...], fa
 def _calls(traceback: TracebackType | None) -> list[TracebackType]:
     """Return the user's lines on the way to where it happened, outermost first.
 
-    Lines of libraries stand for the user's only where there is no line of the user's own.
+    Lines of installed packages stand for the user's only where there is no line of the user's own.
     """
     own: list[TracebackType] = []
-    libraries: list[TracebackType] = []
+    installed: list[TracebackType] = []
     while traceback is not None:
         file = traceback.tb_frame.f_code.co_filename
-        if not is_own(file) and not file.startswith("<"):
-            found = libraries if file.startswith(_PYTHON) else own
-            found.append(traceback)
+        if file.startswith(_INSTALLED):
+            installed.append(traceback)
+        elif not is_own(file) and not file.startswith(("<", _PYTHON)):
+            own.append(traceback)
         traceback = traceback.tb_next
-    return own or libraries[-1:]
+    return own or installed[-1:]
 
 
 def _syntax(error: SyntaxError) -> Span:

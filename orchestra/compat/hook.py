@@ -15,14 +15,15 @@ from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from importlib.util import find_spec
 from pathlib import Path
+from types import ModuleType
 from typing import TYPE_CHECKING, Final
 
+from orchestra.compat import pristine
 from orchestra.compat.borrowed import borrowing
 from orchestra.compat.place import is_own
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
-    from types import ModuleType
 
 _INSTALLED: Final = tuple(
     os.path.realpath(sysconfig.get_path(name)) for name in ("stdlib", "platstdlib", "purelib", "platlib")
@@ -43,6 +44,7 @@ class _Alias(Loader):
         if not hasattr(module, "__path__"):
             vars(module).setdefault("__getattr__", borrowing(self._name))
         self._spec = module.__spec__
+        pristine.keep_module(module)
         return module
 
     def exec_module(self, module: ModuleType) -> None:
@@ -88,12 +90,21 @@ def served() -> Iterator[None]:
         sys.meta_path.remove(finder)
         sys.dont_write_bytecode = bytecode
         for name in sys.modules.keys() - before.keys():
-            if name.partition(".")[0] in SERVED or _is_of_users(sys.modules[name]):
+            if name.partition(".")[0] in SERVED or _is_of_users(name, sys.modules[name]):
                 del sys.modules[name]
-        sys.modules.update({name: module for name, module in before.items() if name not in sys.modules})
+        sys.modules.update(before)
+        pristine.restore()
 
 
-def _is_of_users(module: ModuleType) -> bool:
-    """Return whether a module is neither part of Python, nor installed for it, nor ours."""
-    file = getattr(module, "__file__", None)
-    return file is not None and not is_own(file) and not os.path.realpath(file).startswith(_INSTALLED)
+def _is_of_users(name: str, module: object) -> bool:
+    """Return whether a module is neither part of Python, nor installed for it, nor ours.
+
+    One that is in no file is its package's; without a package it is the users' unless Python has it built in.
+    """
+    if not isinstance(module, ModuleType):
+        return True  # something that code has put in its place
+    file = getattr(module, "__file__", None) or next(iter(getattr(module, "__path__", ())), None)
+    if file is not None:
+        return not is_own(file) and not os.path.realpath(file).startswith(_INSTALLED)
+    package, _, inner = name.partition(".")
+    return not inner and package not in sys.builtin_module_names

@@ -7,6 +7,8 @@ from importlib import import_module
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat import pristine
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
@@ -29,9 +31,9 @@ def exported(package: str, names: Mapping[str, str]) -> Callable[[str], Any]:
             return import_module(f"{package}.{name}")
         full = place if place.startswith("orchestra.") else f"{package}.{place}"
         value = getattr(import_module(full), name)
-        setattr(
-            sys.modules[package], name, value
-        )  # also over a submodule of the same name, as an import would
+        # Also over a submodule of the same name, as an import would.
+        setattr(sys.modules[package], name, value)
+        pristine.keep(value, sys.modules[package], name)
         return value
 
     return attribute

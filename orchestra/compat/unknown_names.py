@@ -6,6 +6,7 @@ import builtins
 import re
 import sys
 from importlib import import_module
+from pathlib import Path
 from pkgutil import iter_modules
 from typing import TYPE_CHECKING, Any, Final
 
@@ -20,6 +21,9 @@ if TYPE_CHECKING:
 
     from orchestra.compat.place import Place
 
+_BESIDE: Final = (
+    "it is beside the launch file, where Python does not look: sys.path.insert(0, os.path.dirname(__file__))"
+)
 _IMPORTED: Final = re.compile(r"cannot import name '(\w+)'")
 
 
@@ -74,7 +78,14 @@ def _no_module(name: str, place: Place) -> Explanation:
     meant = nearest(last, (module.name for module in iter_modules(path) if parent or module.ispkg))
     full = None if meant is None else f"{parent}.{meant}".lstrip(".")
     span = word_in(place.file, place.span, name)
-    return Explanation(f"there is no Python module '{name}' here", span=span, suggestion=full)
+    notes = (_BESIDE,) if not parent and _is_beside(place, last) else ()
+    message = f"there is no Python module '{name}' here"
+    return Explanation(message, span=span, suggestion=full, notes=notes)
+
+
+def _is_beside(place: Place, module: str) -> bool:
+    folder = Path(place.file).parent
+    return (folder / f"{module}.py").is_file() or (folder / module / "__init__.py").is_file()
 
 
 def _exporting(name: str) -> list[str]:

@@ -9,10 +9,11 @@ from __future__ import annotations
 import linecache
 import os
 import sys
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import lru_cache
 from importlib.machinery import ModuleSpec
-from types import CodeType, FunctionType, ModuleType
+from types import CodeType, CoroutineType, FunctionType, ModuleType
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat import faults
@@ -28,6 +29,8 @@ from orchestra.location import Location, displayed, point
 from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from orchestra.errors import Problem
     from orchestra.location import Span
 
@@ -40,12 +43,20 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
     linecache.checkcache(path)
     file = displayed(path)
     at = point(file)
+    reason = _unreadable(path)
+    if reason is not None:
+        location = Location(included_from[0], included_from[1:]) if included_from else Location(at)
+        problems.error(Code.UNREADABLE_FILE, f"cannot read {file}: {reason}", location)
+        return None
     try:
         connection().prepare()
         module = load_module(path)
         at = _definition(module, at)
-        made = _made(module)
-    except (Exception, SystemExit) as error:  # noqa: BLE001 - the boundary of user code
+        with _in_place(module):
+            made = _made(module)
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # noqa: BLE001 - the boundary of user code
         found = Problems()
         faults.report(error, found, included_from, at)
         problems.extend(found if included_from else map(_grave, found))
@@ -57,6 +68,16 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
         )
     message, *notes = _undescribed(module, made, file)
     problems.error(Code.NO_DESCRIPTION, message, Location(at, included_from), notes=notes)
+    return None
+
+
+def _unreadable(path: str) -> str | None:
+    """Return why a file cannot be read; what code raises when it opens files of its own is another thing."""
+    try:
+        with open(path, "rb") as stream:  # noqa: PTH123 - no object is wanted
+            stream.read(1)
+    except OSError as error:
+        return error.strerror
     return None
 
 
@@ -72,16 +93,22 @@ def load_module(path: str) -> ModuleType:
     module.__spec__ = ModuleSpec(_MODULE, None, origin=path)
     status = os.stat(path)  # noqa: PTH116 - no object is wanted
     code = _compiled(path, status.st_mtime_ns, status.st_size)
-    outer = sys.modules.get(_MODULE)
-    sys.modules[_MODULE] = module  # dataclasses and pickles look there for the module that they are in
-    try:
+    with _in_place(module):
         exec(code, vars(module))  # noqa: S102 - a launch file is code
-    finally:
-        if outer is None:
-            del sys.modules[_MODULE]
-        else:
-            sys.modules[_MODULE] = outer
     return module
+
+
+@contextmanager
+def _in_place(module: ModuleType) -> Iterator[None]:
+    """Have the module in `sys.modules` for a while: dataclasses and pickles look there for the one that they are in."""
+    outer = sys.modules.get(_MODULE)
+    sys.modules[_MODULE] = module
+    try:
+        yield
+    finally:
+        sys.modules.pop(_MODULE, None)
+        if outer is not None:
+            sys.modules[_MODULE] = outer
 
 
 @lru_cache(maxsize=256)
@@ -123,6 +150,9 @@ def _undescribed(module: ModuleType, made: object, file: str) -> tuple[str, ...]
         return (f"{file} has no function {FUNCTION}()", *([] if meant is None else [f"it has {meant}()"]))
     if made is None:
         return (f"{FUNCTION}() returns nothing: its `return` is missing",)
+    if isinstance(made, CoroutineType):
+        made.close()
+        return (f"{FUNCTION}() returns a coroutine: it is a function without `async`",)
     message = f"{FUNCTION}() returns a LaunchDescription, not {told(made)}"
     return (message, "put it into LaunchDescription([...])") if isinstance(made, list | tuple) else (message,)
 

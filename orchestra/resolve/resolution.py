@@ -158,6 +158,18 @@ class Resolution:
             self.problems.error(Code.INCLUDE_CYCLE, message, self.at(span))
         return self.steps < _MOST_STEPS
 
+    def report_endless(self, error: RecursionError) -> None:
+        """Report actions in each other without end, or too deep, at the innermost; the visit is out of all of them."""
+        spans = []
+        traceback = error.__traceback__
+        while traceback is not None:
+            action = traceback.tb_frame.f_locals.get("action")
+            spans += [action.span] if isinstance(action, Action) else []
+            traceback = traceback.tb_next
+        message = "actions stand inside each other without end, or too deep"
+        self.problems.error(Code.INCLUDE_CYCLE, message, spans[-1] if spans else None)
+        self.depth, self.conditions, self.repetitions, self.around, self.occasion = 0, 0, 0, (), None
+
     def at(self, span: Span) -> Location:
         """Return the location of a span of the file that is being visited."""
         return self.context.at(span)

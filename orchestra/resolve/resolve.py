@@ -42,8 +42,11 @@ def carry_through(description: Description, run: Resolution) -> Resolved:
         location = Location(given.span)
         run.scope.set(given.name, Value(given.value, location), location)
     with run.inside(Frame(description.path, run.scope)) as ledger:
-        visit_file(description, run)
-        run.handle_events()
+        try:
+            visit_file(description, run)
+            run.handle_events()
+        except RecursionError as error:
+            run.report_endless(error)
         names = [Given(item.name, Location(item.span)) for item in run.inputs.arguments]
         settle(names, description, ledger, run)
     return outcome(description.file, run)

@@ -23,7 +23,9 @@ def user_code(run: Resolution, span: Span) -> Iterator[None]:
     put_environment(run.scope.environment)
     try:
         yield
-    except (Exception, SystemExit) as error:  # noqa: BLE001 - the boundary of user code
+    except KeyboardInterrupt:
+        raise
+    except BaseException as error:  # noqa: BLE001 - the boundary of user code
         faults.report(error, run.problems, run.context.included_from, span)
         run.scope.ledger.incomplete = True
     finally:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
+import time
 from contextlib import ExitStack, contextmanager, redirect_stdout, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,34 +17,52 @@ from orchestra.resolve.python.files import Files
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
+    from orchestra.resolve.python.remaining import Remaining
+
 # Where prefixes keep the Python packages that come with launch files.
 _LIBRARIES = ("lib/python3*/site-packages", "local/lib/python3*/dist-packages", "lib/python3*/dist-packages")
 
 
 class Isolation:
-    """The state of a process in which launch files are loaded; `files` are the temporary ones of their code."""
+    """The state of a process in which launch files are loaded; `files` are the temporary ones of their code.
 
-    def __init__(self, restoring: ExitStack) -> None:
+    `remaining` watches what that leaves behind; None where there is no such code.
+    """
+
+    def __init__(self, restoring: ExitStack, *, launching: bool) -> None:
         self.files = Files()
+        self.remaining: Remaining | None = None
         self._restoring = restoring
+        self._launching = launching
 
     def prepare(self) -> None:
-        """Get ready for code of launch files, which may want temporary files."""
-        if self.files.folder is None:
-            # Here, because only such code needs it, and what it imports.
-            from orchestra.resolve.python.temporary import temporary_files  # noqa: PLC0415
+        """Get ready for code of launch files, which may do anything."""
+        if self.remaining is not None:
+            return
+        # Here, because only such code needs it, and what it imports.
+        from orchestra.resolve.python.interpreter import kept_as_it_is  # noqa: PLC0415
+        from orchestra.resolve.python.libraries import libraries_kept  # noqa: PLC0415
+        from orchestra.resolve.python.remaining import nothing_left  # noqa: PLC0415
+        from orchestra.resolve.python.temporary import temporary_files  # noqa: PLC0415
 
-            self._restoring.enter_context(temporary_files(self.files))
+        enter = self._restoring.enter_context
+        enter(libraries_kept())
+        enter(kept_as_it_is())
+        enter(temporary_files(self.files))
+        self.remaining = enter(nothing_left(launching=self._launching))
 
 
 @contextmanager
-def isolated(environment: Mapping[str, str], argv: Sequence[str]) -> Iterator[Isolation]:
+def isolated(
+    environment: Mapping[str, str], argv: Sequence[str], *, launching: bool = False
+) -> Iterator[Isolation]:
     """Let launch files in Python be loaded: `os.environ` is `environment`, `sys.argv` are the words of `ros2 launch`.
 
     What they print goes to standard error, for standard output carries the product of the command; so does what the
-    programs write that they start themselves.
+    programs write that they start themselves. `launching`: more than a plan is made of it.
     """
     with ExitStack() as restoring:
+        restoring.callback(_put_zone, time.tzname)
         restoring.callback(put_environment, dict(os.environ))
         restoring.callback(os.chdir, Path.cwd())
         restoring.callback(_put_list, sys.path, list(sys.path))
@@ -55,7 +74,7 @@ def isolated(environment: Mapping[str, str], argv: Sequence[str]) -> Iterator[Is
         put_environment(environment)
         sys.argv = Arguments(argv)
         sys.path += _libraries(environment)
-        yield Isolation(restoring)
+        yield Isolation(restoring, launching=launching)
 
 
 @contextmanager
@@ -68,6 +87,12 @@ def _programs_redirected() -> Iterator[None]:
             os.dup2(2, 1)
             restoring.callback(os.dup2, kept, 1)
         yield
+
+
+def _put_zone(before: tuple[str, str]) -> None:
+    """Go by the zone of the environment again, where code has gone by another one."""
+    if time.tzname != before:
+        time.tzset()
 
 
 def _forget_loggers() -> None:

@@ -1,0 +1,77 @@
+"""The interpreter stays as it was: what code of launch files may set in it, by the functions that read and write it.
+
+Nothing is imported for that: what has not been imported cannot have been changed before, and is put back to how it
+begins if the code has imported it.
+"""
+
+from __future__ import annotations
+
+import builtins
+import os
+import signal
+import sys
+import warnings
+from _locale import LC_ALL, setlocale
+from contextlib import contextmanager, suppress
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, MutableMapping
+
+# Attributes of `sys` that hold one object, and those that hold a list, which others may have taken hold of.
+_OBJECTS: Final = ("breakpointhook", "displayhook", "excepthook", "stderr", "stdin", "unraisablehook")
+_LISTS: Final = ("meta_path", "path", "path_hooks", "warnoptions")
+
+
+@contextmanager
+def kept_as_it_is() -> Iterator[None]:
+    """Let code change the interpreter for a while."""
+    objects = {name: getattr(sys, name) for name in _OBJECTS}
+    lists = {name: (getattr(sys, name), list(getattr(sys, name))) for name in _LISTS}
+    limits = sys.getrecursionlimit(), sys.getswitchinterval(), sys.get_int_max_str_digits()
+    tracing = sys.gettrace(), sys.getprofile()
+    names, locale = dict(vars(builtins)), setlocale(LC_ALL)
+    environ, mask, handlers = os.environ, os.umask(0), _handlers()
+    os.umask(mask)
+    try:
+        with warnings.catch_warnings():
+            yield
+    finally:
+        os.environ = environ  # noqa: B003 - the object, where code has put another one in its place
+        for name, value in objects.items():
+            setattr(sys, name, value)
+        for name, (value, content) in lists.items():
+            value[:] = content
+            setattr(sys, name, value)
+        sys.setrecursionlimit(limits[0])
+        sys.setswitchinterval(limits[1])
+        sys.set_int_max_str_digits(limits[2])
+        if (sys.gettrace(), sys.getprofile()) != tracing:
+            sys.settrace(tracing[0])
+            sys.setprofile(tracing[1])
+        put_back(vars(builtins), names)
+        if setlocale(LC_ALL) != locale:
+            setlocale(LC_ALL, locale)
+        os.umask(mask)
+        _put_handlers(handlers)
+
+
+def put_back(table: MutableMapping[str, Any], content: MutableMapping[str, Any]) -> None:
+    """Make a table what it was."""
+    for name in [name for name in table if name not in content]:
+        del table[name]
+    for name, value in content.items():
+        if table.get(name) is not value:
+            table[name] = value
+
+
+def _handlers() -> dict[int, Any]:
+    """Return what is done about each signal."""
+    return {number: signal.getsignal(number) for number in range(1, signal.NSIG)}
+
+
+def _put_handlers(before: dict[int, Any]) -> None:
+    for number, handler in _handlers().items():
+        if handler is not before[number] and handler != before[number] and before[number] is not None:
+            with suppress(ValueError):  # another thread than the main one cannot have changed it either
+                signal.signal(number, before[number])
