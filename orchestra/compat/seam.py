@@ -123,6 +123,9 @@ class Connection(Protocol):
     def prepare(self) -> None:
         """Get ready for code of a launch file."""
 
+    def close(self) -> None:
+        """Let go of what has been made for this resolution alone."""
+
     def engine(self, argv: Sequence[str]) -> Engine:
         """Return an engine with a state of its own."""
 
@@ -150,7 +153,7 @@ def connected(connection: Connection) -> Iterator[None]:
         yield
     finally:
         _connections.remove(connection)
-        connection.front_end.close()
+        connection.close()
 
 
 def is_connected() -> bool:

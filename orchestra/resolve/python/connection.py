@@ -44,11 +44,17 @@ class LoadingConnection:
 
     @cached_property
     def front_end(self) -> FrontEnd:
-        """The languages of XML and YAML files."""
+        """The languages of XML and YAML files, for code that adds to them."""
+        self.prepare()
         # Here, because few launch files ask for it.
         from orchestra.resolve.python.frontend import LoadingFrontEnd  # noqa: PLC0415
 
         return LoadingFrontEnd()
+
+    def close(self) -> None:
+        """Let what has been added to the languages be imported anew by the next resolution."""
+        if "front_end" in vars(self):
+            self.front_end.close()
 
     def engine(self, argv: Sequence[str]) -> Engine:
         """Return an engine with a state of its own, for a context that a user builds."""

@@ -7,6 +7,7 @@ from importlib.metadata import entry_points
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.launch_ros.actions.node import Node
+from orchestra.compat.seam import connection
 from orchestra.compat.text import normalized
 from orchestra.errors import Code
 from orchestra.resolve.python.calling import user_code
@@ -55,6 +56,7 @@ def extended(program: Program, action: NodeModel, run: Resolution) -> Program:
 
 def _extensions(at: Span, run: Resolution) -> Iterator[Any]:
     """Yield an instance of each extension; one that cannot be made is left out with a warning, as upstream."""
+    connection().prepare()
     for entry in entry_points(group=GROUP):
         try:
             extension = entry.load()()
