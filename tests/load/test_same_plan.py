@@ -64,6 +64,28 @@ _param = st.recursive(
     ),
     max_leaves=3,
 )
+_typed = st.sampled_from(
+    [
+        {"type": "int", "value": 5},
+        {"type": "float", "value": 2.5},
+        {"type": "bool", "value": True},
+        {"type": "str", "value": "5"},
+        {"type": "yaml", "value": "$(var a [1])"},
+        {"type": "int", "value": "$(var a 7)"},
+        {"type": "list_of_int", "value": [1, 2]},
+        {"type": "list_of_float", "value": [1.5, 2.5]},
+        {"type": "list_of_bool", "value": [True, False]},
+        {"type": "list_of_str", "value": ["1", "on"]},
+    ]
+)
+_file = st.fixed_dictionaries({"from": st.just("p.yaml")}, optional={"allow_substs": st.booleans()})
+_params = st.lists(
+    _param | _file | st.tuples(_names, _typed).map(lambda both: {"name": both[0], **both[1]}), max_size=3
+)
+_rules = st.lists(
+    st.fixed_dictionaries({"from": _names, "to": st.sampled_from(["t", "/u", "~/v", "$(var a w)"])}),
+    max_size=2,
+)
 _process = {
     "env": st.lists(st.fixed_dictionaries({"name": _names, "value": any_text.map(escaped)}), max_size=2),
     "cwd": st.just("/tmp"),  # noqa: S108 - nothing is written there
@@ -94,7 +116,7 @@ _component = st.fixed_dictionaries(
 )
 _rich = st.one_of(
     st.fixed_dictionaries(
-        {"exec": st.just("prog"), "param": st.lists(_param, max_size=3)}, optional=_process
+        {"exec": st.just("prog"), "param": _params}, optional={**_process, "remap": _rules}
     ).map(lambda keys: {"node": keys}),
     st.fixed_dictionaries(
         {"cmd": st.sampled_from(["prog 'a b' c", "prog x$(var a 'y z')"])}, optional=_process
@@ -113,6 +135,21 @@ _rich = st.one_of(
             "children": st.lists(ordinary, max_size=2),
         }
     ).map(lambda keys: {"group": keys}),
+    st.just({"set_parameters_from_file": {"filename": "p.yaml"}}),
+    st.fixed_dictionaries(
+        {"file": st.just("inner.launch.yaml")},
+        optional={
+            "arg": st.lists(
+                st.fixed_dictionaries({"name": _names, "value": any_text.map(escaped)}), max_size=2
+            ),
+            "scoped": st.booleans(),
+            "label": st.just("l"),
+            "for_each": st.dictionaries(
+                _names, st.lists(_scalars, min_size=1, max_size=2), min_size=1, max_size=2
+            ),
+            "if": st.booleans(),
+        },
+    ).map(lambda keys: {"include": keys}),
     any_text.map(lambda text: {"log": {"message": escaped(text)}}),
     st.fixed_dictionaries(
         {"name": _names, "value": any_text.map(escaped)},
@@ -156,6 +193,7 @@ def test_a_description_gives_the_same_plan_in_every_language_however_many_are_tr
 
 
 def _compare(folder: Path, written: Actions, inner: Actions) -> None:
+    (folder / "p.yaml").write_text("/**: {ros__parameters: {b: 1.5, d: [x, 'y']}}", "utf-8")
     plan = planned(folder, "yaml", written, _ENVIRONMENT, inner=inner)
     for language in ("xml", "py"):
         other = planned(folder, language, written, _ENVIRONMENT, inner=inner)

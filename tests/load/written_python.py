@@ -17,6 +17,8 @@ if TYPE_CHECKING:
 Content = dict[str, Any]
 
 _HEAD = """\
+from typing import List
+
 from launch import LaunchDescription
 from launch.actions import *
 from launch.conditions import IfCondition, UnlessCondition
@@ -135,7 +137,8 @@ def _parameter(param: Content) -> str:
         return f"{{{name}: {{{inner}}}}}"
     value = _value(param["value"])
     if "type" in param:
-        value = f"ParameterValue({value}, value_type={param['type']})"
+        kind, _, items = param["type"].replace("yaml", "None").partition("list_of_")
+        value = f"ParameterValue({value}, value_type={kind or f'List[{items}]'})"
     return f"{{{name}: {value}}}"
 
 
@@ -313,6 +316,7 @@ _WRITERS: Mapping[str, Callable[[Content], str]] = {
     "ros_timer": _timer("RosTimer"),
     "set_env": _simple("SetEnvironmentVariable", name="name", value="value"),
     "set_parameter": _set_parameter,
+    "set_parameters_from_file": _simple("SetParametersFromFile", filename="filename"),
     "set_remap": _simple("SetRemap", **{"from": "src", "to": "dst"}),
     "set_ros_log_dir": _simple("SetROSLogDir", new_log_dir="new_log_dir"),
     "shutdown": _simple("Shutdown", reason="reason"),
