@@ -64,7 +64,7 @@ _param = st.recursive(
     ),
     max_leaves=3,
 )
-_typed = st.sampled_from(
+_typed: st.SearchStrategy[dict[str, Any]] = st.sampled_from(
     [
         {"type": "int", "value": 5},
         {"type": "float", "value": 2.5},
