@@ -41,6 +41,7 @@ _SMALL_CORE = {
     "orchestra.wheels",
     *(
         "orchestra.plan.model",
+        "orchestra.plan.conditions",
         "orchestra.plan.reactions",
         "orchestra.plan.codec",
         "orchestra.plan.parameter_file",

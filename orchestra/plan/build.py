@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection
 
     from orchestra.errors import Problems
-    from orchestra.plan.model import Dependency
+    from orchestra.plan.conditions import Dependency
     from orchestra.resolve.model import Resolved, ResolvedComponent, ResolvedProcess
 
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from orchestra.errors import Code, Problems
 from orchestra.nearest import nearest
 from orchestra.plan.absent import is_mistake
+from orchestra.plan.conditions import Dependency
 from orchestra.plan.ids import node_name
-from orchestra.plan.model import Dependency
 from orchestra.resolve.names import InvalidName, expanded
 
 if TYPE_CHECKING:

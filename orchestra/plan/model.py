@@ -11,8 +11,9 @@ from typing import Literal, TypeAlias
 
 from orchestra.errors import Problem
 from orchestra.location import Location
+from orchestra.plan.conditions import Alive, Dependency, Ready
 from orchestra.plan.reactions import Trigger
-from orchestra.values import Condition, ParameterValue, Restart, Stop
+from orchestra.values import Limits, ParameterValue, Restart, Stop
 
 VERSION = 1
 
@@ -34,28 +35,6 @@ class Argument:
     choices: tuple[str, ...] | None
     location: Location
     given: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class Dependency:
-    """The process starts only when `process` (a plan id) has reached `condition`; `timeout` in seconds."""
-
-    process: str
-    condition: Condition
-    timeout: float | None
-    location: Location
-
-
-@dataclass(frozen=True, slots=True)
-class Ready:
-    """When a running process counts as ready: one of `log` (a regular expression on its lines) and `message`.
-
-    `message` is a fully qualified topic whose first message is awaited. `timeout` in seconds, None for ever.
-    """
-
-    log: str | None
-    message: str | None
-    timeout: float | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -122,11 +101,11 @@ class Process:
     required: bool
     success_exit_codes: tuple[int, ...] | None
     ready: Ready | None
-    alive: None
+    alive: Alive | None
     lifecycle: Literal["active"] | None
     depends_on: tuple[Dependency, ...]
     stop: Stop | None
-    limits: None
+    limits: Limits | None
     warm: None
     machine: None
     digest: str

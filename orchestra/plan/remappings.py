@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
-from orchestra.plan.model import Ready
+from orchestra.plan.conditions import Ready
 from orchestra.resolve.names import InvalidName
 from orchestra.resolve.remaps import dead_rules, read_rule, remapped
 

@@ -10,7 +10,7 @@ from orchestra.probes.message import MessageProbe
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from orchestra.plan.model import Ready
+    from orchestra.plan.conditions import Ready
     from orchestra.probes.protocol import Probe
 
 PROBES: dict[str, Callable[[str], Probe]] = {

@@ -12,7 +12,7 @@ from orchestra.supervise.life import Phase
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
-    from orchestra.plan.model import Dependency
+    from orchestra.plan.conditions import Dependency
     from orchestra.supervise.loop import Timer
     from orchestra.supervise.surroundings import Listener, Surroundings
     from orchestra.supervise.unit import Unit

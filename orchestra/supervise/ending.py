@@ -12,11 +12,15 @@ _SIGNALLED = 128
 
 @dataclass(frozen=True, slots=True)
 class Ending:
-    """Exactly one of `code` and `signal` is set; `reason` says why a program could not be started at all."""
+    """Exactly one of `code` and `signal` is set; `reason` says why a program could not be started at all.
+
+    `hang` says what sign of life a program had not given when it was ended for that.
+    """
 
     code: int | None = None
     signal: int | None = None
     reason: str | None = None
+    hang: str | None = None
 
     @property
     def status(self) -> int:
@@ -26,9 +30,8 @@ class Ending:
     def __str__(self) -> str:
         if self.reason is not None:
             return f"could not be started: {self.reason}"
-        if self.code is not None:
-            return f"exit code {self.code}"
-        return signal_name(self.signal or 0)
+        how = signal_name(self.signal or 0) if self.code is None else f"exit code {self.code}"
+        return how if self.hang is None else f"it hung, {self.hang}: {how}"
 
 
 def signal_name(number: int) -> str:

@@ -27,18 +27,26 @@ class Phase(StrEnum):
 FINAL = frozenset({Phase.EXITED, Phase.FAILED, Phase.SKIPPED})
 LIVE = frozenset({Phase.STARTING, Phase.RUNNING, Phase.READY, Phase.STOPPING})
 
-POLITE, TERMINATE, KILL = 0, 1, 2
+# The steps by which a process is ended; a managed lifecycle node is deactivated before the first signal.
+QUIESCE, POLITE, TERMINATE, KILL = -1, 0, 1, 2
 
 
 @dataclass(frozen=True, slots=True)
 class Rules:
-    """What the plan says about the life of a process. `ready_timeout` in seconds, None for ever."""
+    """What the plan says about the life of a process. `ready_timeout` in seconds, None for ever.
+
+    `guarded`: it has to give signs of life once it is ready, and gets SIGABRT first where it hangs and `aborts` says
+    so. `managed`: it is a lifecycle node that is active while it runs.
+    """
 
     restart: Restart | None = None
     stop: Stop = field(default_factory=Stop)
     success: frozenset[int] = frozenset({0})
     awaits_ready: bool = False
     ready_timeout: float | None = None
+    guarded: bool = False
+    aborts: bool = False
+    managed: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,8 +54,10 @@ class State:
     """Where a process is.
 
     `rung` is the step of the stop ladder that it has reached while stopping. `asked` says that somebody wanted it to
-    end; `unasked` that it ended before anybody did. `ending` is how its latest run ended. `short_runs` counts runs in a
-    row that were shorter than `min_uptime`.
+    end; `unasked` that it ended before anybody did. `again` says that it is being ended only to start anew, `hang` what
+    sign of life it has not given where it is ended for that. `halted`: an operator has ended it, or kept it from
+    starting, and may start it later. `ending` is how its latest run ended. `short_runs` counts runs in a row that were
+    shorter than `min_uptime`.
     """
 
     phase: Phase = Phase.WAITING
@@ -58,12 +68,15 @@ class State:
     rung: int = POLITE
     asked: bool = False
     unasked: bool = False
+    again: bool = False
+    hang: str | None = None
+    halted: bool = False
     ending: Ending | None = None
 
 
 @dataclass(frozen=True, slots=True)
 class Start:
-    """Begin now: nothing is waited for any more."""
+    """Begin now: nothing is waited for any more, neither others nor a pause; whatever has ended begins anew."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -123,6 +136,23 @@ class StopRequested:
 
 
 @dataclass(frozen=True, slots=True)
+class Halt:
+    """An operator wants it to end, or never to begin; the run goes on, and it may be started again."""
+
+
+@dataclass(frozen=True, slots=True)
+class Renew:
+    """An operator wants it to end and to start anew; what does not run starts."""
+
+
+@dataclass(frozen=True, slots=True)
+class Hung:
+    """It has not given a sign of life; `reason` says which."""
+
+    reason: str
+
+
+@dataclass(frozen=True, slots=True)
 class Escalated:
     """It is to end with at least this step of the ladder."""
 
@@ -143,7 +173,7 @@ class DelayOver:
 
 Event: TypeAlias = (
     Start | Skip | Started | Unstartable | Satisfied | ReadyExpired | Ended | Gone
-    | StopAhead | StopRequested | Escalated | RungExpired | DelayOver
+    | StopAhead | StopRequested | Halt | Renew | Hung | Escalated | RungExpired | DelayOver
 )  # fmt: skip
 
 
@@ -165,6 +195,23 @@ class Unwatch:
 
 
 @dataclass(frozen=True, slots=True)
+class Guard:
+    """Expect its signs of life from now on."""
+
+
+@dataclass(frozen=True, slots=True)
+class Unguard:
+    """Expect no sign of life any more."""
+
+
+@dataclass(frozen=True, slots=True)
+class Quiesce:
+    """Deactivate it; after `timeout` seconds at the latest this step is over."""
+
+    timeout: float
+
+
+@dataclass(frozen=True, slots=True)
 class Send:
     """Send a signal to all of it; after `timeout` seconds this step is over, None for the last one."""
 
@@ -175,9 +222,10 @@ class Send:
 
 @dataclass(frozen=True, slots=True)
 class Pause:
-    """Wait `delay` seconds before the next start."""
+    """Wait `delay` seconds before the next start, and at random up to the share `jitter` of it longer."""
 
     delay: float
+    jitter: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -190,4 +238,6 @@ class Missed:
     """Tell that it was not ready in time."""
 
 
-Effect: TypeAlias = Spawn | Watch | Unwatch | Send | Pause | Settle | Missed
+Effect: TypeAlias = (
+    Spawn | Watch | Unwatch | Guard | Unguard | Quiesce | Send | Pause | Settle | Missed
+)  # fmt: skip

@@ -10,7 +10,8 @@ from orchestra.supervise.machine import succeeded
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from orchestra.plan.model import Dependency, Process
+    from orchestra.plan.conditions import Dependency
+    from orchestra.plan.model import Process
     from orchestra.supervise.life import Rules, State
     from orchestra.values import Condition
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import random
 import signal
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -11,32 +12,23 @@ from orchestra.logs.tail import Tail
 from orchestra.supervise import life
 from orchestra.supervise.ending import Ending, signal_name, unstartable
 from orchestra.supervise.kin import send_as_asked, send_to_groups
-from orchestra.supervise.life import LIVE, Phase, Rules, State
+from orchestra.supervise.life import LIVE, Phase, State
 from orchestra.supervise.machine import ladder, succeeded, transition
 from orchestra.supervise.order import Life
 from orchestra.supervise.readiness import Readiness
+from orchestra.supervise.rules import rules_of
 from orchestra.supervise.spawn import spawn
 from orchestra.supervise.spec import Spec, argv
 from orchestra.supervise.stream import Stream
-from orchestra.values import Stop
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from orchestra.plan.model import Process
     from orchestra.supervise.kin import Adopted
     from orchestra.supervise.loop import Timer
     from orchestra.supervise.spawn import Child
     from orchestra.supervise.surroundings import Listener, Surroundings
-
-
-def rules_of(process: Process) -> Rules:
-    """Return what the plan says about the life of a process."""
-    return Rules(
-        restart=process.restart,
-        stop=process.stop or Stop(),
-        success=frozenset({0} if process.success_exit_codes is None else process.success_exit_codes),
-        awaits_ready=process.ready is not None,
-        ready_timeout=process.ready.timeout if process.ready else None,
-    )
 
 
 class Unit:
@@ -61,6 +53,14 @@ class Unit:
         )
         self._timers: dict[str, Timer] = {}
         self._sending = False
+        self._plainly: dict[type[Any], Callable[[], None]] = {
+            life.Spawn: self._spawn,
+            life.Unwatch: self._readiness.end,
+            life.Guard: lambda: None,
+            life.Unguard: lambda: None,
+            life.Settle: self._settle,
+            life.Missed: self._missed,
+        }
 
     @property
     def standing(self) -> Life:
@@ -125,21 +125,20 @@ class Unit:
 
     def _perform(self, effect: life.Effect) -> None:
         match effect:
-            case life.Spawn():
-                self._spawn()
-            case life.Watch(timeout):
-                self._watch(timeout)
-            case life.Unwatch():
-                self._readiness.end()
             case life.Send():
                 self._send(effect)
-            case life.Pause(delay):
-                self._pause(delay)
-            case life.Settle():
-                self._cancel("rung")
-                self._cancel("pause")
-            case life.Missed():
-                self._missed()
+            case life.Pause(delay, jitter):
+                self._pause(delay * (1.0 + jitter * random.random()))  # noqa: S311 - nobody has to guess it
+            case life.Watch(timeout):
+                self._watch(timeout)
+            case life.Quiesce(timeout):
+                self._set_timer("rung", timeout, life.RungExpired(life.QUIESCE))
+            case _:
+                self._plainly[type(effect)]()
+
+    def _settle(self) -> None:
+        self._cancel("rung")
+        self._cancel("pause")
 
     def _pause(self, delay: float) -> None:
         self._around.journal.say(f"{self.name} starts again" + (f" in {delay:g} s" if delay else ""))

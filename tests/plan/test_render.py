@@ -10,16 +10,15 @@ import pytest
 
 from orchestra.location import Location, Span
 from orchestra.plan import codec
+from orchestra.plan.conditions import Dependency, Ready
 from orchestra.plan.model import (
     VERSION,
     Argument,
     Component,
-    Dependency,
     ParameterFile,
     Plan,
     Process,
     Provenance,
-    Ready,
     Skipped,
 )
 from orchestra.plan.reactions import (

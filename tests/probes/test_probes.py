@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import pytest
 
-from orchestra.plan.model import Ready
+from orchestra.plan.conditions import Ready
 from orchestra.probes.log import LogProbe
 from orchestra.probes.protocol import Request
 from orchestra.probes.table import probe_for

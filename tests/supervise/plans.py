@@ -15,7 +15,8 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra import events
 from orchestra.location import Location, point
-from orchestra.plan.model import VERSION, Component, Dependency, Plan, Process, Provenance, Ready
+from orchestra.plan.conditions import Dependency, Ready
+from orchestra.plan.model import VERSION, Component, Plan, Process, Provenance
 from orchestra.plan.reactions import (
     DeferredAction,
     LogAction,

@@ -51,7 +51,7 @@ def test_a_program_that_crashes_at_once_starts_five_times_in_ten_seconds() -> No
 
 
 def test_a_good_run_makes_the_next_pause_short_again() -> None:
-    assert decide(Restart("always", 2.0), success=False, uptime=10.0, short_runs=7) == Again(2.0, 0)
+    assert decide(Restart("always", 2.0), success=False, uptime=10.0, short_runs=7) == Again(2.0, 0.0, 0)
 
 
 @pytest.mark.conforms("4.8 retries", "D30")

@@ -8,7 +8,8 @@ import pytest
 
 from orchestra.events import Event, Kind
 from orchestra.location import Location, point
-from orchestra.plan.model import VERSION, Plan, Ready
+from orchestra.plan.conditions import Ready
+from orchestra.plan.model import VERSION, Plan
 from orchestra.plan.reactions import StartAction, Trigger, TriggerEvent
 from orchestra.testing.readiness import identity, standing
 from tests.supervise.plans import process as described

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from orchestra.plan.model import Dependency, Process, Ready
+    from orchestra.plan.conditions import Dependency, Ready
+    from orchestra.plan.model import Process
     from orchestra.values import ParameterValue, Restart, Stop
 
 _WIDTH = 11
