@@ -10,10 +10,11 @@ from typing import TYPE_CHECKING, Any
 from orchestra.logs.names import shown
 from orchestra.logs.tail import Tail
 from orchestra.supervise import life
-from orchestra.supervise.ending import Ending, signal_name, unstartable
+from orchestra.supervise.account import Account
+from orchestra.supervise.ending import Ending, unstartable
 from orchestra.supervise.kin import send_as_asked, send_to_groups
 from orchestra.supervise.life import LIVE, Phase, State
-from orchestra.supervise.machine import ladder, succeeded, transition
+from orchestra.supervise.machine import ladder, transition
 from orchestra.supervise.order import Life
 from orchestra.supervise.readiness import Readiness
 from orchestra.supervise.rules import rules_of
@@ -41,6 +42,7 @@ class Unit:
         self.rules = rules_of(process)
         self.state = State()
         self.tail = Tail()
+        self._account = Account(process.id, self.rules, surroundings)
         self._around = surroundings
         self._listener = listener
         self._child: Child | None = None
@@ -93,7 +95,9 @@ class Unit:
         before = self.state
         self.state, effects = transition(self.rules, before, event)
         if self.state.phase is not before.phase:
-            self._entered(event)
+            if self.over and self.state.ending:
+                self._listener.completed(self.id, self.state.ending)
+            self._account.entered(self.state, event, self.pid)
         for effect in effects:
             self._perform(effect)
         if self.state.phase is not before.phase:
@@ -102,19 +106,17 @@ class Unit:
     def signal(self, number: int) -> None:
         """Send a signal that the plan wants to be sent, where it runs."""
         if self._child:
-            record = self._around.recorder.record
-            record("signal_sent", self.id, pid=self.pid, signal=signal_name(number))
+            self._account.signalled(self.pid, number)
             send_as_asked(self._child.pid, number)
 
     def adopted(self, adopted: Adopted) -> None:
         """Take note of a descendant that detached itself. While stopping, it gets the signal that the others had."""
-        record = self._around.recorder.record
-        record("descendant_adopted", self.id, pid=adopted.pid, command=adopted.command)
+        self._account.adopted(adopted)
         if self.state.phase is Phase.STOPPING:
             if not self._sending:
                 self._signal_late(adopted)
         elif self.state.phase not in LIVE:
-            record("left_behind", self.id, pid=adopted.pid, command=adopted.command)
+            self._account.left_behind(adopted)
             send_to_groups([adopted.pid], signal.SIGTERM)
 
     def nothing_left(self) -> None:
@@ -141,7 +143,7 @@ class Unit:
         self._cancel("pause")
 
     def _pause(self, delay: float) -> None:
-        self._around.journal.say(f"{self.name} starts again" + (f" in {delay:g} s" if delay else ""))
+        self._account.say("starts again" + (f" in {delay:.3g} s" if delay else ""))
         self._set_timer("pause", delay, life.DelayOver())
 
     def _spawn(self) -> None:
@@ -169,8 +171,7 @@ class Unit:
         self._listener.started(self.id, child.pid)
 
     def _not_started(self, ending: Ending) -> None:
-        self._around.journal.say(f"{self.name} {ending}")
-        self._around.recorder.record("process_ended", self.id, **_facts(ending), uptime=0.0)
+        self._account.not_started(ending)
         self._listener.ended(self.id, None, ending)
         self.handle(life.Unstartable(ending, self._around.loop.clock()))
 
@@ -184,9 +185,9 @@ class Unit:
         for stream in self._streams:
             stream.drain()
         self._listener.look()
-        remains = bool(self._around.kin.of(self.id))
-        ending = Ending(*ended)
-        self._tell(ending, remains=remains)
+        left = self._around.kin.of(self.id)
+        remains, ending = bool(left), Ending(*ended)
+        self._account.ended(self.state, ending, child.pid, left)
         if not remains:
             self._bury()
         self._listener.ended(self.id, child.pid, ending)
@@ -225,9 +226,9 @@ class Unit:
         if self.state.phase is not Phase.STOPPING:
             return  # that look has found that nothing is left
         if step.rung > life.POLITE:
-            self._around.journal.say(f"{self.name} has not ended yet: {step.signal}")
+            self._account.say(f"has not ended yet: {step.signal}")
         members = [adopted.pid for adopted in self._around.kin.of(self.id)]
-        self._around.recorder.record("signal_sent", self.id, pid=self.pid, signal=step.signal)
+        self._account.signalled(self.pid, step.signal)
         send_to_groups([*([self.pid] if self.pid else []), *members], signal.Signals[step.signal])
         self._cancel("rung")
         if step.timeout is not None:
@@ -247,42 +248,3 @@ class Unit:
         timer = self._timers.pop(name, None)
         if timer:
             timer.cancel()
-
-    def _entered(self, event: life.Event) -> None:
-        """Record the new phase, and tell the user what he should know."""
-        phase, ending = self.state.phase, self.state.ending
-        if self.over and ending:
-            self._listener.completed(self.id, ending)
-        data = _facts(ending) if ending and phase in life.FINAL else {}
-        if phase is Phase.RUNNING:
-            data = {"start": self.state.starts}
-        self._around.recorder.record(
-            f"process_{phase}",  # type: ignore[arg-type] # there is a kind for every phase
-            self.id,
-            pid=self.pid,
-            cause=type(event).__name__,
-            **data,
-        )
-        if phase is Phase.FAILED and self.rules.restart and self.rules.restart.policy != "no":
-            self._around.journal.say(f"{self.name} is not started again: too many short runs in a row")
-        if phase is Phase.READY:
-            uptime = self._around.loop.clock() - self.state.started_at
-            self._around.journal.say(f"{self.name} is ready after {uptime:.1f} s")
-
-    def _tell(self, ending: Ending, *, remains: bool) -> None:
-        uptime = self._around.loop.clock() - self.state.started_at
-        record = self._around.recorder.record
-        record("process_ended", self.id, pid=self.pid, **_facts(ending), uptime=round(uptime, 6))
-        if self.state.phase is Phase.STOPPING:
-            return
-        verb = "ended" if succeeded(self.rules, ending) else "failed"
-        self._around.journal.say(f"{self.name} {verb} ({ending}) after {uptime:.1f} s")
-        for adopted in self._around.kin.of(self.id) if remains else ():
-            record("left_behind", self.id, pid=adopted.pid, command=adopted.command)
-            self._around.journal.say(
-                f"{self.name} left a process behind: {adopted.command} (pid {adopted.pid})"
-            )
-
-
-def _facts(ending: Ending) -> dict[str, Any]:
-    return {"code": ending.code, "signal": ending.signal, "reason": ending.reason}
