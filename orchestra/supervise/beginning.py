@@ -29,6 +29,7 @@ class Beginning:
         self._around = surroundings
         self._listener = listener
         self._edge_timers: dict[tuple[str, Dependency], Timer] = {}
+        self._waived: set[tuple[str, Dependency]] = set()
 
     def hold(self, processes: Iterable[str]) -> None:
         """Only a trigger starts these."""
@@ -53,7 +54,7 @@ class Beginning:
         for unit in self._units.values():
             if unit.state.phase is not Phase.WAITING:
                 continue
-            fate = order.fate(unit.process.depends_on, standings)
+            fate = order.fate(self._edges(unit), standings)
             if fate.blocker:
                 self._skip(unit, fate.blocker)
             elif fate.begin and unit.id not in self._held:
@@ -74,6 +75,21 @@ class Beginning:
         """Nothing begins any more."""
         for timer in self._edge_timers.values():
             timer.cancel()
+
+    def awaited(self, unit: Unit) -> list[str]:
+        """Return what a waiting process waits for, in words."""
+        if unit.id in self._held:
+            return ["a trigger that starts it"]
+        words = []
+        for edge in self._edges(unit):
+            target = self._units[edge.process]
+            if order.reached(edge.condition, target.standing) is None:
+                what = f" ({target.awaited})" if edge.condition == "ready" else ""
+                words.append(f"{target.name} to be {_PARTICIPLES[edge.condition]}{what}")
+        return words
+
+    def _edges(self, unit: Unit) -> list[Dependency]:
+        return [edge for edge in unit.process.depends_on if (unit.id, edge) not in self._waived]
 
     def _skip(self, unit: Unit, blocker: Dependency) -> None:
         target, condition = shown(blocker.process), _PARTICIPLES[blocker.condition]
@@ -100,4 +116,9 @@ class Beginning:
         condition = _PARTICIPLES[edge.condition]
         what = f" ({target.awaited})" if edge.condition == "ready" else ""
         reason = f"{unit.name} waited {edge.timeout:g} s for {target.name} to be {condition}{what}"
-        self._listener.failed(reason, target.id)
+        if edge.required:
+            self._listener.failed(reason, target.id)
+        else:
+            self._waived.add((unit.id, edge))
+            self._around.journal.say(f"{reason}; it is not required")
+            self._listener.changed()

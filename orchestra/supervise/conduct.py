@@ -47,7 +47,13 @@ def conduct(beginnings: Beginnings) -> int:
     except OSError as error:
         raise Refused(FAILED, f"the run directory cannot be written: {error}") from error
     with surroundings(
-        loop, run_directory, plan, document.options, run_id=beginnings.run_id, resolver=resolver
+        loop,
+        run_directory,
+        plan,
+        document.options,
+        run_id=beginnings.run_id,
+        resolver=resolver,
+        more_time=lambda _seconds: False,
     ) as around:
         outcome = _run(beginnings, attention, plan, around)
     try:

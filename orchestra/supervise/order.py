@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from graphlib import TopologicalSorter
+from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple
 
-from orchestra.supervise.life import Phase
+from orchestra.supervise.life import FINAL, Phase
 from orchestra.supervise.machine import succeeded
+from orchestra.values import Stop
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -15,10 +18,14 @@ if TYPE_CHECKING:
     from orchestra.supervise.life import Rules, State
     from orchestra.values import Condition
 
+# After this time, in seconds, everything that is left is killed, unless a description asks for more.
+DEADLINE = 5.0
 # The last processes in the stop order are asked at the latest after this time, so that their own steps still fit into
 # the deadline of the whole stop; and one level waits no longer than this for the one before.
 _LAST_LEVEL_BY = 2.0
 _LONGEST_LEVEL = 1.0
+# Between the last step of a process and the deadline of all.
+_MARGIN = 0.5
 
 
 class Life(NamedTuple):
@@ -37,11 +44,11 @@ class Fate(NamedTuple):
 
 
 def fate(dependencies: Iterable[Dependency], lives: Mapping[str, Life]) -> Fate:
-    """Judge a waiting process by what it depends on."""
+    """Judge a waiting process by what it depends on; what is not required is awaited only as long as it may come."""
     awaited = []
     for dependency in dependencies:
         holds = reached(dependency.condition, lives[dependency.process])
-        if holds is False:
+        if holds is False and dependency.required:
             return Fate(blocker=dependency)
         if holds is None:
             awaited.append(dependency)
@@ -49,17 +56,25 @@ def fate(dependencies: Iterable[Dependency], lives: Mapping[str, Life]) -> Fate:
 
 
 def reached(condition: Condition, life: Life) -> bool | None:
-    """Tell whether a process has reached a condition: None for not yet, False for never."""
+    """Tell whether a process has reached a condition: None for not yet, False for never.
+
+    What an operator has ended may be started again, so it is not over for those who wait for more than its end.
+    """
     state = life.state
     over = state.phase in (Phase.EXITED, Phase.FAILED)
-    never = state.phase is Phase.SKIPPED or over
+    never = state.phase in FINAL and not state.halted
     if condition == "started":
         return state.starts > 0 or (False if never else None)
     if condition == "ready":
         return state.been_ready or (False if never else None)
     if condition == "exited":
         return over or (False if never else None)
-    good = state.phase is Phase.EXITED and state.ending is not None and succeeded(life.rules, state.ending)
+    good = (
+        state.phase is Phase.EXITED
+        and not state.halted
+        and state.ending is not None
+        and succeeded(life.rules, state.ending)
+    )
     return good or (False if never else None)
 
 
@@ -67,20 +82,33 @@ def stop_levels(processes: Iterable[Process]) -> dict[str, int]:
     """Return for each process when it is stopped: 0 for those on which nobody depends, then what they depend on."""
     needs = {process.id: [edge.process for edge in process.depends_on] for process in processes}
     levels = dict.fromkeys(needs, 0)
-    # The plan has no cycles, so no chain is longer than the number of processes.
-    for _ in needs:
-        moved = False
-        for dependent, targets in needs.items():
-            for target in targets:
-                if levels[target] <= levels[dependent]:
-                    levels[target] = levels[dependent] + 1
-                    moved = True
-        if not moved:
-            break
+    for dependent in reversed([*TopologicalSorter(needs).static_order()]):
+        for target in needs[dependent]:
+            levels[target] = max(levels[target], levels[dependent] + 1)
     return levels
 
 
-def patience(levels: Iterable[int]) -> float:
-    """Return how long, in seconds, one level of the stop order waits for the one before."""
-    deepest = max(levels, default=0)
-    return min(_LONGEST_LEVEL, _LAST_LEVEL_BY / deepest) if deepest else _LONGEST_LEVEL
+class Schedule(NamedTuple):
+    """How a run ends: when each level is asked at the latest, and when all that is left is killed; seconds from now."""
+
+    asked: tuple[float, ...]
+    deadline: float
+
+
+def schedule(levels: Mapping[str, int], stops: Mapping[str, Stop]) -> Schedule:
+    """Plan the end of a run; `stops` are what the description says of single processes.
+
+    Who writes a long time for a process means it: the level behind it waits as long, and the deadline comes after it.
+    """
+    deepest = max(levels.values(), default=0)
+    usual = min(_LONGEST_LEVEL, _LAST_LEVEL_BY / deepest) if deepest else _LONGEST_LEVEL
+    longest = dict.fromkeys(range(deepest + 1), usual)
+    for process, stop in stops.items():
+        longest[levels[process]] = max(longest[levels[process]], stop.timeout)
+    asked = (0.0, *accumulate(longest[level] for level in range(deepest)))
+    ends = [
+        asked[levels[process]] + stop.timeout + stop.kill_timeout + _MARGIN for process, stop in stops.items()
+    ]
+    if asked[deepest] > usual * deepest:  # those who say nothing have been moved back
+        ends.append(asked[deepest] + Stop().timeout + Stop().kill_timeout + _MARGIN)
+    return Schedule(asked, max(DEADLINE, *ends) if ends else DEADLINE)

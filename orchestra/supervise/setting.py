@@ -44,8 +44,9 @@ def surroundings(
     *,
     run_id: str,
     resolver: Resolver | None,
+    more_time: Callable[[float], bool],
 ) -> Iterator[Surroundings]:
-    """Open everything for a run; `resolver` is the one that stays for it."""
+    """Open everything for a run; `resolver` is the one that stays for it, `more_time` asks the keeper for patience."""
     with ExitStack() as opened:
         sheets = opened.enter_context(_screens(loop, options))
         warn = _Warning()
@@ -75,6 +76,7 @@ def surroundings(
             environment=_environment(run_directory, run_id, colour=sheets.output.colour),
             folder=run_directory.path,
             options=options,
+            more_time=more_time,
         )
 
 

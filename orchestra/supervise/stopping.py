@@ -16,8 +16,6 @@ if TYPE_CHECKING:
     from orchestra.supervise.surroundings import Surroundings
     from orchestra.supervise.unit import Unit
 
-# However long the steps of single processes are: after this time, in seconds, everything that is left is killed.
-DEADLINE = 5.0
 # What the kernel has not ended this long after SIGKILL, in seconds, it will not end soon (an uninterruptible wait).
 _GIVE_UP_AFTER = 0.7
 
@@ -32,6 +30,7 @@ class Stopping:
         self._units = units
         self._around = surroundings
         self._levels: dict[str, int] = {}
+        self._deadline_after = order.DEADLINE
         self._interrupts = 0
         self.begun_at: float | None = None
         self.given_up = False
@@ -44,12 +43,14 @@ class Stopping:
     @property
     def too_late(self) -> bool:
         """Whether the deadline has passed: only what has been killed is waited for."""
-        return self.begun_at is not None and self._around.loop.clock() >= self.begun_at + DEADLINE
+        return self.remaining is not None and self.remaining <= 0.0
 
     @property
     def remaining(self) -> float | None:
         """The time until the deadline in seconds, None where nothing is being stopped."""
-        return None if self.begun_at is None else self.begun_at + DEADLINE - self._around.loop.clock()
+        if self.begun_at is None:
+            return None
+        return self.begun_at + self._deadline_after - self._around.loop.clock()
 
     @property
     def stuck(self) -> dict[int, str]:
@@ -65,10 +66,20 @@ class Stopping:
         self._around.recorder.record("run_stopping", cause=cause)
         for unit in self._units.values():
             unit.handle(life.StopAhead() if unit.state.phase in LIVE else life.StopRequested())
-        wait = order.patience(self._levels.values())
-        for level in sorted(set(self._levels.values())):
-            loop.call_later(wait * level, partial(self._stop_level, level))
-        loop.call_later(DEADLINE, self._deadline)
+        schedule = self._schedule()
+        self._deadline_after = schedule.deadline
+        for level, delay in enumerate(schedule.asked):
+            loop.call_later(delay, partial(self._stop_level, level))
+        loop.call_later(schedule.deadline, self._deadline)
+
+    def _schedule(self) -> order.Schedule:
+        """Plan the end; what takes longer than usual is asked of the keeper, who would lose patience."""
+        live = [unit for unit in self._units.values() if unit.state.phase in LIVE]
+        stops = {unit.id: unit.process.stop for unit in live if unit.process.stop is not None}
+        schedule = order.schedule(self._levels, stops)
+        if schedule.deadline > order.DEADLINE and not self._around.more_time(schedule.deadline):
+            return order.schedule(self._levels, {})
+        return schedule
 
     def go_on(self) -> None:
         """Ask the processes on which nothing that runs depends any more."""
@@ -104,7 +115,7 @@ class Stopping:
             unit.handle(life.Escalated(rung))
 
     def _deadline(self) -> None:
-        self._escalate(life.KILL, f"{DEADLINE:g} s are over: SIGKILL to everything that is left")
+        self._escalate(life.KILL, f"{self._deadline_after:g} s are over: SIGKILL to everything that is left")
         self._around.loop.call_later(_GIVE_UP_AFTER, self._give_up)
 
     def _give_up(self) -> None:

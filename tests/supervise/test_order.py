@@ -1,12 +1,14 @@
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
 
 from orchestra.supervise.ending import Ending
 from orchestra.supervise.life import Phase, Rules, State
-from orchestra.supervise.order import Fate, Life, fate, patience, reached, stop_levels
+from orchestra.supervise.order import Fate, Life, fate, reached, schedule, stop_levels
+from orchestra.values import Stop
 from tests.supervise.plans import after, process
 
 if TYPE_CHECKING:
@@ -62,6 +64,19 @@ def test_a_process_begins_when_all_conditions_hold() -> None:
     assert fate(both, lives) == Fate(blocker=both[0])
 
 
+def test_what_is_not_required_is_awaited_only_as_long_as_it_may_come() -> None:
+    optional = tuple(replace(edge, required=False) for edge in after("a", "ready"))
+    assert fate(optional, {"a": Life(Rules(), STATES["running"])}) == Fate(awaited=optional)
+    for state in ("failed", "skipped", "ready"):
+        assert fate(optional, {"a": Life(Rules(), STATES[state])}) == Fate(begin=True)
+
+
+@pytest.mark.parametrize("state", ["ended well", "failed", "skipped"])
+def test_what_an_operator_has_ended_may_be_started_again(state: str) -> None:
+    life = Life(Rules(), replace(STATES[state], halted=True, been_ready=False))
+    assert [reached(condition, life) for condition in ("ready", "completed")] == [None, None]
+
+
 def test_dependents_stop_before_what_they_depend_on() -> None:
     chain = [
         process("map"),
@@ -73,7 +88,30 @@ def test_dependents_stop_before_what_they_depend_on() -> None:
 
 
 @pytest.mark.parametrize(
-    ("levels", "seconds"), [([], 1.0), ([0], 1.0), ([0, 1], 1.0), ([0, 1, 2, 3, 4], 0.5)]
+    ("levels", "asked"),
+    [
+        ([], (0.0,)),
+        ([0], (0.0,)),
+        ([0, 1], (0.0, 1.0)),
+        ([0, 1, 2, 3, 4], (0.0, 0.5, 1.0, 1.5, 2.0)),
+    ],
 )
-def test_the_last_level_is_asked_in_time(levels: list[int], seconds: float) -> None:
-    assert patience(levels) == seconds
+def test_the_last_level_is_asked_in_time(levels: list[int], asked: tuple[float, ...]) -> None:
+    named = {str(index): level for index, level in enumerate(levels)}
+    assert schedule(named, {}) == (asked, 5.0)
+
+
+@pytest.mark.parametrize(
+    ("stops", "asked", "deadline"),
+    [
+        ({"a": Stop(timeout=0.1, kill_timeout=0.1)}, (0.0, 1.0, 2.0), 5.0),
+        ({"a": Stop(timeout=20.0, kill_timeout=1.0)}, (0.0, 20.0, 21.0), 25.0),
+        ({"b": Stop(timeout=20.0, kill_timeout=1.0)}, (0.0, 1.0, 21.0), 25.0),
+        ({"c": Stop(timeout=20.0, kill_timeout=10.0)}, (0.0, 1.0, 2.0), 32.5),
+        ({"c": Stop(timeout=1.0, kill_timeout=0.5)}, (0.0, 1.0, 2.0), 5.0),
+    ],
+)
+def test_who_asks_for_more_time_gets_it(
+    stops: dict[str, Stop], asked: tuple[float, ...], deadline: float
+) -> None:
+    assert schedule({"a": 0, "b": 1, "c": 2}, stops) == (asked, deadline)
