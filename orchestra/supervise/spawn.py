@@ -64,6 +64,7 @@ def spawn(spec: Spec, stdin: int | None = None) -> Child:
             stdout=inner[0],
             stderr=inner[1],
             start_new_session=True,
+            preexec_fn=spec.before_exec,  # noqa: PLW1509 - the supervisor has one thread
         )
         child = _child(process, outputs)
         ours.pop_all()

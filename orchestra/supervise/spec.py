@@ -16,7 +16,10 @@ RUN_FOLDER = "${run}"
 
 @dataclass(frozen=True, slots=True)
 class Spec:
-    """One program to execute. `tty` gives it a terminal for its output, `stdin` our own standard input."""
+    """One program to execute. `tty` gives it a terminal for its output, `stdin` our own standard input.
+
+    `before_exec` is called in the child, after the fork and before the program begins; where it raises, nothing runs.
+    """
 
     id: str
     command: tuple[str, ...]
@@ -24,6 +27,7 @@ class Spec:
     cwd: str | None
     tty: bool
     stdin: bool
+    before_exec: Callable[[], None] | None = None
 
 
 def located(process: Process, folder: str) -> Process:
