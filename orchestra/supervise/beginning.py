@@ -62,6 +62,10 @@ class Beginning:
             elif unit.id not in self._held:
                 self._time_edges(unit, fate.awaited)
 
+    def forget(self, unit: Unit) -> None:
+        """Let a process begin without being waited for: somebody starts it by hand."""
+        self._held.discard(unit.id)
+
     def release(self, unit: Unit) -> None:
         """Let a process begin that only a trigger starts; one that has ended begins again, one that runs does not."""
         self._held.discard(unit.id)

@@ -29,11 +29,11 @@ class Listener(Protocol):
     def started(self, process: str, pid: int) -> None:
         """The program of a process runs."""
 
-    def ended(self, process: str, pid: int | None, ending: Ending) -> None:
-        """One run of a process is over, or has not come about."""
+    def ended(self, process: str, pid: int | None, ending: Ending, *, intended: bool) -> None:
+        """One run of a process is over, or has not come about; `intended` by an operator."""
 
-    def completed(self, process: str, ending: Ending) -> None:
-        """The last run of a process is over: it will not start again by itself."""
+    def completed(self, process: str, ending: Ending, *, intended: bool) -> None:
+        """The last run of a process is over: it will not start again by itself; `intended` by an operator."""
 
     def skipped(self, process: str) -> None:
         """A process will never begin."""

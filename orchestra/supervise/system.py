@@ -10,24 +10,30 @@ from orchestra.supervise import happening as happenings
 from orchestra.supervise import life
 from orchestra.supervise.actions import Actions
 from orchestra.supervise.beginning import Beginning
-from orchestra.supervise.ending import Ending, signal_name
+from orchestra.supervise.ending import signal_name
 from orchestra.supervise.fragment import merged
 from orchestra.supervise.furnishing import furnish
 from orchestra.supervise.life import FINAL, LIVE, Phase
 from orchestra.supervise.nodes import Nodes
-from orchestra.supervise.outcome import Facts
+from orchestra.supervise.operation import Operation
 from orchestra.supervise.performance import Performance
+from orchestra.supervise.state_report import state_report
 from orchestra.supervise.stopping import Stopping
 from orchestra.supervise.triggers import LONGEST_AT_THE_END, Triggers, held
 from orchestra.supervise.unit import Unit
+from orchestra.supervise.verdict import Verdict
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from orchestra.plan.model import Plan, Process
     from orchestra.plan.reactions import Trigger, TriggeredAction
+    from orchestra.supervise.ending import Ending
     from orchestra.supervise.fragment import Fragment
+    from orchestra.supervise.outcome import Facts
     from orchestra.supervise.surroundings import Surroundings
+
+_LIVELY = frozenset({*LIVE, Phase.RESTARTING})
 
 
 class System:
@@ -44,13 +50,10 @@ class System:
         self._nodes = Nodes(surroundings, self._triggers.happened, self.went_wrong, self.changed)
         self.stopping = Stopping(self._units, surroundings)
         self._actions = Actions(self._units, self._beginning, self._triggers, self._nodes, self.end_with)
+        self.operation = Operation(self._units, self._beginning, self.stopping, surroundings, self.end_with)
+        self._verdict = Verdict(self._units, fail_on_any=surroundings.options.fail_on_any)
         self._pids: dict[str, int] = {}
         self._dirty = False
-        self._signal: int | None = None
-        self._required: tuple[str, Ending] | None = None
-        self._failure: str | None = None
-        self._ended_by: str | None = None
-        self._mishaps: list[str] = []
         surroundings.observers.on_death = self.failed
 
     @property
@@ -62,8 +65,11 @@ class System:
             return False
         if self._around.questions.pending and not self.stopping.too_late:
             return False
-        lively = {*LIVE, Phase.RESTARTING}
-        return not any(unit.state.phase in lively for unit in self._units.values())
+        return not any(self._keeps_on(unit) for unit in self._units.values())
+
+    def _keeps_on(self, unit: Unit) -> bool:
+        """Tell whether a process keeps the run from being over; one that an operator has ended may come back."""
+        return unit.state.phase in _LIVELY or (unit.state.halted and not self.ending)
 
     @property
     def ending(self) -> bool:
@@ -89,7 +95,7 @@ class System:
 
     def stop_signal(self, number: int) -> None:
         """Somebody wants the run to end."""
-        self._signal = number if self._signal is None else self._signal
+        self._verdict.signalled(number)
         self.stopping.interrupted(number)
         name = signal_name(number)
         self._stop(
@@ -100,21 +106,11 @@ class System:
 
     def facts(self, left: dict[int, str]) -> Facts:
         """Return what counts for the outcome; `left` names by pid what is there although nothing should be."""
-        failed = tuple(
-            (unit.name, unit.state.ending or Ending(code=1))
-            for unit in self._units.values()
-            if unit.state.phase is Phase.FAILED
-        )
-        return Facts(
-            unstoppable=tuple({**left, **self.stopping.stuck}.values()),
-            required=self._required,
-            signal=self._signal,
-            failure=self._failure,
-            failed=failed,
-            mishaps=tuple(self._mishaps),
-            fail_on_any=self._around.options.fail_on_any,
-            ended_by=self._ended_by,
-        )
+        return self._verdict.facts({**left, **self.stopping.stuck})
+
+    def state_report(self) -> str:
+        """Return what runs and what is waited for, in lines for people."""
+        return state_report(self.operation.processes(), self.stopping)
 
     # What the processes tell.
 
@@ -131,15 +127,17 @@ class System:
             self._nodes.started(process, pid)
         self._triggers.happened(happenings.started(process, pid))
 
-    def ended(self, process: str, pid: int | None, ending: Ending) -> None:
-        """One run of a process is over, or has not come about."""
+    def ended(self, process: str, pid: int | None, ending: Ending, *, intended: bool) -> None:
+        """One run of a process is over, or has not come about; what an operator ends sets off no trigger."""
         self._nodes.ended(process, str(ending))
-        self._triggers.happened(happenings.ended(process, pid, ending, last=False))
+        if not intended:
+            self._triggers.happened(happenings.ended(process, pid, ending, last=False))
 
-    def completed(self, process: str, ending: Ending) -> None:
+    def completed(self, process: str, ending: Ending, *, intended: bool) -> None:
         """A process will not start again by itself."""
         self._nodes.never(process, f"has ended ({ending})")
-        self._triggers.happened(happenings.ended(process, self._pids.get(process), ending, last=True))
+        if not intended:
+            self._triggers.happened(happenings.ended(process, self._pids.get(process), ending, last=True))
 
     def skipped(self, process: str) -> None:
         """A process will never begin."""
@@ -157,13 +155,13 @@ class System:
         self._around.journal.say(reason)
         if about is not None:
             self._show_last_lines(self._units[about])
-        self._failure = reason
+        self._verdict.failed(reason)
         self._stop(reason)
 
     def went_wrong(self, what: str) -> None:
         """Take note of something that the plan says and that was not done; the run goes on."""
         self._around.journal.say(f"error: {what}")
-        self._mishaps.append(what)
+        self._verdict.went_wrong(what)
 
     def look(self) -> None:
         """Find out who became our child and whose child it was, and who of them has ended."""
@@ -216,9 +214,10 @@ class System:
         Triggers on the end hear the reason; `told` is what the terminal shows instead of it.
         """
         told = reason if told is None else told
-        if not self.stopping.begun:
-            self._blame()
-        self._ended_by = told if self._ended_by is None else self._ended_by
+        blamed = None if self.stopping.begun else self._verdict.blame()
+        if blamed:
+            self._show_last_lines(blamed)
+        self._verdict.ended_by(told)
         self._stop(reason, f"{told}: stopping")
 
     # What follows from it.
@@ -256,21 +255,9 @@ class System:
 
     def _judge_ends(self) -> None:
         """A required process that is over for good takes the run with it."""
-        over = self._required_ends()
-        if not over:
-            return
-        unit = next(filter(_has_failed, over), over[0])
-        self.end_with(f"required process {unit.name} has ended")
-
-    def _blame(self) -> None:
-        """Keep the first required process that failed, whether its end or a trigger on its end stops the run."""
-        unit = next(filter(_has_failed, self._required_ends()), None)
+        unit = self._verdict.required_end()
         if unit:
-            self._required = (unit.name, unit.state.ending or Ending(code=1))
-            self._show_last_lines(unit)
-
-    def _required_ends(self) -> list[Unit]:
-        return [unit for unit in self._units.values() if unit.process.required and unit.over]
+            self.end_with(f"required process {unit.name} has ended")
 
     def _show_last_lines(self, unit: Unit) -> None:
         if unit.tail.lines:
@@ -293,7 +280,3 @@ class System:
         self.stopping.begin(cause)
         self._triggers.happened(happenings.shutdown(cause, due_to_sigint=due_to_sigint))
         self.changed()
-
-
-def _has_failed(unit: Unit) -> bool:
-    return unit.state.phase is Phase.FAILED

@@ -96,7 +96,7 @@ class Unit:
         self.state, effects = transition(self.rules, before, event)
         if self.state.phase is not before.phase:
             if self.over and self.state.ending:
-                self._listener.completed(self.id, self.state.ending)
+                self._listener.completed(self.id, self.state.ending, intended=self.state.halted)
             self._account.entered(self.state, event, self.pid)
         for effect in effects:
             self._perform(effect)
@@ -172,7 +172,7 @@ class Unit:
 
     def _not_started(self, ending: Ending) -> None:
         self._account.not_started(ending)
-        self._listener.ended(self.id, None, ending)
+        self._listener.ended(self.id, None, ending, intended=False)
         self.handle(life.Unstartable(ending, self._around.loop.clock()))
 
     def _exited(self) -> None:
@@ -190,7 +190,7 @@ class Unit:
         self._account.ended(self.state, ending, child.pid, left)
         if not remains:
             self._bury()
-        self._listener.ended(self.id, child.pid, ending)
+        self._listener.ended(self.id, child.pid, ending, intended=self.state.again or self.state.halted)
         self.handle(life.Ended(ending, remains, self._around.loop.clock()))
 
     def _bury(self) -> None:
