@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from orchestra.plan import codec
@@ -112,11 +113,15 @@ def _run(beginnings: Beginnings, attention: Attention, plan: Plan, around: Surro
     )
     count = len(plan.processes)
     around.journal.say(f"{count} process{'' if count == 1 else 'es'}; logs in {around.folder / 'logs'}")
-    system.begin()
-    while not system.over:
-        around.loop.run_once()
-    system.finish()
-    return _conclude(system, around, beginnings)
+    with ExitStack() as attended:
+        if beginnings.attend:
+            attendant = beginnings.attend(around, system.operation, beginnings.run_id, beginnings.keeper)
+            attended.callback(attendant.close)
+        system.begin()
+        while not system.over:
+            around.loop.run_once()
+        system.finish()
+        return _conclude(system, around, beginnings)
 
 
 def _conclude(system: System, around: Surroundings, beginnings: Beginnings) -> Outcome:

@@ -22,10 +22,11 @@ from orchestra.supervise.signals import disregard_hang_up, receive_signals, rese
 
 TYPE_CHECKING = False  # `typing` itself costs more than the rest of this module
 if TYPE_CHECKING:
+    from orchestra.supervise.attendance import Attend
     from orchestra.supervise.resolver import Prepare
 
 
-def run(prepare: Prepare) -> int:
+def run(prepare: Prepare, attend: Attend | None = None) -> int:
     """Run what `prepare` describes and return the exit status of the design's table.
 
     `prepare` runs in the resolver process. It writes one JSON document `{"plan": ..., "options": ...}` to the stream
@@ -46,12 +47,14 @@ def run(prepare: Prepare) -> int:
             are new, `do` is carried out in place of the deferred action.
         {"failure": TEXT, "location": LOCATION or null}
             the trigger fails. So it does where the function raises.
+
+    `attend` is called in the supervisor process when the run is about to begin, and may import what it needs then.
     """
     keeper = os.getpid()
-    return keep(lambda: _supervise(prepare, keeper))
+    return keep(lambda: _supervise(prepare, attend, keeper))
 
 
-def _supervise(prepare: Prepare, keeper: int) -> int:
+def _supervise(prepare: Prepare, attend: Attend | None, keeper: int) -> int:
     run_id = f"{time.time_ns():x}-{keeper}"
     os.environ[RUN] = run_id
     # The keeper's mask is still in force: no signal can reach the resolver with our handlers, nor us without them.
@@ -66,4 +69,4 @@ def _supervise(prepare: Prepare, keeper: int) -> int:
     except BaseException:  # noqa: BLE001 - a forked child must not run on into its parent's code
         sys.excepthook(*sys.exc_info())
         return 3
-    return guarded_run(Beginnings(run_id, keeper, resolver, signals))
+    return guarded_run(Beginnings(run_id, keeper, resolver, signals, attend))
