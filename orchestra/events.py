@@ -17,9 +17,9 @@ Kind: TypeAlias = Literal[
     "process_stopping",
     "process_restarting",  # data: delay, short_runs
     "process_exited",  # for good, as it should; data: code, signal, uptime
-    "process_failed",  # for good, not as it should; data as above, reason where it never ran
+    "process_failed",  # for good, not as it should; data as above, reason where it never ran, hang
     "process_skipped",
-    "process_ended",  # one run of it is over, whatever follows; data: code, signal, reason, uptime
+    "process_ended",  # one run of it is over, whatever follows; data: code, signal, reason, hang, uptime
     "signal_sent",  # data: signal
     "descendant_adopted",  # a child of a process detached itself; data: command
     "left_behind",  # something outlived its process or the run; data: command

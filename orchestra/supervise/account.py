@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.logs.names import shown
 from orchestra.supervise.ending import signal_name
-from orchestra.supervise.life import FINAL, Phase
+from orchestra.supervise.life import FINAL, Hung, Phase
 from orchestra.supervise.machine import succeeded
 
 if TYPE_CHECKING:
@@ -47,6 +47,8 @@ class Account:
         restart = self._rules.restart
         if phase is Phase.FAILED and not state.asked and restart and restart.budget is not None:
             self.say("is not started again: too many short runs in a row")
+        if isinstance(event, Hung):
+            self.say(f"hangs ({event.reason}) and is ended")
         if phase is Phase.READY:
             self.say(f"is ready after {self._around.loop.clock() - state.started_at:.1f} s")
 
@@ -86,4 +88,4 @@ class Account:
 
 def facts(ending: Ending) -> dict[str, Any]:
     """Return what the event of an end says of it."""
-    return {"code": ending.code, "signal": ending.signal, "reason": ending.reason}
+    return {"code": ending.code, "signal": ending.signal, "reason": ending.reason, "hang": ending.hang}

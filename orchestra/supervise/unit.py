@@ -186,7 +186,7 @@ class Unit:
             stream.drain()
         self._listener.look()
         left = self._around.kin.of(self.id)
-        remains, ending = bool(left), Ending(*ended)
+        remains, ending = bool(left), Ending(*ended, hang=self.state.hang)
         self._account.ended(self.state, ending, child.pid, left)
         if not remains:
             self._bury()

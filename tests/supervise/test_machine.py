@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from orchestra.supervise import life
 from orchestra.supervise.ending import Ending
-from orchestra.supervise.life import FINAL, KILL, LIVE, POLITE, TERMINATE, Phase, Rules, State
-from orchestra.supervise.machine import transition
+from orchestra.supervise.life import FINAL, KILL, LIVE, POLITE, QUIESCE, TERMINATE, Phase, Rules, State
+from orchestra.supervise.machine import _TABLE, transition
 from orchestra.values import Restart, Stop
 
 if TYPE_CHECKING:
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
 PLAIN = Rules()
 AWAITED = Rules(awaits_ready=True, ready_timeout=5.0)
 RESPAWNED = Rules(restart=Restart("always", delay=3.0))
+GUARDED = Rules(guarded=True)
+ABORTED = Rules(guarded=True, aborts=True, awaits_ready=True, ready_timeout=5.0)
+MANAGED = Rules(managed=True)
 GOOD, BAD = Ending(code=0), Ending(code=3)
 LOST = Ending(code=127, reason="no such file")
 
@@ -81,6 +84,44 @@ TRANSITIONS: list[tuple[Phase, dict[str, object], Rules, Event, Phase, tuple[Eff
     (A, {}, RESPAWNED, life.StopRequested(), X, (life.Settle(),)),
     (X, {}, PLAIN, life.Start(), S, (life.Spawn(),)),
     (F, {}, PLAIN, life.Start(), S, (life.Spawn(),)),
+    # An operator's requests.
+    (K, {}, PLAIN, life.Start(), S, (life.Spawn(),)),
+    (A, {}, RESPAWNED, life.Start(), S, (life.Settle(), life.Spawn())),
+    (W, {}, PLAIN, life.Halt(), K, ()),
+    (S, {}, PLAIN, life.Halt(), S, ()),
+    (U, {}, AWAITED, life.Halt(), O, (life.Unwatch(), ASK)),
+    (R, {}, AWAITED, life.Halt(), O, (ASK,)),
+    (O, {"unasked": True, "ending": BAD}, RESPAWNED, life.Halt(), O, ()),
+    (A, {}, RESPAWNED, life.Halt(), X, (life.Settle(),)),
+    (U, {}, AWAITED, life.Renew(), O, (life.Unwatch(), ASK)),
+    (R, {}, AWAITED, life.Renew(), O, (ASK,)),
+    (O, {}, PLAIN, life.Renew(), O, ()),
+    (O, {"again": True}, PLAIN, life.Ended(BAD, remains=False, now=9.0), S, (life.Settle(), life.Spawn())),
+    (O, {"again": True, "ending": BAD}, PLAIN, life.Gone(9.0), S, (life.Settle(), life.Spawn())),
+    (A, {}, RESPAWNED, life.Renew(), S, (life.Settle(), life.Spawn())),
+    (X, {}, PLAIN, life.Renew(), S, (life.Spawn(),)),
+    (F, {}, PLAIN, life.Renew(), S, (life.Spawn(),)),
+    (K, {}, PLAIN, life.Renew(), S, (life.Spawn(),)),
+    # Signs of life.
+    (S, {}, GUARDED, life.Started(9.0), U, (life.Guard(),)),
+    (S, {}, ABORTED, life.Started(9.0), U, (life.Watch(5.0),)),
+    (U, {}, ABORTED, life.Satisfied(), R, (life.Unwatch(), life.Guard())),
+    (U, {}, GUARDED, life.Hung("no message"), O, (life.Unguard(), ASK)),
+    (R, {}, ABORTED, life.Hung("no message"), O, (life.Unguard(), life.Send("SIGABRT", POLITE, 2.0))),
+    (R, {}, ABORTED, life.StopRequested(), O, (life.Unguard(), ASK)),
+    (
+        O,
+        {"hang": "mute", "unasked": True},
+        PLAIN,
+        life.Ended(GOOD, remains=False, now=9.0),
+        F,
+        (life.Settle(),),
+    ),
+    # A managed lifecycle node.
+    (U, {"been_ready": True}, MANAGED, life.StopRequested(), O, (life.Quiesce(1.5),)),
+    (U, {"been_ready": True}, MANAGED, life.Renew(), O, (life.Quiesce(1.5),)),
+    (O, {"rung": QUIESCE}, MANAGED, life.RungExpired(QUIESCE), O, (ASK,)),
+    (O, {"rung": QUIESCE}, MANAGED, life.Escalated(TERMINATE), O, (TERM,)),
 ]
 
 EVENTS: list[Event] = [
@@ -115,6 +156,10 @@ def test_each_transition(
     before = replace(State(phase), **holds)  # type: ignore[arg-type]
     after, done = transition(rules, before, event)
     assert (after.phase, done) == (following, effects)
+
+
+def test_every_transition_of_the_machine_is_in_this_table() -> None:
+    assert {(phase, type(event)) for phase, _, _, event, _, _ in TRANSITIONS} == set(_TABLE)
 
 
 def test_whatever_is_not_in_the_table_changes_nothing() -> None:
@@ -174,12 +219,11 @@ def test_any_order_of_events_keeps_the_promises(rules: Rules, events: list[Event
             continue
         before = state
         state, effects = transition(rules, before, event)
-        if isinstance(event, life.Start):
-            asked = False
-        asked = asked or isinstance(event, life.StopRequested | life.StopAhead)
+        wanted = isinstance(event, life.Start | life.Renew)
+        asked = (asked or isinstance(event, life.StopRequested | life.StopAhead | life.Halt)) and not wanted
         spawned = life.Spawn() in effects
-        assert not (spawned and running)
-        assert not (spawned and asked and not isinstance(event, life.Start))
+        assert not (spawned and running and not _is_over(event, state))
+        assert not (spawned and asked)
         if before.phase is Phase.STOPPING and state.phase is Phase.STOPPING:
             assert state.rung >= before.rung
         running = (running or isinstance(event, life.Started)) and not _is_over(event, state)
