@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from orchestra.supervise.surroundings import Listener, Surroundings
     from orchestra.supervise.unit import Unit
 
+# Starting a program takes some milliseconds.
+_MOST_AT_ONCE = 16
 _PARTICIPLES = {"started": "started", "ready": "ready", "completed": "completed", "exited": "over"}
 
 
@@ -49,15 +51,21 @@ class Beginning:
                     self._listener.failed(f"the observer could not be started: {error}")
 
     def begin_or_skip(self) -> None:
-        """Look at every waiting process: it begins, waits on, or never will begin."""
+        """Look at every waiting process: it begins, waits on, or never will begin.
+
+        Of many that begin together some are left for the next round, so that signals and output are seen to in between.
+        """
         standings = {name: unit.standing for name, unit in self._units.items()}
-        for unit in self._units.values():
-            if unit.state.phase is not Phase.WAITING:
-                continue
+        begun = 0
+        for unit in [unit for unit in self._units.values() if unit.state.phase is Phase.WAITING]:
+            if begun == _MOST_AT_ONCE:
+                self._listener.changed()
+                return
             fate = order.fate(self._edges(unit), standings)
             if fate.blocker:
                 self._skip(unit, fate.blocker)
             elif fate.begin and unit.id not in self._held:
+                begun += 1
                 unit.handle(life.Start())
             elif unit.id not in self._held:
                 self._time_edges(unit, fate.awaited)
