@@ -17,7 +17,9 @@ if TYPE_CHECKING:
 
 def add_to(parser: ArgumentParser) -> None:
     """Let a parser read them."""
-    parser.add_argument("--name", metavar="RUN", help="a name for the run directory (default: from the file)")
+    parser.add_argument(
+        "--name", metavar="RUN", help="a name that no living run has (default: made of the file's)"
+    )
     parser.add_argument(
         "--fail-on",
         choices=("required", "any"),
@@ -54,6 +56,7 @@ def run_options(options: Namespace, default_name: str) -> RunOptions:
         raise UsageError(f"{OVERRIDE}: {error}") from error
     return RunOptions(
         name=name or "run",
+        named=bool(options.name and name),
         fail_on_any=options.fail_on == "any",
         show_all_output=options.show_all,
         noninteractive=options.noninteractive or not _at_a_terminal(),

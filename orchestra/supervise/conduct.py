@@ -5,17 +5,19 @@ from __future__ import annotations
 import os
 import signal
 from contextlib import ExitStack
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.plan import codec
 from orchestra.supervise import directory
 from orchestra.supervise.attention import Attention
 from orchestra.supervise.furnishing import furnish
+from orchestra.supervise.identity import identity
 from orchestra.supervise.keeper import say
 from orchestra.supervise.kin import Kin, send_to_groups
 from orchestra.supervise.leftovers import end_leftovers
 from orchestra.supervise.loop import Loop
-from orchestra.supervise.outcome import FAILED, judge
+from orchestra.supervise.outcome import FAILED, MISTAKE, UNSTOPPABLE, judge
 from orchestra.supervise.resolving import Collection, Refused
 from orchestra.supervise.setting import surroundings
 from orchestra.supervise.system import System
@@ -41,24 +43,27 @@ def conduct(beginnings: Beginnings) -> int:
     document, resolver = _collect(loop, collection, beginnings.resolver)
     runs = directory.state_folder() / "runs"
     try:
-        run_directory = directory.create(runs, document.options.name)
+        wanted = identity(beginnings.run_id, document.options.name, document.plan.file, beginnings.keeper)
+        run_directory = directory.create(runs, wanted, exact=document.options.named)
         if document.options.files is not None:
             run_directory.adopt(document.options.files)
         plan = _furnish(document.plan, run_directory)
+    except directory.NameTakenError as error:
+        raise Refused(MISTAKE, str(error)) from error
     except OSError as error:
         raise Refused(FAILED, f"the run directory cannot be written: {error}") from error
     with surroundings(
         loop,
         run_directory,
         plan,
-        document.options,
+        replace(document.options, name=run_directory.name),
         run_id=beginnings.run_id,
         resolver=resolver,
         more_time=lambda _seconds: False,
     ) as around:
         outcome = _run(beginnings, attention, plan, around)
     try:
-        run_directory.release()
+        run_directory.release(settled=outcome.status != UNSTOPPABLE)
         directory.prune(runs)
     except OSError as error:
         say(f"the runs could not be tidied up: {error}")

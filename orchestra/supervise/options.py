@@ -8,7 +8,10 @@ from typing import Any
 
 @dataclass(frozen=True, slots=True)
 class RunOptions:
-    """`name` is part of the run directory's name. `fail_on_any` makes any failed process fail the run (status 1).
+    """How to run.
+
+    `name` is that of the run, with a number behind it where a living run has it; one that was asked for (`named`) stays
+    as it is, or the run does not begin. `fail_on_any` makes any failed process fail the run (status 1).
 
     `colour` None means: on a terminal, unless `NO_COLOR` or `FORCE_COLOR` says otherwise. `show_all_output` shows the
     output of every process, whatever the description says. `noninteractive` is accepted as by `ros2 launch`: nothing
@@ -21,6 +24,7 @@ class RunOptions:
     """
 
     name: str = "run"
+    named: bool = False
     fail_on_any: bool = False
     colour: bool | None = None
     show_all_output: bool = False

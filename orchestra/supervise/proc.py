@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import os
 
+# Field 22 of /proc/PID/stat, counted behind the state, which is field 3.
+_BIRTH = 18
+
 
 class Stat:
     """What matters here of /proc/PID/stat."""
@@ -26,6 +29,18 @@ def stat(pid: int) -> Stat | None:
     # The name is in parentheses and may itself contain spaces and parentheses.
     state, parent, group, session = content.rpartition(b")")[2].split()[:4]
     return Stat(pid, state.decode(), int(parent), int(group), int(session))
+
+
+def birth(pid: int) -> int | None:
+    """Return when a process began, in clock ticks since the machine did; None where it has ended.
+
+    Together with its number this is a process for good: numbers are given anew, not at the same time.
+    """
+    content = _read(f"/proc/{pid}/stat")
+    if content is None:
+        return None
+    state, *facts = content.rpartition(b")")[2].split()
+    return None if state in (b"Z", b"X") else int(facts[_BIRTH])
 
 
 def pids() -> list[int]:

@@ -22,11 +22,15 @@ from orchestra.supervise.signals import disregard_hang_up, receive_signals, rese
 
 TYPE_CHECKING = False  # `typing` itself costs more than the rest of this module
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from orchestra.supervise.attendance import Attend
     from orchestra.supervise.resolver import Prepare
 
 
-def run(prepare: Prepare, attend: Attend | None = None) -> int:
+def run(
+    prepare: Prepare, attend: Attend | None = None, afterwards: Callable[[str], None] | None = None
+) -> int:
     """Run what `prepare` describes and return the exit status of the design's table.
 
     `prepare` runs in the resolver process. It writes one JSON document `{"plan": ..., "options": ...}` to the stream
@@ -49,13 +53,17 @@ def run(prepare: Prepare, attend: Attend | None = None) -> int:
             the trigger fails. So it does where the function raises.
 
     `attend` is called in the supervisor process when the run is about to begin, and may import what it needs then.
+    `afterwards` is called in the keeper with the run's mark when everything is over, whoever was killed before.
     """
     keeper = os.getpid()
-    return keep(lambda: _supervise(prepare, attend, keeper))
-
-
-def _supervise(prepare: Prepare, attend: Attend | None, keeper: int) -> int:
     run_id = f"{time.time_ns():x}-{keeper}"
+    status = keep(lambda: _supervise(prepare, attend, keeper, run_id))
+    if afterwards:
+        afterwards(run_id)
+    return status
+
+
+def _supervise(prepare: Prepare, attend: Attend | None, keeper: int, run_id: str) -> int:
     os.environ[RUN] = run_id
     # The keeper's mask is still in force: no signal can reach the resolver with our handlers, nor us without them.
     resolver = fork_resolver(prepare)
