@@ -14,6 +14,8 @@ import termios
 from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
+from orchestra.supervise.preparing import reported
+
 if TYPE_CHECKING:
     from orchestra.supervise.spec import Spec
 
@@ -52,9 +54,9 @@ class Child:
 def spawn(spec: Spec, stdin: int | None = None) -> Child:
     """Start a program, with `stdin` as its standard input where one is given.
 
-    Raises `OSError` where that is impossible; `filename` then names what is missing.
+    Raises `OSError` where that is impossible; `filename` then names what is missing, or what asks for it.
     """
-    with ExitStack() as ours, ExitStack() as theirs:
+    with ExitStack() as ours, ExitStack() as theirs, reported(spec.before_exec) as prepare:
         outputs, inner = _terminals(ours, theirs) if spec.tty else _pipes(ours, theirs)
         process = subprocess.Popen(  # noqa: S603 - running what the plan says is the purpose
             spec.command,
@@ -64,7 +66,7 @@ def spawn(spec: Spec, stdin: int | None = None) -> Child:
             stdout=inner[0],
             stderr=inner[1],
             start_new_session=True,
-            preexec_fn=spec.before_exec,  # noqa: PLW1509 - the supervisor has one thread
+            preexec_fn=prepare,  # noqa: PLW1509 - the supervisor has one thread
         )
         child = _child(process, outputs)
         ours.pop_all()
