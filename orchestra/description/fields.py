@@ -65,8 +65,8 @@ def _scalar(value: object, wanted: str) -> Written:
     return value
 
 
-def _constant_of(wanted: str, accepts: Callable[[str], bool]) -> Callable[[object, ValidationInfo], Template]:
-    """Return a validator of texts that checks constants."""
+def constant_of(wanted: str, accepts: Callable[[str], bool]) -> Callable[[object, ValidationInfo], Template]:
+    """Return a validator of texts that checks constants; `wanted` says to people what is accepted."""
 
     def validate(value: object, info: ValidationInfo) -> Template:
         if not isinstance(value, Template):
@@ -137,7 +137,7 @@ Text: TypeAlias = Annotated[Template, PlainValidator(_text), WithJsonSchema(_TEX
 Literal: TypeAlias = Annotated[Template, PlainValidator(_literal), WithJsonSchema(_TEXT)]
 Flag: TypeAlias = Annotated[
     Template,
-    PlainValidator(_constant_of("true or false", _is_flag)),
+    PlainValidator(constant_of("true or false", _is_flag)),
     WithJsonSchema(
         {
             "anyOf": [
@@ -151,14 +151,14 @@ Flag: TypeAlias = Annotated[
 ]
 Seconds: TypeAlias = Annotated[
     Template,
-    PlainValidator(_constant_of("a number of seconds", _is_duration)),
+    PlainValidator(constant_of("a number of seconds", _is_duration)),
     WithJsonSchema(
         {"anyOf": [{"type": "number", "minimum": 0}, {"type": "string", "pattern": r"\$\(|^[0-9.eE+-]+$"}]}
     ),
 ]
 Integer: TypeAlias = Annotated[
     Template,
-    PlainValidator(_constant_of("a whole number", _is_integer)),
+    PlainValidator(constant_of("a whole number", _is_integer)),
     WithJsonSchema({"anyOf": [{"type": "integer"}, {"type": "string", "pattern": r"\$\(|^[+-]?[0-9]+$"}]}),
 ]
 AnyValue: TypeAlias = Annotated[
@@ -172,4 +172,4 @@ Argv: TypeAlias = Annotated[
 
 def word(*words: str) -> Callable[[object, ValidationInfo], Template]:
     """Return a validator for one of a few words."""
-    return _constant_of("one of " + ", ".join(words), lambda text: text in words)
+    return constant_of("one of " + ", ".join(words), lambda text: text in words)

@@ -7,7 +7,8 @@ from typing import Annotated, TypeAlias
 from pydantic import Field, PlainValidator, WithJsonSchema
 
 from orchestra.description.entity import Entity
-from orchestra.description.fields import AnyValue, Flag, Integer, Seconds, Text, word
+from orchestra.description.fields import AnyValue, Flag, Seconds, Text, word
+from orchestra.description.ranges import BUDGET, GROWTH, SHARE
 from orchestra.description.text import Template
 
 CONDITIONS = ("started", "ready", "completed", "exited")
@@ -86,26 +87,15 @@ class DependsOn(Entity):
         | None
     ) = Field(default=None, description="What is waited for; `started` where nothing is said.")
     timeout: Seconds | None = Field(default=None, description="How long to wait, in seconds.")
+    required: Flag | None = Field(
+        default=None,
+        description="Whether it starts only then; else it starts too once that cannot come about.",
+    )
 
     def conflict(self) -> str | None:
         """Return what keeps this from naming one thing."""
         targets = sum(target is not None for target in (self.node, self.process, self.label))
         return None if targets == 1 else "a dependency names one of `node`, `process` and `label`"
-
-
-class Ready(Entity):
-    """When a process counts as ready."""
-
-    message: Text | None = Field(default=None, description="The first message on this topic has come.")
-    log: Text | None = Field(
-        default=None, description="A line of its output matches this regular expression."
-    )
-    timeout: Seconds | None = Field(default=None, description="After so many seconds the run has failed.")
-
-    def conflict(self) -> str | None:
-        """Return what keeps this from naming one fact."""
-        one = (self.message is None) != (self.log is None)
-        return None if one else "`ready` has one of `message` and `log`"
 
 
 class Restart(Entity):
@@ -119,7 +109,13 @@ class Restart(Entity):
     min_uptime: Seconds | None = Field(
         default=None, description="A run this long resets the delay, in seconds."
     )
-    budget: Integer | None = Field(
+    growth: Annotated[Template, GROWTH] | None = Field(
+        default=None, description="Factor from one delay to the next; 2 where absent."
+    )
+    jitter: Annotated[Template, SHARE] | None = Field(
+        default=None, description="Share of a delay that is added at random, at most; from 0 to 1."
+    )
+    budget: Annotated[Template, BUDGET] | None = Field(
         default=None, description="How often it may start again; for ever where absent."
     )
 

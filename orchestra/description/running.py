@@ -6,10 +6,12 @@ from typing import Annotated
 
 from pydantic import Field, PlainValidator, WithJsonSchema
 
+from orchestra.description.conditions import Alive, Ready
 from orchestra.description.entity import Action
 from orchestra.description.fields import Argv, Flag, Integer, Seconds, Text, word
 from orchestra.description.outputs import Output
-from orchestra.description.parts import DependsOn, Pair, Ready, Restart, Stop
+from orchestra.description.parts import DependsOn, Pair, Restart, Stop
+from orchestra.description.short import Short
 from orchestra.description.text import Template
 
 ON_EXIT = ("shutdown",)
@@ -49,7 +51,10 @@ class Running(Action):
         default=(), description="What must come about before it starts."
     )
     ready: Ready | None = Field(default=None, description="When it counts as ready.")
-    restart: Restart | None = Field(default=None, description="When it is started again.")
+    alive: Alive | None = Field(default=None, description="Signs of life that it gives once it is ready.")
+    restart: Annotated[Restart, Short("policy")] | None = Field(
+        default=None, description="When it is started again."
+    )
     required: Flag | None = Field(default=None, description="Whether its end ends the run, with its status.")
     stop: Stop | None = Field(default=None, description="How it is ended.")
     success_exit_codes: tuple[Integer, ...] | None = Field(

@@ -10,6 +10,7 @@ from functools import cache
 from typing import Annotated, Any, Union, get_args, get_origin
 
 from orchestra.description.entity import Action, Entity
+from orchestra.description.short import Short
 from orchestra.description.text import Template
 
 
@@ -30,11 +31,15 @@ _ELEMENTS = (Kind.PART, Kind.PARTS, Kind.VARIABLES)
 
 @dataclass(frozen=True, slots=True)
 class Form:
-    """A kind, the model of the parts where they have one, and whether an attribute may also be an element."""
+    """A kind, the model of the parts where they have one, and whether a key may take the other form too.
+
+    An attribute may also be an element with names of the user's choice, an element with a short form an attribute.
+    """
 
     kind: Kind
     model: type[Entity] | None = None
     or_variables: bool = False
+    or_text: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -74,7 +79,7 @@ def _form(annotation: Any) -> Form:  # noqa: ANN401 - a type
         return Form(Kind.VARIABLES)
     for item in alternatives:
         if isinstance(item, type) and issubclass(item, Entity):
-            return Form(Kind.PART, item)
+            return Form(Kind.PART, item, or_text=_is_short(annotation))
         if get_origin(item) is tuple:
             return _form_of_items(next(_alternatives(get_args(item)[0])))
     raise TypeError(f"a field of type {annotation} has no form in XML")
@@ -86,6 +91,13 @@ def _form_of_items(item: Any) -> Form:  # noqa: ANN401 - a type
     if isinstance(item, type) and issubclass(item, Entity):
         return Form(Kind.PARTS, item)
     return Form(Kind.LIST)
+
+
+def _is_short(annotation: Any) -> bool:  # noqa: ANN401 - a type
+    """Return whether one of the types that a value may have has a short form."""
+    if get_origin(annotation) is Annotated:
+        return any(isinstance(item, Short) for item in get_args(annotation)[1:])
+    return any(map(_is_short, get_args(annotation)))
 
 
 def _alternatives(annotation: Any) -> Iterator[Any]:  # noqa: ANN401 - a type

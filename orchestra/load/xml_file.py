@@ -123,7 +123,9 @@ class _Shaper:
                 continue
             form = self._form(attribute.name, forms) or forms.others
             at = attribute.span(self.whole)
-            if form.kind not in _ATTRIBUTES:
+            if form.or_text:
+                tagged.put(attribute.name, attribute.written(self.whole), at)
+            elif form.kind not in _ATTRIBUTES:
                 self._not_an_attribute(attribute.name, form, at, tagged)
             elif (separator := separators.get(spelled(attribute.name))) is not None:
                 tagged.put(attribute.name, separated(attribute, separator, self.whole, self.reader), at)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from orchestra.plan.awaited import life, readiness
 from orchestra.plan.command import command
 from orchestra.plan.components import components
 from orchestra.plan.digest import digest
@@ -14,7 +15,7 @@ from orchestra.plan.model import VERSION, Argument, Plan, Process, Skipped
 from orchestra.plan.parameter_file import file_name
 from orchestra.plan.parameters import Parameters, check_for_all, check_given, parameters_of
 from orchestra.plan.provenance import environment_of, provenance
-from orchestra.plan.remappings import check_remaps, readiness
+from orchestra.plan.remappings import check_remaps
 from orchestra.plan.triggers import triggers
 
 if TYPE_CHECKING:
@@ -109,7 +110,7 @@ def _process(
         required=process.required,
         success_exit_codes=process.success_exit_codes,
         ready=readiness(process, problems),
-        alive=None,
+        alive=life(process, problems),
         lifecycle="active" if process.autostart else None,
         depends_on=edges,
         stop=process.stop,

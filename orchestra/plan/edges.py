@@ -43,19 +43,23 @@ class Targets:
 def dependencies(
     process: ResolvedProcess, identity: str, targets: Targets, problems: Problems
 ) -> tuple[Dependency, ...]:
-    """Return what a process waits for. What is not there is reported."""
+    """Return what a process waits for. What is not there is reported, unless the process may do without it."""
     edges: dict[tuple[str, str], Dependency] = {}
     for written in process.depends_on:
         found = _found(written, process, targets)
-        if not found:
+        if not found and written.required:
             _report_unknown(written, process, targets, problems)
         for target in found:
             if target == identity and len(found) > 1:
                 continue  # a label covers the process that waits for the others
             if written.condition == "ready":
                 _check_ready(written, target, targets, problems)
-            edge = Dependency(target, written.condition, written.timeout, written.name.location)
-            edges.setdefault((target, written.condition), edge)
+            edge = Dependency(
+                target, written.condition, written.timeout, written.name.location, written.required
+            )
+            known = edges.setdefault((target, written.condition), edge)
+            if edge.required and not known.required:
+                edges[target, written.condition] = edge
     return tuple(edges.values())
 
 

@@ -1,13 +1,11 @@
-"""Remapping rules that can never act, and the topics that readiness waits for."""
+"""Remapping rules that can never act."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
-from orchestra.plan.conditions import Ready
-from orchestra.resolve.names import InvalidName
-from orchestra.resolve.remaps import dead_rules, read_rule, remapped
+from orchestra.resolve.remaps import dead_rules, read_rule
 
 if TYPE_CHECKING:
     from orchestra.errors import Problems
@@ -28,23 +26,3 @@ def check_remaps(process: ResolvedProcess | ResolvedComponent, problems: Problem
             rule.source.location,
             notes=(f"the rule that counts is at {earlier.source.location}",),
         )
-
-
-def readiness(process: ResolvedProcess, problems: Problems) -> Ready | None:
-    """Return when a process is ready; a topic is named as the process itself would name it."""
-    ready = process.ready
-    if ready is None:
-        return None
-    log = ready.log.text if ready.log is not None else None
-    if ready.message is None:
-        return Ready(log, None, ready.timeout)
-    namespace = process.namespace.text if process.namespace is not None else "/"
-    name = process.name.text if process.name is not None else "_"
-    rules = [read_rule(rule.source.text, rule.target.text) for rule in process.remaps]
-    try:
-        topic = remapped(ready.message.text, rules, namespace, name)
-    except InvalidName as error:
-        message = f"'{ready.message.text}' cannot be a topic: {error.fault.reason}"
-        problems.error(Code.BAD_NAME, message, ready.message.location)
-        return None
-    return Ready(log, topic, ready.timeout)

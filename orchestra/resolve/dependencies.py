@@ -1,19 +1,17 @@
-"""`depends_on` and `ready`, evaluated."""
+"""`depends_on`, evaluated."""
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, cast
 
 from orchestra.description.parts import CONDITIONS
-from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Poison, Value
-from orchestra.resolve.model import DependencyKind, ResolvedDependency, ResolvedReady
+from orchestra.resolve.model import DependencyKind, ResolvedDependency
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from orchestra.description.parts import DependsOn, Ready
+    from orchestra.description.parts import DependsOn
     from orchestra.resolve.resolution import Resolution
     from orchestra.values import Condition
 
@@ -31,27 +29,16 @@ def _dependency(written: DependsOn, run: Resolution) -> ResolvedDependency | Poi
     action = template.action
     name = run.evaluate(template) if action is None else Value(template.raw, run.at(template.span))
     timeout = run.number(written.timeout)
-    condition = run.word(written.condition, CONDITIONS)
-    if not isinstance(name, Value) or isinstance(timeout, Poison) or isinstance(condition, Poison):
+    condition, required = run.word(written.condition, CONDITIONS), run.flag(written.required, default=True)
+    if not isinstance(name, Value) or isinstance(timeout, Poison):
         return POISON
-    awaited = cast("Condition", condition or "started")
-    if action is not None:
-        return ResolvedDependency("action", name, awaited, timeout, action)
-    return ResolvedDependency(cast("DependencyKind", kind), name, awaited, timeout)
-
-
-def readiness(written: Ready | None, run: Resolution) -> ResolvedReady | Poison | None:
-    """Return when a process counts as ready, None where nothing is said."""
-    if written is None:
-        return None
-    message, log = run.evaluate(written.message), run.evaluate(written.log)
-    timeout = run.number(written.timeout)
-    if isinstance(message, Poison) or isinstance(log, Poison) or isinstance(timeout, Poison):
+    if isinstance(condition, Poison) or isinstance(required, Poison):
         return POISON
-    if log is not None:
-        try:
-            re.compile(log.text)
-        except re.error as error:
-            run.problems.error(Code.BAD_VALUE, f"this is no regular expression: {error}", log.location)
-            return POISON
-    return ResolvedReady(message, log, timeout)
+    return ResolvedDependency(
+        cast("DependencyKind", kind) if action is None else "action",
+        name,
+        cast("Condition", condition or "started"),
+        timeout,
+        required is not False,
+        action,
+    )

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
 from orchestra.location import Location
+from orchestra.resolve.awaited import ResolvedAlive, ResolvedReady
 from orchestra.resolve.context import Value
 from orchestra.resolve.rcl.sections import Entry, Section
 from orchestra.resolve.reactions import ResolvedTrigger
@@ -79,16 +80,8 @@ class ResolvedDependency:
     name: Value
     condition: Condition
     timeout: float | None
+    required: bool = True
     action: Any = field(default=None, compare=False, repr=False)
-
-
-@dataclass(frozen=True, slots=True)
-class ResolvedReady:
-    """When a process counts as ready; `timeout` in seconds."""
-
-    message: Value | None
-    log: Value | None
-    timeout: float | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,6 +124,7 @@ class ResolvedProcess:
     shutdown_on_exit: bool
     success_exit_codes: tuple[int, ...] | None
     ready: ResolvedReady | None
+    alive: ResolvedAlive | None
     stop: Stop | None
     depends_on: tuple[ResolvedDependency, ...]
     labels: tuple[str, ...]

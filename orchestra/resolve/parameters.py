@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 from orchestra.description.parts import VALUE_TYPES, Override
 from orchestra.description.text import Constant, span_of
 from orchestra.errors import Code
-from orchestra.location import is_python
+from orchestra.location import is_python, point
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.model import InlineParameter, ParameterSource
 from orchestra.resolve.parameter_files import file_parameters
@@ -53,6 +53,11 @@ def parameters(
 def everywhere(action: SetParameter, run: Resolution) -> list[InlineParameter | None]:
     """Return the parameters that an action sets for every node, None for each that is faulty."""
     return _inline(action, "", run, everywhere=True, quotes=False)
+
+
+def typed(name: str, value: Typed | tuple[Typed, ...], run: Resolution) -> ParameterValue | Poison:
+    """Return a value of a parameter with the type that it gets by its looks; one that can have none is reported."""
+    return _typed(name, value, None, run, run.at(span_of(value) or point("")), quotes=True)
 
 
 def _typed(

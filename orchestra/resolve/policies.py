@@ -6,9 +6,12 @@ import signal
 from typing import TYPE_CHECKING, cast
 
 from orchestra.description.parts import POLICIES
+from orchestra.description.ranges import BUDGET, GROWTH, SHARE
 from orchestra.errors import Code
 from orchestra.nearest import nearest
+from orchestra.resolve.amounts import amount, whole
 from orchestra.resolve.context import POISON, Poison, Value
+from orchestra.resolve.sound import Sound
 from orchestra.values import Restart, Stop
 
 if TYPE_CHECKING:
@@ -25,24 +28,41 @@ def restart(action: Running, run: Resolution) -> Restart | Poison | None:
     """Return when the process starts again; upstream's `respawn` is `always`, with a delay that grows."""
     if action.restart is None:
         return _respawn(action, run)
-    written = action.restart
-    policy = run.word(written.policy, POLICIES)
-    numbers = [run.number(item) for item in (written.delay, written.max_delay, written.min_uptime)]
-    budget = run.integer(written.budget)
-    if (
-        not isinstance(policy, str)
-        or isinstance(budget, Poison)
-        or any(isinstance(item, Poison) for item in numbers)
-    ):
+    if _says_both(action, run):
         return POISON
-    delay, max_delay, min_uptime = (item for item in numbers if not isinstance(item, Poison))
+    written, sound = action.restart, Sound()
+    policy, delay = sound(run.word(written.policy, POLICIES)), sound(run.number(written.delay))
+    max_delay, min_uptime = sound(run.number(written.max_delay)), sound(run.number(written.min_uptime))
+    growth, jitter = sound(amount(written.growth, GROWTH, run)), sound(amount(written.jitter, SHARE, run))
+    budget = sound(whole(written.budget, BUDGET, run))
+    if sound.faulty or policy is None:
+        return POISON
+    if max_delay is not None and delay is not None and max_delay < delay:
+        place = run.at((written.max_delay or written).span)
+        message = f"the longest delay, {max_delay:g} s, is shorter than the first one, {delay:g} s"
+        run.problems.error(Code.CONFLICTING_KEYS, message, place)
+        return POISON
     return Restart(
         cast("Policy", policy),
         _or(delay, _DEFAULT_RESTART.delay),
         max(_or(max_delay, _DEFAULT_RESTART.max_delay), delay or 0.0),
         _or(min_uptime, _DEFAULT_RESTART.min_uptime),
         budget,
+        _or(growth, _DEFAULT_RESTART.growth),
+        _or(jitter, _DEFAULT_RESTART.jitter),
     )
+
+
+def _says_both(action: Running, run: Resolution) -> bool:
+    """Report a key of upstream's beside `restart`: which of the two counts cannot be told."""
+    upstream = {name: getattr(action, name) for name in ("respawn", "respawn_delay", "respawn_max_retries")}
+    name, written = next(((name, item) for name, item in upstream.items() if item is not None), ("", None))
+    if written is None or action.restart is None:
+        return False
+    message = f"`{name}` and `restart` say the same thing twice: leave one of them out"
+    notes = (f"`restart` is at {run.at(action.restart.span)}",)
+    run.problems.error(Code.CONFLICTING_KEYS, message, run.at(written.span), notes=notes)
+    return True
 
 
 def _respawn(action: Running, run: Resolution) -> Restart | Poison | None:

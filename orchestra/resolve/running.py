@@ -6,25 +6,25 @@ import re
 import shlex
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from orchestra.description.running import ON_EXIT
 from orchestra.errors import Code
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import POISON, Poison, Value
-from orchestra.resolve.dependencies import dependencies, readiness
+from orchestra.resolve.dependencies import dependencies
 from orchestra.resolve.model import EnvironmentChange, Kind, ParameterSource, ResolvedProcess, ResolvedRemap
 from orchestra.resolve.outputs import output
 from orchestra.resolve.policies import restart, stop
 from orchestra.resolve.reactions import ResolvedStart
+from orchestra.resolve.readiness import life, readiness
+from orchestra.resolve.sound import Sound
 from orchestra.resolve.words import split
 
 if TYPE_CHECKING:
     from orchestra.description.running import Running
     from orchestra.description.text import Template
     from orchestra.resolve.resolution import Resolution
-
-_T = TypeVar("_T")
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -48,7 +48,7 @@ class Program:
 
 def add_process(action: Running, program: Program, run: Resolution) -> int:
     """Add a process to what has been found: it starts with the run, or with the timer around it. Return its index."""
-    sound = _Sound()
+    sound = Sound()
     location = run.at(action.span)
     on_exit = sound(run.word(action.on_exit, ON_EXIT))
     places = output(action.output, run, location)
@@ -75,6 +75,7 @@ def add_process(action: Running, program: Program, run: Resolution) -> int:
         shutdown_on_exit=on_exit is not None,
         success_exit_codes=sound(_codes(action, run)),
         ready=sound(readiness(action.ready, run)),
+        alive=sound(life(action.alive, run)),
         stop=sound(stop(action, run)),
         depends_on=run.frame.depends_on + (sound(dependencies(action.depends_on, run)) or ()),
         labels=run.frame.labels,
@@ -128,21 +129,6 @@ def texts(argv: Template | tuple[Template, ...] | None, run: Resolution) -> tupl
     if isinstance(words, Poison):
         return POISON
     return tuple(word.text for word in words) or (() if isinstance(argv, tuple) else ("",))
-
-
-class _Sound:
-    """Takes values, gives None for faulty ones, and remembers whether there was one."""
-
-    __slots__ = ("faulty",)
-
-    def __init__(self) -> None:
-        self.faulty = False
-
-    def __call__(self, value: _T | Poison | None) -> _T | None:
-        if not isinstance(value, Poison):
-            return value
-        self.faulty = True
-        return None
 
 
 def _codes(action: Running, run: Resolution) -> tuple[int, ...] | Poison | None:

@@ -54,6 +54,7 @@ def single_node(
         shutdown_on_exit=False,
         success_exit_codes=None,
         ready=None,
+        alive=None,
         stop=None,
         depends_on=(),
         labels=(),

@@ -12,9 +12,10 @@ from pydantic import ValidationError
 from orchestra.description import actions
 from orchestra.description.actions import ACTIONS, model_of
 from orchestra.description.actions.let import Let
+from orchestra.description.conditions import Ready
 from orchestra.description.entity import Action, Entity
 from orchestra.description.fields import FALSE_WORDS, TRUE_WORDS
-from orchestra.description.parts import Param, Ready
+from orchestra.description.parts import Param
 from orchestra.description.schema import launch_schema
 from orchestra.description.substitutions import SIGNATURES
 from orchestra.description.text import Call, Template, Words

@@ -10,9 +10,10 @@ from orchestra.description.actions import ACTIONS, model_of
 from orchestra.description.actions.arg import Arg
 from orchestra.description.actions.group import Group
 from orchestra.description.actions.node import Node
+from orchestra.description.conditions import Ready
 from orchestra.description.entity import Entity
 from orchestra.description.launch import Launch
-from orchestra.description.parts import Param, Ready
+from orchestra.description.parts import Param
 from orchestra.load.forms import Form, Kind, forms_of
 
 if TYPE_CHECKING:
