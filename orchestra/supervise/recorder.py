@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
 
 class Recorder:
-    """Turns what happened into events with both times, and appends them to a file."""
+    """Turns what happened into events with both times, and appends them to a file. `count` is how many there are."""
 
     def __init__(
         self,
@@ -26,6 +26,8 @@ class Recorder:
         self._file = file
         self._wall = wall
         self._monotonic = monotonic
+        self._listeners: list[Callable[[str], None]] = []
+        self.count = 0
 
     def record(
         self,
@@ -38,7 +40,15 @@ class Recorder:
     ) -> None:
         """Append an event."""
         event = events.Event(self._wall(), self._monotonic(), kind, process, pid, cause, data)
-        self._file.write(events.dumps(event) + "\n")
+        line = events.dumps(event)
+        self._file.write(line + "\n")
+        self.count += 1
+        for listener in self._listeners:
+            listener(line)
+
+    def listen(self, listener: Callable[[str], None]) -> None:
+        """Let a listener have the line of each event from now on, once it is written."""
+        self._listeners.append(listener)
 
     def close(self) -> None:
         """Close the stream."""
