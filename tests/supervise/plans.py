@@ -196,10 +196,13 @@ class Launched:
         """The log file of a process."""
         return (self.directory / "logs" / f"{name}.log").read_text("utf-8")
 
-    def await_line(self, name: str, line: str) -> None:
-        """Wait for a line in the log file of a process."""
+    def await_line(self, name: str, line: str, count: int = 1) -> None:
+        """Wait until a line stands in the log file of a process, so many times."""
         path = self.directory / "logs" / f"{name}.log"
-        self._await(lambda: path.exists() and f"{line}\n" in path.read_text("utf-8"), f"{line!r} from {name}")
+        self._await(
+            lambda: path.exists() and path.read_text("utf-8").splitlines().count(line) >= count,
+            f"{line!r} from {name}",
+        )
 
     def own(self, comm: str) -> int:
         """The pid of one of Orchestra's own processes, by its name."""
@@ -284,7 +287,7 @@ def launched(
         path.write_bytes(document.dumps(what, options))
         words = ["launcher.py", str(path)] if answers is None else ["deciding.py", str(path), str(answers)]
     else:
-        words = ["launcher.py", "-", *what]
+        words = [*what] if what[0].endswith(".py") else ["launcher.py", "-", *what]
     out, err = folder / "out", folder / "err"
     with out.open("wb") as out_file, err.open("wb") as err_file:
         streams = {"stdin": subprocess.DEVNULL, "stdout": out_file, "stderr": err_file}
