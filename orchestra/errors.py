@@ -81,6 +81,7 @@ class Code(StrEnum):
     UNKNOWN_DEPENDENCY = "ORC052"
     NEVER_READY = "ORC053"
     MIDDLEWARE = "ORC054"
+    UNFIT_MACHINE = "ORC055"
 
 
 @dataclass(frozen=True, slots=True)

@@ -56,7 +56,7 @@ def _usable() -> frozenset[int]:
     """Ask for every core, since the kernel gives those that we may have, and go back to those that we had."""
     before = os.sched_getaffinity(0)
     try:
-        os.sched_setaffinity(0, range(os.cpu_count() or 1))
+        os.sched_setaffinity(0, range(os.sysconf("SC_NPROCESSORS_CONF")))
         return frozenset(os.sched_getaffinity(0))
     finally:
         os.sched_setaffinity(0, before)
