@@ -17,6 +17,8 @@ from typing import TYPE_CHECKING
 from orchestra.supervise.preparing import reported
 
 if TYPE_CHECKING:
+    import resource
+
     from orchestra.supervise.spec import Spec
 
 _OUTPUT_FLAGS = 1  # the index of c_oflag in what tcgetattr returns
@@ -26,7 +28,8 @@ class Child:
     """A started program: its pid, which is its process group and session too, a pidfd, and its output.
 
     `outputs` maps `stdout` and `stderr` to the descriptors to read. It is reaped by `reap` alone: until then the kernel
-    gives neither the pid nor the group to anyone else, so signals to them can hit no stranger.
+    gives neither the pid nor the group to anyone else, so signals to them can hit no stranger. `dumped` says whether
+    the kernel wrote its memory to a core file, `usage` what it used, once it is reaped (getrusage(2)).
     """
 
     def __init__(self, process: subprocess.Popen[bytes], outputs: dict[str, int]) -> None:
@@ -34,6 +37,8 @@ class Child:
         self.pid = process.pid
         self.pidfd = os.pidfd_open(process.pid)
         self.outputs = outputs
+        self.dumped = False
+        self.usage: resource.struct_rusage | None = None
 
     def ended(self) -> tuple[int | None, int | None] | None:
         """Return exit code and signal, of which one is None; None while it runs. It stays unreaped."""
@@ -41,11 +46,13 @@ class Child:
         if result is None:
             return None
         exited = result.si_code == os.CLD_EXITED
+        self.dumped = result.si_code == os.CLD_DUMPED
         return (result.si_status, None) if exited else (None, result.si_status)
 
     def reap(self) -> None:
         """Collect the ended program and close what belongs to it."""
-        self._process.wait()
+        _, status, self.usage = os.wait4(self.pid, 0)
+        self._process.returncode = os.waitstatus_to_exitcode(status)
         os.close(self.pidfd)
         for descriptor in self.outputs.values():
             os.close(descriptor)
