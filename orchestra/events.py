@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any, Literal, TypeAlias
 
 Kind: TypeAlias = Literal[
@@ -51,9 +51,12 @@ class Event:
     data: dict[str, Any] = field(default_factory=dict)
 
 
+_NAMES = tuple(entry.name for entry in fields(Event))
+
+
 def dumps(event: Event) -> str:
     """Return the event as one line of JSON, without its newline."""
-    return json.dumps(asdict(event), ensure_ascii=False)
+    return json.dumps({name: getattr(event, name) for name in _NAMES}, ensure_ascii=False)
 
 
 def loads(line: str | bytes) -> Event:

@@ -38,10 +38,14 @@ class Timer:
 
 
 class Loop:
-    """Calls back when a descriptor can be read or written, or when a time has come. `clock` is in seconds."""
+    """Calls back when a descriptor can be read or written, or when a time has come. `clock` is in seconds.
+
+    `round` counts how often it has waited: what is asked of the kernel in a round covers all that the round tells of.
+    """
 
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self.clock = clock
+        self.round = 0
         self._selector = selectors.DefaultSelector()
         self._timers: list[tuple[float, int, Timer]] = []
         self._order = itertools.count()
@@ -67,7 +71,9 @@ class Loop:
     def run_once(self) -> None:
         """Wait for the next thing to happen and make its calls."""
         timeout = self._until_next_timer()
-        for key, _ in self._selector.select(timeout):
+        ready = self._selector.select(timeout)
+        self.round += 1
+        for key, _ in ready:
             # An earlier call of this round may have forgotten a later descriptor, and opened the number anew.
             if self._selector.get_map().get(key.fd) is key:
                 key.data()

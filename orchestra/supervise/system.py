@@ -54,6 +54,7 @@ class System:
         self._verdict = Verdict(self._units, fail_on_any=surroundings.options.fail_on_any)
         self._pids: dict[str, int] = {}
         self._dirty = False
+        self._looked_in = -1
         surroundings.observers.on_death = self.failed
 
     @property
@@ -164,7 +165,13 @@ class System:
         self._verdict.went_wrong(what)
 
     def look(self) -> None:
-        """Find out who became our child and whose child it was, and who of them has ended."""
+        """Find out who became our child and whose child it was, and who of them has ended.
+
+        Once a round is enough: whoever has ended by its begin has left its children to us by then.
+        """
+        if self._looked_in == self._around.loop.round:
+            return
+        self._looked_in = self._around.loop.round
         new, ended = self._around.kin.refresh()
         for adopted in new:
             unit = self._units.get(adopted.owner or "")
