@@ -73,6 +73,23 @@ class Kin:
         """Return the living adopted descendants of a process, or those that belong to none."""
         return [adopted for adopted in self._adopted.values() if adopted.owner == owner]
 
+    def members(self, owner: str) -> list[int]:
+        """Return the programs that we started for a process, and its living adopted descendants."""
+        started = [pid for pid, known in self._own.items() if known == owner]
+        return [*started, *(adopted.pid for adopted in self.of(owner))]
+
+    def owner(self, pid: int) -> str | None:
+        """Tell to which process any process belongs, by its marks or by whose descendant it is; None for a stranger."""
+        while pid > 1 and pid != os.getpid():
+            owner = (
+                self._adopted[pid].owner if pid in self._adopted else self._own.get(pid) or self._owner(pid)
+            )
+            if owner is not None:
+                return owner
+            facts = proc.stat(pid)
+            pid = facts.parent if facts else 0
+        return None
+
     def group(self, pid: int) -> int | None:
         """Return the process group of a child, None where it has gone."""
         facts = proc.stat(pid)
@@ -107,7 +124,7 @@ def send_to_groups(pids: Iterable[int], number: int) -> None:
             _quietly(os.killpg, group, signal.SIGCONT)
     if number == signal.SIGKILL:
         for pid in pids:
-            for descendant in _tree(pid):
+            for descendant in (pid, *proc.branch(pid)):
                 _quietly(os.kill, descendant, number)
 
 
@@ -117,16 +134,6 @@ def send_as_asked(pid: int, number: int) -> None:
     A program often has a handler for a signal that would end its children and the shell around it.
     """
     _quietly(os.killpg if number in _FOR_GROUPS else os.kill, pid, number)
-
-
-def _tree(root: int) -> list[int]:
-    """Return what is below a process, by the children files: only its own branch is read."""
-    found, todo = [root], [root]
-    while todo:
-        below = proc.children(todo.pop())
-        found.extend(below)
-        todo.extend(below)
-    return found
 
 
 def _exists(pid: int) -> bool:

@@ -173,8 +173,7 @@ class Observers:
         answer: Callable[[str | None], None],
     ) -> None:
         """Look out for something in the graph; `answer` gets None where it came, else why it cannot."""
-        order = {"do": "watch", "topic": request.topic}
-        self.order(name, order, environment, lambda message: answer(message.get("reason")))
+        self.order(name, request.order, environment, lambda message: answer(message.get("reason")))
 
     def order(
         self, name: str, order: Mapping[str, Any], environment: Mapping[str, str], heard: Heard

@@ -19,6 +19,7 @@ from orchestra.supervise.observation import Observers
 from orchestra.supervise.questions import Questions
 from orchestra.supervise.recorder import Recorder
 from orchestra.supervise.surroundings import Surroundings
+from orchestra.supervise.trial import Trials
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -72,6 +73,7 @@ def surroundings(
             journal=journal,
             recorder=recorder,
             observers=Observers(loop, kin, lambda text: journal.say(f"observer: {text.rstrip()}")),
+            trials=Trials(loop, kin),
             questions=Questions(resolver, loop, kin, options.resolver_timeout),
             environment=_environment(run_directory, run_id, colour=sheets.output.colour),
             folder=run_directory.path,

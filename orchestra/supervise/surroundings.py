@@ -15,6 +15,7 @@ from orchestra.supervise.observation import Observers
 from orchestra.supervise.options import RunOptions
 from orchestra.supervise.questions import Questions
 from orchestra.supervise.recorder import Recorder
+from orchestra.supervise.trial import Trials
 
 if TYPE_CHECKING:
     from orchestra.supervise.ending import Ending
@@ -62,6 +63,7 @@ class Surroundings:
     journal: Journal
     recorder: Recorder
     observers: Observers
+    trials: Trials
     questions: Questions
     environment: Callable[[Process | None], dict[str, str]]
     folder: Path

@@ -15,6 +15,7 @@ from orchestra.supervise.ending import Ending, unstartable
 from orchestra.supervise.kin import send_as_asked, send_to_groups
 from orchestra.supervise.life import LIVE, Phase, State
 from orchestra.supervise.machine import ladder, transition
+from orchestra.supervise.notification import Notices
 from orchestra.supervise.order import Life
 from orchestra.supervise.readiness import Readiness
 from orchestra.supervise.rules import rules_of
@@ -47,9 +48,11 @@ class Unit:
         self._listener = listener
         self._child: Child | None = None
         self._streams: list[Stream] = []
+        self._notices = Notices(process, surroundings)
         self._readiness = Readiness(
             process,
             surroundings,
+            self._notices,
             self.handle,
             lambda problem: listener.failed(f"cannot tell whether {self.name} is ready: {problem}"),
         )
@@ -151,6 +154,7 @@ class Unit:
         environment = self._around.environment(process)
         tty, stdin = bool(process.emulate_tty), bool(process.stdin)
         try:
+            environment.update(self._notices.begin())
             child = spawn(Spec(self.id, argv(process), environment, process.cwd, tty, stdin))
         except OSError as error:
             self._not_started(unstartable(error))
@@ -171,6 +175,7 @@ class Unit:
         self._listener.started(self.id, child.pid)
 
     def _not_started(self, ending: Ending) -> None:
+        self._notices.end()
         self._account.not_started(ending)
         self._listener.ended(self.id, None, ending, intended=False)
         self.handle(life.Unstartable(ending, self._around.loop.clock()))
@@ -184,6 +189,7 @@ class Unit:
         self._around.loop.forget(child.pidfd)
         for stream in self._streams:
             stream.drain()
+        self._notices.drain()
         self._listener.look()
         left = self._around.kin.of(self.id)
         remains, ending = bool(left), Ending(*ended, hang=self.state.hang)
@@ -198,6 +204,7 @@ class Unit:
         for stream in self._streams:
             stream.close()
         self._streams = []
+        self._notices.end()
         if self._child:
             self._around.kin.remove(self._child.pid)
             self._child.reap()
@@ -210,7 +217,6 @@ class Unit:
         self._readiness.read(stream, text)
 
     def _watch(self, timeout: float | None) -> None:
-        self._around.journal.say(f"waiting for {self.name}: {self.awaited}")
         self._readiness.begin(timeout)
 
     def _missed(self) -> None:

@@ -3,9 +3,9 @@ from __future__ import annotations
 import pytest
 
 from orchestra.plan.conditions import Ready
+from orchestra.probes.graph import GraphProbe
 from orchestra.probes.log import LogProbe
-from orchestra.probes.protocol import Request
-from orchestra.probes.table import probe_for
+from orchestra.probes.table import probes_for
 
 
 @pytest.mark.parametrize(
@@ -36,12 +36,12 @@ def test_an_endless_line_costs_bounded_memory() -> None:
 
 
 def test_a_message_is_for_the_observer_to_see() -> None:
-    probe = probe_for(Ready(None, "/clock", None))
-    assert probe.request == Request("/clock")
+    probe = probes_for(Ready(None, "/clock", None))["message"]
+    assert isinstance(probe, GraphProbe)
+    assert probe.request.order == {"do": "watch", "fact": "message", "topic": "/clock"}
     assert probe.words == "a message on /clock"
-    assert not probe.read("stdout", "/clock")
 
 
 def test_readiness_without_a_condition_is_refused() -> None:
     with pytest.raises(ValueError, match="without a condition"):
-        probe_for(Ready(None, None, 1.0))
+        probes_for(Ready(None, None, 1.0))
