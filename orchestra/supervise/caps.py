@@ -29,6 +29,11 @@ def name_of(run: str, process: str) -> str:
     return f"{_OURS}{run}.{process}"
 
 
+def keeper_of(run: str) -> int:
+    """Return the pid of the keeper of a run, with which the run's id ends."""
+    return int(run.rpartition("-")[2])
+
+
 def open_place(place: Place, run: str) -> None:
     """Let groups for memory be made in a place. Raises `OSError`."""
     if place.hierarchy.version == 1:
