@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from orchestra.plan import codec
 from orchestra.supervise import directory
 from orchestra.supervise.attention import Attention
+from orchestra.supervise.confines import Confines
 from orchestra.supervise.furnishing import furnish
 from orchestra.supervise.identity import identity
 from orchestra.supervise.keeper import say
@@ -41,6 +42,10 @@ def conduct(beginnings: Beginnings) -> int:
     collection = Collection(beginnings.resolver, loop)
     attention = Attention(loop, beginnings.signals, collection.stop_signal)
     document, resolver = _collect(loop, collection, beginnings.resolver)
+    confines = Confines(loop, beginnings.run_id)
+    unfit = confines.take_up(document.plan)
+    if unfit:
+        raise Refused(MISTAKE, unfit)
     runs = directory.state_folder() / "runs"
     try:
         wanted = identity(beginnings.run_id, document.options.name, document.plan.file, beginnings.keeper)
@@ -59,6 +64,7 @@ def conduct(beginnings: Beginnings) -> int:
         replace(document.options, name=run_directory.name),
         run_id=beginnings.run_id,
         resolver=resolver,
+        confines=confines,
         more_time=lambda _seconds: False,
     ) as around:
         outcome = _run(beginnings, attention, plan, around)

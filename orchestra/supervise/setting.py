@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from orchestra.plan.model import Plan, Process
+    from orchestra.supervise.confines import Confines
     from orchestra.supervise.directory import RunDirectory
     from orchestra.supervise.loop import Loop
     from orchestra.supervise.options import RunOptions
@@ -45,10 +46,12 @@ def surroundings(
     *,
     run_id: str,
     resolver: Resolver | None,
+    confines: Confines,
     more_time: Callable[[float], bool],
 ) -> Iterator[Surroundings]:
     """Open everything for a run; `resolver` is the one that stays for it, `more_time` asks the keeper for patience."""
     with ExitStack() as opened:
+        opened.callback(confines.close)
         sheets = opened.enter_context(_screens(loop, options))
         warn = _Warning()
         recorder = Recorder(LogFile(run_directory.events, warn))
@@ -75,6 +78,7 @@ def surroundings(
             observers=Observers(loop, kin, lambda text: journal.say(f"observer: {text.rstrip()}")),
             trials=Trials(loop, kin),
             questions=Questions(resolver, loop, kin, options.resolver_timeout),
+            confines=confines,
             environment=_environment(run_directory, run_id, colour=sheets.output.colour),
             folder=run_directory.path,
             options=options,

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from orchestra.logs.journal import Journal
 from orchestra.plan.model import Process
+from orchestra.supervise.confines import Confines
 from orchestra.supervise.kin import Kin
 from orchestra.supervise.loop import Loop
 from orchestra.supervise.observation import Observers
@@ -65,6 +66,7 @@ class Surroundings:
     observers: Observers
     trials: Trials
     questions: Questions
+    confines: Confines
     environment: Callable[[Process | None], dict[str, str]]
     folder: Path
     options: RunOptions

@@ -201,6 +201,9 @@ class System:
         plan, fault = merged(self._plan, fragment)
         if fault:
             return f"what it adds does not fit into the plan: {fault}"
+        unfit = self._around.confines.take_up(plan)
+        if unfit:
+            return unfit
         self._revision += 1
         self._around.recorder.record(
             "plan_revised", trigger=trigger.id, revision=self._revision, **codec.encode(fragment)

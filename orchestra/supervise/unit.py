@@ -155,12 +155,14 @@ class Unit:
         tty, stdin = bool(process.emulate_tty), bool(process.stdin)
         try:
             environment.update(self._notices.begin())
-            child = spawn(Spec(self.id, argv(process), environment, process.cwd, tty, stdin))
+            before = self._around.confines.prepare(process)
+            child = spawn(Spec(self.id, argv(process), environment, process.cwd, tty, stdin, before))
         except OSError as error:
             self._not_started(unstartable(error))
             return
         self._child = child
         self._around.kin.add(child.pid, self.id)
+        self._around.confines.started(process, child.pid)
         self._streams = [
             Stream(
                 self._around.loop,
@@ -176,6 +178,7 @@ class Unit:
 
     def _not_started(self, ending: Ending) -> None:
         self._notices.end()
+        self._around.confines.release(self.id)
         self._account.not_started(ending)
         self._listener.ended(self.id, None, ending, intended=False)
         self.handle(life.Unstartable(ending, self._around.loop.clock()))
@@ -209,6 +212,7 @@ class Unit:
             self._around.kin.remove(self._child.pid)
             self._child.reap()
         self._child = None
+        self._around.confines.release(self.id)
         self._around.journal.rest(self.id)
 
     def _output(self, stream: str, text: str) -> None:
