@@ -15,6 +15,7 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from orchestra.description.source import Written, kind_of
 from orchestra.description.text import Constant, Template, Words
+from orchestra.nearest import nearest
 
 TRUE_WORDS = frozenset({"true", "1", "yes", "on"})
 FALSE_WORDS = frozenset({"false", "0", "no", "off"})
@@ -65,8 +66,13 @@ def _scalar(value: object, wanted: str) -> Written:
     return value
 
 
-def constant_of(wanted: str, accepts: Callable[[str], bool]) -> Callable[[object, ValidationInfo], Template]:
-    """Return a validator of texts that checks constants; `wanted` says to people what is accepted."""
+def constant_of(
+    wanted: str, accepts: Callable[[str], bool], words: tuple[str, ...] = ()
+) -> Callable[[object, ValidationInfo], Template]:
+    """Return a validator of texts that checks constants; `wanted` says to people what is accepted.
+
+    Of the `words` the nearest is suggested.
+    """
 
     def validate(value: object, info: ValidationInfo) -> Template:
         if not isinstance(value, Template):
@@ -74,9 +80,8 @@ def constant_of(wanted: str, accepts: Callable[[str], bool]) -> Callable[[object
         template = _text(value, info)
         constant = template.constant
         if constant is not None and not accepts(constant):
-            raise PydanticCustomError(
-                "wrong_type", "expected {wanted}, found {found}", {"wanted": wanted, "found": f"'{constant}'"}
-            )
+            facts = {"wanted": wanted, "found": f"'{constant}'", "suggestion": nearest(constant, words)}
+            raise PydanticCustomError("wrong_type", "expected {wanted}, found {found}", facts)
         return template
 
     return validate
@@ -105,10 +110,11 @@ def _is_integer(text: str) -> bool:
 def _any_value(value: object, info: ValidationInfo) -> Value | tuple[Value, ...]:
     if isinstance(value, tuple | Constant):
         return value
-    return _text_or_list(value, info)
+    return text_or_list(value, info)
 
 
-def _text_or_list(value: object, info: ValidationInfo) -> Template | tuple[Template, ...]:
+def text_or_list(value: object, info: ValidationInfo) -> Template | tuple[Template, ...]:
+    """Read a text, or a list of texts."""
     if isinstance(value, tuple):
         return value
     if isinstance(value, list):
@@ -166,10 +172,11 @@ AnyValue: TypeAlias = Annotated[
 ]
 # Words of a command: a text that is split as a shell would, or a list of which each item is exactly one word.
 Argv: TypeAlias = Annotated[
-    Template | tuple[Template, ...], PlainValidator(_text_or_list), WithJsonSchema(_TEXT_OR_LIST)
+    Template | tuple[Template, ...], PlainValidator(text_or_list), WithJsonSchema(_TEXT_OR_LIST)
 ]
 
 
 def word(*words: str) -> Callable[[object, ValidationInfo], Template]:
     """Return a validator for one of a few words."""
-    return constant_of("one of " + ", ".join(words), lambda text: text in words)
+    wanted = f"one of {', '.join(words)}" if len(words) > 1 else f"'{words[0]}'"
+    return constant_of(wanted, lambda text: text in words, words)

@@ -9,6 +9,7 @@ from pydantic import Field, PlainValidator, WithJsonSchema
 from orchestra.description.conditions import Alive, Ready
 from orchestra.description.entity import Action
 from orchestra.description.fields import Argv, Flag, Integer, Seconds, Text, word
+from orchestra.description.limits import Limits
 from orchestra.description.outputs import Output
 from orchestra.description.parts import DependsOn, Pair, Restart, Stop
 from orchestra.description.short import Short
@@ -60,3 +61,7 @@ class Running(Action):
     success_exit_codes: tuple[Integer, ...] | None = Field(
         default=None, description="Statuses that are no failure."
     )
+    stdin: Flag | None = Field(
+        default=None, description="Whether it reads what is typed; one process of a run may."
+    )
+    limits: Limits | None = Field(default=None, description="What it may use, and where it runs.")

@@ -100,7 +100,8 @@ class Reader:
             message = "expected at least one item, found none"
         else:
             message = error["msg"]
-        self.error(Code.WRONG_TYPE, message, _at(mapping, place))
+        suggestion = error.get("ctx", {}).get("suggestion")
+        self.error(Code.WRONG_TYPE, message, _at(mapping, place), suggestion=suggestion)
 
 
 def _at(mapping: Keyed, place: tuple[int | str, ...]) -> Span:

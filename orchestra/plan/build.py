@@ -16,6 +16,7 @@ from orchestra.plan.parameter_file import file_name
 from orchestra.plan.parameters import Parameters, check_for_all, check_given, parameters_of
 from orchestra.plan.provenance import environment_of, provenance
 from orchestra.plan.remappings import check_remaps
+from orchestra.plan.terminal import check_stdin
 from orchestra.plan.triggers import triggers
 
 if TYPE_CHECKING:
@@ -45,6 +46,7 @@ def build(
         for identity, process in targets.process.items()
     }
     check_cycles(edges, problems)
+    check_stdin(targets.process, problems)
     check_given(resolved, problems)
     check_for_all(resolved, problems)
     processes = tuple(
@@ -105,7 +107,7 @@ def _process(
         arguments=process.arguments,
         output=process.output,
         emulate_tty=process.emulate_tty,
-        stdin=None,
+        stdin=True if process.stdin is not None else None,
         restart=process.restart,
         required=process.required,
         success_exit_codes=process.success_exit_codes,
@@ -114,7 +116,7 @@ def _process(
         lifecycle="active" if process.autostart else None,
         depends_on=edges,
         stop=process.stop,
-        limits=None,
+        limits=process.limits,
         warm=None,
         machine=None,
         digest="",

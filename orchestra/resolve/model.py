@@ -11,7 +11,7 @@ from orchestra.resolve.awaited import ResolvedAlive, ResolvedReady
 from orchestra.resolve.context import Value
 from orchestra.resolve.rcl.sections import Entry, Section
 from orchestra.resolve.reactions import ResolvedTrigger
-from orchestra.values import Condition, ParameterValue, Restart, Stop
+from orchestra.values import Condition, Limits, ParameterValue, Restart, Stop
 
 DependencyKind: TypeAlias = Literal["node", "process", "label", "action"]
 Kind: TypeAlias = Literal["process", "node", "lifecycle_node", "container"]
@@ -98,8 +98,8 @@ class ResolvedProcess:
 
     `conditional` tells that a condition, which is true, stands on it or around it. `faulty` marks a process of which
     something has been reported: what follows from it is not reported again. Without `inherit_environment` it gets
-    nothing but `environment`. `origin` is the object of a Python launch file that made it, `around` are those that it
-    came out of, this one included.
+    nothing but `environment`. `stdin` is the place that says that it reads what is typed. `origin` is the object of a
+    Python launch file that made it, `around` are those that it came out of, this one included.
     """
 
     kind: Kind
@@ -133,6 +133,8 @@ class ResolvedProcess:
     faulty: bool
     inherit_environment: bool = True
     autostart: bool = False
+    limits: Limits | None = None
+    stdin: Location | None = None
     origin: Any = field(default=None, compare=False, repr=False)
     around: tuple[Any, ...] = field(default=(), compare=False, repr=False)
 

@@ -93,7 +93,7 @@ def _pattern(written: Template | None, run: Resolution) -> str | Poison | None:
     try:
         re.compile(value.text)
     except re.error as error:
-        plain = re.escape(value.text)
+        plain = re.escape(value.text).replace("\\ ", " ")
         plain = plain if is_python(value.location) else escaped(plain)
         note = f"as plain text it is written: {plain}"
         message = f"this is no regular expression: {error}"

@@ -13,6 +13,7 @@ from orchestra.errors import Code
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.dependencies import dependencies
+from orchestra.resolve.limits import limits
 from orchestra.resolve.model import EnvironmentChange, Kind, ParameterSource, ResolvedProcess, ResolvedRemap
 from orchestra.resolve.outputs import output
 from orchestra.resolve.policies import restart, stop
@@ -24,6 +25,7 @@ from orchestra.resolve.words import split
 if TYPE_CHECKING:
     from orchestra.description.running import Running
     from orchestra.description.text import Template
+    from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
 
 
@@ -48,11 +50,21 @@ class Program:
 
 def add_process(action: Running, program: Program, run: Resolution) -> int:
     """Add a process to what has been found: it starts with the run, or with the timer around it. Return its index."""
+    process = _resolved(action, program, run)
+    if run.occasion is not None:
+        run.occasion.do.append(ResolvedStart(len(run.found.processes), process.location))
+    run.found.processes.append(process)
+    _tell(process, run)
+    return len(run.found.processes) - 1
+
+
+def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedProcess:
+    """Return the process that an action starts."""
     sound = Sound()
     location = run.at(action.span)
     on_exit = sound(run.word(action.on_exit, ON_EXIT))
     places = output(action.output, run, location)
-    process = ResolvedProcess(
+    return ResolvedProcess(
         kind=program.kind,
         package=program.package,
         executable=program.executable,
@@ -79,6 +91,8 @@ def add_process(action: Running, program: Program, run: Resolution) -> int:
         stop=sound(stop(action, run)),
         depends_on=run.frame.depends_on + (sound(dependencies(action.depends_on, run)) or ()),
         labels=run.frame.labels,
+        limits=sound(limits(action.limits, run)),
+        stdin=sound(_stdin(action, run)),
         location=location,
         conditional=run.conditional
         or action.origin is not None,  # what a condition in Python said is not known
@@ -90,11 +104,6 @@ def add_process(action: Running, program: Program, run: Resolution) -> int:
         origin=action.origin,
         around=run.around,
     )
-    if run.occasion is not None:
-        run.occasion.do.append(ResolvedStart(len(run.found.processes), location))
-    run.found.processes.append(process)
-    _tell(process, run)
-    return len(run.found.processes) - 1
 
 
 def name_in_launch(process: ResolvedProcess, index: int) -> str:
@@ -129,6 +138,14 @@ def texts(argv: Template | tuple[Template, ...] | None, run: Resolution) -> tupl
     if isinstance(words, Poison):
         return POISON
     return tuple(word.text for word in words) or (() if isinstance(argv, tuple) else ("",))
+
+
+def _stdin(action: Running, run: Resolution) -> Location | Poison | None:
+    """Return the place that says that the process reads what is typed."""
+    reads = run.flag(action.stdin)
+    if action.stdin is None or isinstance(reads, Poison):
+        return POISON if isinstance(reads, Poison) else None
+    return run.at(action.stdin.span) if reads else None
 
 
 def _codes(action: Running, run: Resolution) -> tuple[int, ...] | Poison | None:

@@ -250,7 +250,7 @@ FAULTS = [
         "depends_on=[dict(node='b', condition='redy')]",
         "redy",
         "expected one of started, ready, completed, exited, found 'redy'",
-        None,
+        "ready",
     ),
     ("depends_on=[{'node': 'b', 'timeout': -1}]", "-1", "expected a number of seconds, found '-1'", None),
     (

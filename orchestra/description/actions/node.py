@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-from pydantic import Field
+from typing import Annotated
 
-from orchestra.description.fields import Argv, Text
+from pydantic import Field, PlainValidator, WithJsonSchema
+
+from orchestra.description.fields import Argv, Text, word
 from orchestra.description.parts import Param, Remap
 from orchestra.description.running import Running
+from orchestra.description.text import Template
+
+REACHED = ("active",)
 
 
 class Node(Running):
@@ -22,5 +27,11 @@ class Node(Running):
     ros_args: Argv | None = Field(default=None, description="More arguments after --ros-args.")
     param: tuple[Param, ...] = Field(
         default=(), description="Parameters and parameter files, later ones win."
+    )
+    lifecycle: (
+        Annotated[Template, PlainValidator(word(*REACHED)), WithJsonSchema({"enum": list(REACHED)})] | None
+    ) = Field(
+        default=None,
+        description="The state that a lifecycle node is brought to, and back to when it restarts.",
     )
     remap: tuple[Remap, ...] = Field(default=(), description="Remappings, the first that matches counts.")

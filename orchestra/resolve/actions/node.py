@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from orchestra.description.actions.node import REACHED
+from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Evaluated, Poison, Value
 from orchestra.resolve.namespaces import namespace_at
 from orchestra.resolve.node_names import named
@@ -19,8 +21,22 @@ if TYPE_CHECKING:
 
 
 def visit(action: Node, run: Resolution) -> None:
-    """Start a node."""
-    start(action, "node", run)
+    """Start a node; one that is brought to a state is a lifecycle node."""
+    managed = run.word(action.lifecycle, REACHED)
+    if managed is None:
+        start(action, "node", run)
+        return
+    index = start(action, "lifecycle_node", run, autostart=POISON if isinstance(managed, Poison) else True)
+    check_full_name(index, action, run)
+
+
+def check_full_name(index: int, action: Node, run: Resolution) -> None:
+    """Report a lifecycle node whose full name is not known: its state is asked for by that."""
+    process = run.found.processes[index]
+    if process.name is None and not process.faulty:
+        place = action.lifecycle or action
+        message = "a node that is brought to a state needs a `name`: it is asked by that"
+        run.problems.error(Code.BAD_NAME, message, run.at(place.span))
 
 
 def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison | None = False) -> int:

@@ -1,0 +1,105 @@
+"""What a process may use, and where it runs."""
+
+from __future__ import annotations
+
+from typing import Annotated, TypeAlias
+
+from pydantic import Field, PlainValidator, WithJsonSchema
+
+from orchestra.description.entity import Entity
+from orchestra.description.fields import Flag, Text, text_or_list, word
+from orchestra.description.ranges import NICE, PRIORITY
+from orchestra.description.text import Template
+
+SCHEDULERS = ("other", "batch", "idle", "fifo", "rr")
+
+_NUMBER = {"type": "integer", "minimum": 0}
+_CORES = {"type": "string", "pattern": r"\$\(|^\[?[0-9][0-9, -]*\]?$"}
+_AMOUNT = r"[0-9]+(\.[0-9]+)?\s*([KMGTkmgt](i?[Bb])?|[Bb])?"
+_LIMIT = rf"({_AMOUNT}|unlimited)"
+
+Cores: TypeAlias = Annotated[
+    Template | tuple[Template, ...],
+    PlainValidator(text_or_list),
+    WithJsonSchema(
+        {
+            "anyOf": [
+                _NUMBER,
+                _CORES,
+                {"type": "array", "items": {"anyOf": [_NUMBER, _CORES]}, "minItems": 1},
+            ]
+        }
+    ),
+]
+Size: TypeAlias = Annotated[
+    Text,
+    WithJsonSchema({"anyOf": [_NUMBER, {"type": "string", "pattern": rf"\$\(|^{_AMOUNT}$"}]}),
+]
+SizeOrUnlimited: TypeAlias = Annotated[
+    Text,
+    WithJsonSchema({"anyOf": [_NUMBER, {"type": "string", "pattern": rf"\$\(|^{_LIMIT}$"}]}),
+]
+Rlimit: TypeAlias = Annotated[
+    Text,
+    WithJsonSchema({"anyOf": [_NUMBER, {"type": "string", "pattern": rf"\$\(|^{_LIMIT}(:{_LIMIT})?$"}]}),
+]
+
+
+class Rlimits(Entity):
+    """Limits of getrlimit(2): a number, `unlimited`, or soft and hard limit with a colon between them."""
+
+    as_: Rlimit | None = Field(default=None, alias="as", description="Address space, in bytes.")
+    core: Rlimit | None = Field(default=None, description="Size of a core file, in bytes.")
+    cpu: Rlimit | None = Field(default=None, description="Time on a processor, in seconds.")
+    data: Rlimit | None = Field(default=None, description="Data segment, in bytes.")
+    fsize: Rlimit | None = Field(default=None, description="Size of a file that it writes, in bytes.")
+    memlock: Rlimit | None = Field(default=None, description="Memory that it keeps from swapping, in bytes.")
+    msgqueue: Rlimit | None = Field(default=None, description="POSIX message queues of its user, in bytes.")
+    nice: Rlimit | None = Field(default=None, description="20 minus the least `nice` that it may set.")
+    nofile: Rlimit | None = Field(default=None, description="Open files, one more than the highest number.")
+    nproc: Rlimit | None = Field(default=None, description="Processes and threads of its user.")
+    rss: Rlimit | None = Field(default=None, description="Resident memory, in bytes; Linux ignores it.")
+    rtprio: Rlimit | None = Field(default=None, description="Highest real-time priority that it may set.")
+    rttime: Rlimit | None = Field(
+        default=None, description="Real-time work without a pause, in microseconds."
+    )
+    sigpending: Rlimit | None = Field(default=None, description="Signals that may be queued for its user.")
+    stack: Rlimit | None = Field(default=None, description="Stack, in bytes.")
+
+
+class Limits(Entity):
+    """What a process may use, and where it runs; what is not said stays as it is inherited."""
+
+    cores: Cores | None = Field(
+        default=None, description="Logical processors that it may run on: a list, or ranges as `0-3,6`."
+    )
+    exclusive: Flag | None = Field(
+        default=None, description="Whether no other process of the run is given these cores."
+    )
+    nice: Annotated[Template, NICE] | None = Field(
+        default=None, description="Nice value, from -20 (first) to 19 (last)."
+    )
+    scheduler: (
+        Annotated[Template, PlainValidator(word(*SCHEDULERS)), WithJsonSchema({"enum": list(SCHEDULERS)})]
+        | None
+    ) = Field(default=None, description="Scheduling policy; `fifo` and `rr` are the real-time ones.")
+    priority: Annotated[Template, PRIORITY] | None = Field(
+        default=None, description="Real-time priority from 1 to 99, for `fifo` and `rr`."
+    )
+    memory: Size | None = Field(
+        default=None, description="Most memory of it and all it starts: bytes, or as `512M`, `2G`."
+    )
+    memory_lock: SizeOrUnlimited | None = Field(
+        default=None, description="Memory that it may keep from swapping: a size, or `unlimited`."
+    )
+    rlimits: Rlimits | None = Field(default=None, description="Limits of getrlimit(2), by their names.")
+
+    def conflict(self) -> str | None:
+        """Return which keys cannot stand without or beside another."""
+        if self.exclusive is not None and self.cores is None:
+            return "`exclusive` goes with `cores`"
+        if self.priority is not None and self.scheduler is None:
+            return "`priority` goes with `scheduler: fifo` or `scheduler: rr`"
+        if self.memory_lock is not None and self.rlimits is not None and self.rlimits.memlock is not None:
+            return "`memory_lock` and `memlock` of `rlimits` say the same thing: leave one of them out"
+        return None
