@@ -11,6 +11,7 @@ from rcl_interfaces.srv import ListParameters
 from rclpy.parameter import Parameter
 
 from orchestra.ros.interfaces import load_node_type
+from orchestra.ros.observer.order import OFTEN, ImpossibleError
 from orchestra.ros.observer.service import Service
 
 if TYPE_CHECKING:
@@ -32,28 +33,22 @@ class ComponentLoad:
     discovery tells of in the order in which they were made.
     """
 
-    looks = True
-
     def __init__(self, node: Node, request: Request, say: Say) -> None:
         self._say = say
         self._fields: Mapping[str, Any] = request["component"]
-        self._services: list[Service] = []
         self._there_since: float | None = None
-        self._begun = False
         container = request["container"]
         try:
             self._kind = load_node_type()
         except ImportError as error:
-            self.looks = False
-            say("impossible", reason=str(error))
-            return
+            raise ImpossibleError(str(error)) from error
         self._load = Service(node, self._kind, f"{container}/_container/load_node")
         self._parameters = Service(node, ListParameters, f"{container}/list_parameters")
-        self._services = [self._load, self._parameters]
+        self.every: float | None = OFTEN
 
     def look(self) -> None:
         """Begin as soon as the container takes orders."""
-        if self._begun or not self._load.ready:
+        if not self._load.ready:
             return
         if self._there_since is None:
             self._there_since = time.monotonic()
@@ -67,15 +62,15 @@ class ComponentLoad:
 
     def close(self) -> None:
         """Give the clients back."""
-        for service in self._services:
-            service.close()
+        self._load.close()
+        self._parameters.close()
 
     def _greeted(self, _response: object) -> None:
-        if not self._begun:
+        if self.every:
             self._begin()
 
     def _begin(self) -> None:
-        self._begun = True
+        self.every = None
         request = self._kind.Request()
         for name, value in self._fields.items():
             listed = name in ("parameters", "extra_arguments")

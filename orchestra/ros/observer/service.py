@@ -12,8 +12,10 @@ if TYPE_CHECKING:
     from rclpy.task import Future
 
 # An answer is lost where the server has not yet discovered the client's reader when it sends it (rmw_fastrtps gives
-# discovery 100 ms for that), so it is asked again after this time, in seconds.
+# discovery 100 ms for that), so it is asked again after this time, and then after twice as long each time up to the
+# longest, so that questions do not pile up before one that hangs; in seconds.
 _ASK_AGAIN = 0.5
+_AT_MOST = 8.0
 
 
 class Service:
@@ -23,7 +25,8 @@ class Service:
         self._node = node
         self._client = node.create_client(kind, name)
         self._call: Callable[[], None] | None = None
-        self._asked_at = 0.0
+        self._again_at = 0.0
+        self._patience = _ASK_AGAIN
 
     @property
     def asked(self) -> bool:
@@ -47,15 +50,17 @@ class Service:
                 answered(future.result())
 
         def call() -> None:
-            self._asked_at = time.monotonic()
+            self._again_at = time.monotonic() + self._patience
             self._client.call_async(request).add_done_callback(hear)
 
         self._call = call if repeat else None
+        self._patience = _ASK_AGAIN
         call()
 
     def look(self) -> None:
         """Ask again where it is time."""
-        if self._call and time.monotonic() >= self._asked_at + _ASK_AGAIN:
+        if self._call and time.monotonic() >= self._again_at:
+            self._patience = min(2 * self._patience, _AT_MOST)
             self._call()
 
     def close(self) -> None:

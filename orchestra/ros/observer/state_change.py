@@ -3,6 +3,8 @@
 Its state is asked for first. When that answer has come, the node has discovered every reader that we made before, the
 one for its transition events included: discovery tells of readers in the order in which they were made. So no event of
 the transition is lost. At the end the state is asked for again, since a response says no more than yes or no.
+
+A transition that the node need not take is done as soon as its state is known.
 """
 
 from __future__ import annotations
@@ -12,6 +14,7 @@ from typing import TYPE_CHECKING, Any
 
 from lifecycle_msgs.srv import ChangeState, GetState  # type: ignore[import-untyped]  # as every ROS package
 
+from orchestra.ros.observer.order import OFTEN
 from orchestra.ros.observer.service import Service
 
 if TYPE_CHECKING:
@@ -20,14 +23,29 @@ if TYPE_CHECKING:
     from orchestra.ros.observer.order import Request, Say
 
 
-class StateChange:
-    """`node` is the full name of the node, `transition` an id of lifecycle_msgs/msg/Transition."""
+# The states in which the transitions of lifecycle_msgs/msg/Transition end well, by their ids.
+_GOALS = {
+    1: "inactive",
+    2: "unconfigured",
+    3: "active",
+    4: "inactive",
+    **dict.fromkeys((5, 6, 7), "finalized"),
+}
 
-    looks = True
+
+class StateChange:
+    """`node` is the full name of the node, `transition` an id of lifecycle_msgs/msg/Transition.
+
+    With `only_in` the node takes it only where it is in that state. `again` says that it may have been asked already.
+    """
+
+    every = OFTEN
 
     def __init__(self, node: Node, request: Request, say: Say) -> None:
         self._say = say
         self._transition: int = request["transition"]
+        self._only_in: str | None = request.get("only_in")
+        self._again: bool = request.get("again", False)
         self._change = Service(node, ChangeState, f"{request['node']}/change_state")
         self._state = Service(node, GetState, f"{request['node']}/get_state")
         self._begun = False
@@ -49,9 +67,17 @@ class StateChange:
         self._state.ask(GetState.Request(), answered, repeat=True)
 
     def _move(self, before: Any) -> None:  # noqa: ANN401 - as above
+        state = before.current_state.label
+        if self._needless(state):
+            self._say("done", state=state)
+            return
         request = ChangeState.Request()
         request.transition.id = self._transition
-        self._change.ask(request, partial(self._moved, before.current_state.label))
+        self._change.ask(request, partial(self._moved, state))
+
+    def _needless(self, state: str) -> bool:
+        elsewhere = self._only_in is not None and state != self._only_in
+        return elsewhere or (self._again and state == _GOALS.get(self._transition))
 
     def _moved(self, before: str, response: Any) -> None:  # noqa: ANN401 - as above
         self._ask_state(partial(self._finish, before, success=response.success))

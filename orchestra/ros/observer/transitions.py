@@ -48,7 +48,7 @@ def label_of(start: str, goal: str) -> str:
 class Transitions:
     """`node` is the full name of the node."""
 
-    looks = False
+    every = None
 
     def __init__(self, node: Node, request: Request, say: Say) -> None:
         self._node = node

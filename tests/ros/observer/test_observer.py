@@ -84,7 +84,7 @@ def observer() -> Iterator[subprocess.Popen[str]]:
 
 
 def test_it_ends_with_its_input(observer: subprocess.Popen[str]) -> None:
-    ask(observer, {"id": "a", "do": "watch", "topic": "/never"})
+    ask(observer, {"id": "a", "do": "watch", "fact": "message", "topic": "/never"})
     assert observer.stdin
     observer.stdin.close()
     assert observer.wait(30) == 0
@@ -96,10 +96,10 @@ def test_it_answers_each_wait_once_and_forgets_what_it_is_told_to(observer: subp
     command = [sys.executable, str(PROCESSES / "publisher.py"), *offered]
     ask(
         observer,
-        {"id": "no", "do": "watch", "topic": "/a"},
+        {"id": "no", "do": "watch", "fact": "message", "topic": "/a"},
         {"forget": "no"},
-        {"id": "a", "do": "watch", "topic": "/a"},
-        {"id": "b", "do": "watch", "topic": "/b"},
+        {"id": "a", "do": "watch", "fact": "message", "topic": "/a"},
+        {"id": "b", "do": "watch", "fact": "message", "topic": "/b"},
     )
     with subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL) as node:
         assert observer.stdout

@@ -1,0 +1,18 @@
+"""A topic has a publisher."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.ros.observer.facts.seen import Seen
+
+if TYPE_CHECKING:
+    from rclpy.node import Node
+
+    from orchestra.ros.observer.order import Request, Say
+
+
+def topic_there(node: Node, request: Request, say: Say) -> Seen:
+    """`name` is the full name of the topic."""
+    name: str = request["name"]
+    return Seen(node, say, lambda eyes: bool(eyes.count_publishers(name)))
