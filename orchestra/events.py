@@ -20,6 +20,7 @@ Kind: TypeAlias = Literal[
     "process_failed",  # for good, not as it should; data as above, reason where it never ran, hang
     "process_skipped",
     "process_ended",  # one run of it is over, whatever follows; data: code, signal, reason, hang, uptime
+    "process_hung",  # a sign of life is missing; data: reason, threads (what /proc tells of each)
     "signal_sent",  # data: signal
     "descendant_adopted",  # a child of a process detached itself; data: command
     "left_behind",  # something outlived its process or the run; data: command

@@ -46,6 +46,9 @@ class Listener(Protocol):
     def failed(self, reason: str, about: str | None = None) -> None:
         """The run cannot go on; `about` names the process whose last lines belong to the message."""
 
+    def went_wrong(self, what: str) -> None:
+        """Something that the plan says could not be done; the run goes on."""
+
     def look(self) -> None:
         """Find out who became our child."""
 

@@ -14,6 +14,7 @@ from orchestra.supervise.account import Account
 from orchestra.supervise.ending import Ending, unstartable
 from orchestra.supervise.kin import send_as_asked, send_to_groups
 from orchestra.supervise.life import LIVE, Phase, State
+from orchestra.supervise.liveness import Liveness
 from orchestra.supervise.machine import ladder, transition
 from orchestra.supervise.notification import Notices
 from orchestra.supervise.order import Life
@@ -56,13 +57,20 @@ class Unit:
             self.handle,
             lambda problem: listener.failed(f"cannot tell whether {self.name} is ready: {problem}"),
         )
+        self._liveness = Liveness(
+            process,
+            surroundings,
+            self._notices,
+            self.handle,
+            lambda problem: listener.went_wrong(f"cannot tell whether {self.name} is alive: {problem}"),
+        )
         self._timers: dict[str, Timer] = {}
         self._sending = False
         self._plainly: dict[type[Any], Callable[[], None]] = {
             life.Spawn: self._spawn,
             life.Unwatch: self._readiness.end,
-            life.Guard: lambda: None,
-            life.Unguard: lambda: None,
+            life.Guard: self._liveness.begin,
+            life.Unguard: self._liveness.end,
             life.Settle: self._settle,
             life.Missed: self._missed,
         }
@@ -85,8 +93,10 @@ class Unit:
     @property
     def awaits_message(self) -> bool:
         """Whether it needs the observer, now or at its next start."""
-        settled = self.state.phase in life.FINAL or self.state.phase in (Phase.READY, Phase.STOPPING)
-        return not settled and self._readiness.looks_into_graph
+        if self.state.phase in life.FINAL or self.state.phase is Phase.STOPPING:
+            return False
+        awaits = self.state.phase is not Phase.READY and self._readiness.looks_into_graph
+        return awaits or self._liveness.looks_into_graph
 
     @property
     def awaited(self) -> str:
