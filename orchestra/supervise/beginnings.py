@@ -2,25 +2,52 @@
 
 from __future__ import annotations
 
+import os
+
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from orchestra.supervise.attendance import Attend
+    from orchestra.supervise.patience import Patience
     from orchestra.supervise.resolver import Resolver
+    from orchestra.supervise.stacks import Stacks
+
+
+class Kept:
+    """What connects the supervisor with its keeper: the keeper's pid, the run's mark, what both share."""
+
+    __slots__ = ("keeper", "patience", "run_id", "stacks")
+
+    def __init__(self, keeper: int, run_id: str, patience: Patience, stacks: Stacks) -> None:
+        self.keeper = keeper
+        self.run_id = run_id
+        self.patience = patience
+        self.stacks = stacks
 
 
 class Beginnings:
     """The run's mark, the keeper's pid, the resolver at work, the descriptor on which signals arrive as bytes.
 
-    `attend` is what attends to the run besides.
+    `stacks` is where our processes write where they are; `attend` is what attends to the run besides.
     """
 
-    __slots__ = ("attend", "keeper", "resolver", "run_id", "signals")
+    __slots__ = ("_patience", "attend", "keeper", "resolver", "run_id", "signals", "stacks")
 
-    def __init__(
-        self, run_id: str, keeper: int, resolver: Resolver, signals: int, attend: Attend | None
-    ) -> None:
-        self.run_id = run_id
-        self.keeper = keeper
+    def __init__(self, kept: Kept, resolver: Resolver, signals: int, attend: Attend | None) -> None:
+        self.run_id = kept.run_id
+        self.keeper = kept.keeper
+        self.stacks = kept.stacks
         self.resolver = resolver
         self.signals = signals
         self.attend = attend
+        self._patience = kept.patience
+
+    def orphaned(self) -> bool:
+        """Tell whether the keeper is dead: then the run has to end as soon as usual, whatever was granted."""
+        return os.getppid() != self.keeper
+
+    def more_time(self, seconds: float) -> bool:
+        """Ask the keeper to wait so long from now for the end of the run; tell whether there is one that will."""
+        if self.orphaned():
+            return False
+        self._patience.grant(seconds)
+        return True

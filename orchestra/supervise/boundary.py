@@ -10,9 +10,9 @@ from typing import TYPE_CHECKING
 
 from orchestra.supervise.conduct import conduct
 from orchestra.supervise.directory import state_folder
-from orchestra.supervise.keeper import say
 from orchestra.supervise.outcome import BUG
 from orchestra.supervise.resolving import Refused
+from orchestra.supervise.standard_streams import say
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -14,13 +14,13 @@ from orchestra.supervise.attention import Attention
 from orchestra.supervise.confines import Confines
 from orchestra.supervise.furnishing import furnish
 from orchestra.supervise.identity import identity
-from orchestra.supervise.keeper import say
 from orchestra.supervise.kin import Kin, send_to_groups
 from orchestra.supervise.leftovers import end_leftovers
 from orchestra.supervise.loop import Loop
 from orchestra.supervise.outcome import FAILED, MISTAKE, UNSTOPPABLE, judge
 from orchestra.supervise.resolving import Collection, Refused
 from orchestra.supervise.setting import surroundings
+from orchestra.supervise.standard_streams import say
 from orchestra.supervise.system import System
 
 if TYPE_CHECKING:
@@ -65,7 +65,7 @@ def conduct(beginnings: Beginnings) -> int:
         run_id=beginnings.run_id,
         resolver=resolver,
         confines=confines,
-        more_time=lambda _seconds: False,
+        more_time=beginnings.more_time,
     ) as around:
         outcome = _run(beginnings, attention, plan, around)
     try:

@@ -6,54 +6,64 @@ fail or block: no plan, no logs, no import of user code.
 
 Signals are blocked and fetched with sigtimedwait(2): no handler runs, nothing is lost between two waits, and it makes
 no difference that SIGINT was ignored when we were started, as a shell does for a job in the background. An ignored
-SIGHUP stays ignored (`signals` says why).
+SIGHUP stays ignored (`signals` says why). Since SIGTTOU is blocked too, what we write to the terminal does not stop us
+in the background, whatever `stty tostop` says (tty_ioctl(4)).
 """
 
 from __future__ import annotations
 
-import contextlib
 import os
-import select
 import signal
-import sys
 import time
 
 from orchestra.supervise import kernel, proc
-from orchestra.supervise.signals import stop_signals
+from orchestra.supervise.patience import USUAL
+from orchestra.supervise.signals import received_signals, stop_signals
+from orchestra.supervise.standard_streams import flush, say
+from orchestra.supervise.sweeping import sweep
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-# The supervisor ends everything within 5 s of a request and gives up within 6 s. One that has done neither by now is
-# stuck itself.
-PATIENCE = 8.0
+    from orchestra.supervise.patience import Patience
+    from orchestra.supervise.stacks import Stacks
 
-# The supervisor is dead: what it started gets these, each for the time given, 5 s together.
-_SWEEP = ((signal.SIGINT, 2.0), (signal.SIGTERM, 1.5), (signal.SIGKILL, 1.5))
-_LOOK_AGAIN = 0.05
+# From this Ctrl-C on everything is killed at once, and no more time than usual is given for it.
+_IMPATIENT = 3
+
+# What the kernel has not ended this long after SIGKILL, it will not end soon: it is in an uninterruptible wait, or
+# somebody traces it. In seconds.
+_GIVE_UP_AFTER = 1.0
+
+# Of signals that mean something only to the supervisor.
+_FORWARDED = frozenset({signal.SIGWINCH, signal.SIGCONT})
 
 FAILED, UNSTOPPABLE = 1, 4
 
 
-def keep(supervise: Callable[[], int]) -> int:
+def keep(supervise: Callable[[], int], patience: Patience, stacks: Stacks) -> int:
     """Run `supervise` in a child and return its status; 1 where it died of a signal, 4 where something is left."""
-    _fill_standard_descriptors()
     kernel.set_name("orc-keeper")
     kernel.become_subreaper()
-    for number in _fetched():
+    for number in received_signals():
         signal.signal(number, signal.SIG_DFL)
-    signal.pthread_sigmask(signal.SIG_SETMASK, _fetched())
-    supervisor = _fork(supervise)
-    status = _wait(supervisor)
-    if os.WIFEXITED(status) and os.WEXITSTATUS(status) == UNSTOPPABLE:
+    signal.pthread_sigmask(signal.SIG_SETMASK, received_signals())
+    watch = _Watch(_fork(supervise), patience, stacks)
+    status = watch.until_it_ends()
+    if status is not None and os.WIFEXITED(status) and os.WEXITSTATUS(status) == UNSTOPPABLE:
         return UNSTOPPABLE  # the supervisor has tried everything, and has named what is left
-    left = sweep(os.getpid())
-    if os.WIFEXITED(status):
+    left = sweep(os.getpid(), _pause)
+    if status is not None and os.WIFEXITED(status):
         return UNSTOPPABLE if left else os.WEXITSTATUS(status)
-    name = signal.Signals(os.WTERMSIG(status)).name
-    say(f"the supervisor was ended by {name}; " + _outcome(left))
+    say(f"the supervisor {_fate(status)}; {_outcome(left)}")
     return UNSTOPPABLE if left else FAILED
+
+
+def _fate(status: int | None) -> str:
+    if status is None:
+        return "cannot be ended"
+    return f"was ended by {signal.Signals(os.WTERMSIG(status)).name}"
 
 
 def _outcome(left: list[int]) -> str:
@@ -81,32 +91,103 @@ def _fork(supervise: Callable[[], int]) -> int:
         os._exit(status)
 
 
-def _wait(supervisor: int) -> int:
-    """Forward signals until the supervisor has ended; return its wait status."""
-    deadline: float | None = None
-    while True:
-        received = _fetch(None if deadline is None else max(0.0, deadline - time.monotonic()))
-        if received is None:
-            say(f"the supervisor does not answer; it is killed after {PATIENCE:.0f} s")
-            os.kill(supervisor, signal.SIGKILL)
-            deadline = None
-        elif received in stop_signals():
-            os.kill(supervisor, received)
-            deadline = deadline or time.monotonic() + PATIENCE
-        status = _reap(supervisor)
-        if status is not None:
-            return status
+class _Watch:
+    """The time while the supervisor lives."""
+
+    def __init__(self, supervisor: int, patience: Patience, stacks: Stacks) -> None:
+        self._supervisor = supervisor
+        self._patience = patience
+        self._stacks = stacks
+        self._asked_at: float | None = None
+        self._deadline: float | None = None
+        self._interrupts = 0
+        self._killed = False
+
+    def until_it_ends(self) -> int | None:
+        """Forward signals until the supervisor has ended; return its wait status, None where nothing can end it."""
+        while True:
+            received = _fetch(None if self._deadline is None else max(0.0, self._deadline - time.monotonic()))
+            status = _reap(self._supervisor)
+            if status is not None:
+                return status
+            if received is None and self._killed:
+                return None
+            if received is None:
+                self._lose_patience()
+            else:
+                self._hear(received)
+
+    def _hear(self, number: int) -> None:
+        if number in stop_signals():
+            self._stop(number)
+        elif number == signal.SIGQUIT:
+            self._stacks.show("keeper")
+            self._tell(signal.SIGQUIT)
+        elif number == signal.SIGTSTP:
+            self._suspend()
+        elif number in _FORWARDED:
+            self._tell(number)
+
+    def _stop(self, number: int) -> None:
+        """Forward a stop signal, and wake the supervisor: one that somebody has stopped could not act on it."""
+        self._tell(number)
+        self._tell(signal.SIGCONT)
+        self._interrupts += number == signal.SIGINT
+        now = time.monotonic()
+        if self._deadline is None or (self._interrupts == _IMPATIENT and not self._killed):
+            self._deadline = now + USUAL
+        if self._asked_at is None:
+            self._asked_at = now
+
+    def _lose_patience(self) -> None:
+        """Wait on where the supervisor has asked for it, and kill it where it is stuck."""
+        granted = self._patience.remaining()
+        if granted > 0 and self._interrupts < _IMPATIENT:
+            self._deadline = time.monotonic() + granted
+            return
+        facts = proc.stat(self._supervisor)
+        state = f" (state {facts.state})" if facts else ""
+        waited = time.monotonic() - (self._asked_at or 0.0)
+        say(f"the supervisor does not answer{state}; it is killed after {waited:.0f} s")
+        self._tell(signal.SIGQUIT)
+        where = self._stacks.read(0.5)
+        if where:
+            say(f"it was here:\n{where}")
+        self._tell(signal.SIGKILL)
+        self._killed = True
+        self._deadline = time.monotonic() + _GIVE_UP_AFTER
+
+    def _suspend(self) -> None:
+        """Stop, so that the shell goes on; the run does too. We go on when the shell says so (SIGCONT)."""
+        if not _can_be_resumed():
+            return
+        say("suspended, but the run goes on; `fg` brings it back")
+        self._tell(signal.SIGTSTP)
+        os.kill(os.getpid(), signal.SIGTSTP)
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTSTP})
+        signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTSTP})
+
+    def _tell(self, number: int) -> None:
+        """Signal the supervisor, which stays our child until it is reaped."""
+        os.kill(self._supervisor, number)
 
 
-def _fetched() -> frozenset[signal.Signals]:
-    return stop_signals() | {signal.SIGCHLD}
+def _can_be_resumed() -> bool:
+    """Tell whether a shell started our process group, and can continue it: the kernel does not stop it otherwise.
+
+    That is an orphaned process group (setpgid(2), credentials(7)).
+    """
+    ours = facts = proc.stat(os.getpid())
+    while ours and facts and facts.group == ours.group:
+        facts = proc.stat(facts.parent)
+    return bool(ours and facts and facts.session == ours.session)
 
 
 def _fetch(timeout: float | None) -> int | None:
     """Return the next signal, None where the time is over."""
     if timeout is None:
-        return signal.sigwaitinfo(_fetched()).si_signo
-    received = signal.sigtimedwait(_fetched(), timeout)
+        return signal.sigwaitinfo(received_signals()).si_signo
+    received = signal.sigtimedwait(received_signals(), timeout)
     return received.si_signo if received else None
 
 
@@ -124,62 +205,8 @@ def _reap(supervisor: int | None = None) -> int | None:
             status_of_supervisor = status
 
 
-def sweep(root: int) -> list[int]:
-    """End every descendant of a process, politely first; return those that are left. A stop signal makes it KILL now.
-
-    Whoever receives it decides nothing: after the last signal only what the kernel itself cannot end is left.
-    """
-    hurry = False
-    for number, seconds in _SWEEP:
-        if hurry and number != signal.SIGKILL:
-            continue
-        deadline = time.monotonic() + seconds
-        told: set[int] = set()
-        while True:
-            _reap()
-            left = proc.descendants(root)
-            if not left:
-                return []
-            if time.monotonic() >= deadline:
-                break
-            for pid in left if number == signal.SIGKILL else set(left) - told:
-                _send(pid, number)
-            told.update(left)
-            hurry = hurry or _fetch(_LOOK_AGAIN) in stop_signals()
-            if hurry and number != signal.SIGKILL:
-                break
-    return proc.descendants(root)
-
-
-def _send(pid: int, number: int) -> None:
-    """Signal a process; a stopped one is woken, since it could not act on it otherwise."""
-    with contextlib.suppress(ProcessLookupError, PermissionError):
-        os.kill(pid, number)
-        if number != signal.SIGKILL:
-            os.kill(pid, signal.SIGCONT)
-
-
-def flush() -> None:
-    """Write out what Python still holds; either stream may be closed, or nobody may read it."""
-    for stream in (sys.stdout, sys.stderr):
-        with contextlib.suppress(OSError, ValueError, AttributeError):
-            stream.flush()
-
-
-def _fill_standard_descriptors() -> None:
-    """Open what is closed of 0, 1 and 2 on /dev/null, so that no pipe or file of ours gets such a number."""
-    while True:
-        descriptor = os.open(os.devnull, os.O_RDWR)
-        if descriptor > 2:  # noqa: PLR2004 - standard error
-            os.close(descriptor)
-            return
-        os.set_inheritable(descriptor, True)
-
-
-def say(text: str) -> None:
-    """Tell the user something unless that would block: a stuck terminal must not keep anything alive."""
-    poll = select.poll()
-    with contextlib.suppress(OSError):
-        poll.register(2, select.POLLOUT)
-        if poll.poll(0):
-            os.write(2, f"[orchestra] {text}\n".encode())
+def _pause(seconds: float) -> bool:
+    """Wait for a signal and collect our children; a stop signal is a wish to hurry."""
+    received = _fetch(seconds)
+    _reap()
+    return received in stop_signals()

@@ -6,6 +6,9 @@ import os
 
 # Field 22 of /proc/PID/stat, counted behind the state, which is field 3.
 _BIRTH = 18
+# Fields 5 and 8, counted from the state itself: the process group, and the one that its terminal listens to.
+_GROUP, _FOREGROUND = 2, 5
+_LOCKS = b"Max file locks"
 
 
 class Stat:
@@ -81,6 +84,35 @@ def descendants(root: int) -> list[int]:
         found.extend(facts.pid for facts in facts_of_layer if facts.state not in "ZX")
         layer = [facts.pid for facts in facts_of_layer]
     return found
+
+
+def branch(root: int) -> list[int]:
+    """Return what is below a process, by the `children` files: only its own branch is read, not the whole machine."""
+    found: list[int] = []
+    todo = [root]
+    while todo:
+        below = children(todo.pop())
+        found.extend(below)
+        todo.extend(below)
+    return found
+
+
+def lock_limit(pid: int) -> int | None:
+    """Return the soft limit on file locks of a process; None where it is unlimited or cannot be known."""
+    for line in (_read(f"/proc/{pid}/limits") or b"").splitlines():
+        if line.startswith(_LOCKS):
+            value = line[len(_LOCKS) :].split()[0]
+            return int(value) if value.isdigit() else None
+    return None
+
+
+def in_foreground(pid: int) -> bool:
+    """Tell whether a process is in the group that reads its terminal; a process without a terminal is not."""
+    content = _read(f"/proc/{pid}/stat")
+    if content is None:
+        return False
+    group, foreground = (int(content.rpartition(b")")[2].split()[index]) for index in (_GROUP, _FOREGROUND))
+    return group == foreground
 
 
 def marks(pid: int, names: tuple[str, ...]) -> tuple[str | None, ...]:

@@ -12,8 +12,8 @@ import signal
 import sys
 
 from orchestra.supervise import kernel
-from orchestra.supervise.keeper import flush
-from orchestra.supervise.signals import reset_signals
+from orchestra.supervise.signals import reset_signals, unblock_signals
+from orchestra.supervise.standard_streams import flush
 
 TYPE_CHECKING = False  # `typing` costs more than this module, which the keeper carries
 if TYPE_CHECKING:
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from typing import BinaryIO, TypeAlias
 
     from orchestra.supervise.serving import Answer
+    from orchestra.supervise.stacks import Stacks
 
     Prepare: TypeAlias = Callable[[BinaryIO], int | Answer]
 
@@ -37,8 +38,11 @@ class Resolver:
         self.descriptor = descriptor
 
 
-def fork_resolver(prepare: Prepare) -> Resolver:
-    """Run `prepare` in a child with default signals and a session of its own; it dies with its parent."""
+def fork_resolver(prepare: Prepare, stacks: Stacks) -> Resolver:
+    """Run `prepare` in a child with default signals and a session of its own; it dies with its parent.
+
+    On SIGQUIT it writes where its code is, and goes on.
+    """
     ours, theirs = _connection()
     parent = os.getpid()
     pid = os.fork()
@@ -52,7 +56,9 @@ def fork_resolver(prepare: Prepare) -> Resolver:
         kernel.die_with_parent(signal.SIGKILL, parent)
         kernel.set_name("orc-resolver")
         os.setsid()
-        reset_signals()
+        reset_signals(unblock=False)
+        stacks.show_on_request(chain=False)
+        unblock_signals()
         status = _prepare(prepare, theirs)
     finally:
         os._exit(status)

@@ -10,15 +10,23 @@ Call it early: what is imported before is imported in all three.
 from __future__ import annotations
 
 import os
-import signal
 import sys
 import time
 
-from orchestra.supervise.beginnings import Beginnings
+from orchestra.supervise.beginnings import Beginnings, Kept
 from orchestra.supervise.keeper import keep
 from orchestra.supervise.marks import RUN
+from orchestra.supervise.patience import Patience
 from orchestra.supervise.resolver import fork_resolver
-from orchestra.supervise.signals import disregard_hang_up, receive_signals, reset_signals, stop_signals
+from orchestra.supervise.signals import (
+    disregard_hang_up,
+    receive_signals,
+    received_signals,
+    reset_signals,
+    unblock_signals,
+)
+from orchestra.supervise.stacks import Stacks
+from orchestra.supervise.standard_streams import fill_standard_descriptors
 
 TYPE_CHECKING = False  # `typing` itself costs more than the rest of this module
 if TYPE_CHECKING:
@@ -55,26 +63,33 @@ def run(
     `attend` is called in the supervisor process when the run is about to begin, and may import what it needs then.
     `afterwards` is called in the keeper with the run's mark when everything is over, whoever was killed before.
     """
+    fill_standard_descriptors()
     keeper = os.getpid()
     run_id = f"{time.time_ns():x}-{keeper}"
-    status = keep(lambda: _supervise(prepare, attend, keeper, run_id))
+    patience, stacks = Patience(), Stacks()
+
+    def supervise() -> int:
+        return _supervise(prepare, attend, Kept(keeper, run_id, patience, stacks))
+
+    status = keep(supervise, patience, stacks)
     if afterwards:
         afterwards(run_id)
     return status
 
 
-def _supervise(prepare: Prepare, attend: Attend | None, keeper: int, run_id: str) -> int:
-    os.environ[RUN] = run_id
+def _supervise(prepare: Prepare, attend: Attend | None, kept: Kept) -> int:
+    os.environ[RUN] = kept.run_id
     # The keeper's mask is still in force: no signal can reach the resolver with our handlers, nor us without them.
-    resolver = fork_resolver(prepare)
+    resolver = fork_resolver(prepare, kept.stacks)
     reset_signals(unblock=False)
-    signals = receive_signals((*stop_signals(), signal.SIGCHLD))
+    signals = receive_signals(received_signals())
+    kept.stacks.show_on_request(chain=True)
     disregard_hang_up()
-    signal.pthread_sigmask(signal.SIG_SETMASK, ())
+    unblock_signals()
     try:
         # Imported while the resolver works, so that neither waits for the other.
         from orchestra.supervise.boundary import guarded_run  # noqa: PLC0415
     except BaseException:  # noqa: BLE001 - a forked child must not run on into its parent's code
         sys.excepthook(*sys.exc_info())
         return 3
-    return guarded_run(Beginnings(run_id, keeper, resolver, signals, attend))
+    return guarded_run(Beginnings(kept, resolver, signals, attend))

@@ -9,7 +9,7 @@ import sys
 import traceback
 from typing import TYPE_CHECKING, Any
 
-from orchestra.supervise.keeper import flush
+from orchestra.supervise.standard_streams import flush
 
 if TYPE_CHECKING:
     from collections.abc import Callable

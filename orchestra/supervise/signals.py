@@ -1,4 +1,12 @@
-"""Dispositions and masks: what a process inherits is not what it needs, with one exception.
+"""Dispositions and masks: what each signal means to a run, and how those that we receive are told.
+
+    SIGINT, SIGTERM, SIGHUP     the run ends; SIGINT again hurries it
+    SIGQUIT                     the state of the run is told, and it goes on
+    SIGTSTP, SIGCONT            the keeper alone stops and goes on: the shell gets its prompt back
+    SIGWINCH                    the terminal has another size
+    SIGTTIN, SIGTTOU, others    nothing happens
+
+SIGKILL and SIGSTOP cannot be received (signal(7)), and those that tell a fault of the program itself end it.
 
 A hang-up that is ignored at the start ends nothing of ours: that is how nohup(1) says that a run is to go on when its
 terminal is closed. An ignored SIGINT says nothing, since shells give that to every job in the background. Programs
@@ -19,11 +27,28 @@ if TYPE_CHECKING:
 _STOP_SIGNALS = frozenset({signal.SIGINT, signal.SIGTERM, signal.SIGHUP})
 _SIG_ERR = -1  # signal(2)
 _LEFT_ALONE = frozenset({signal.SIGPIPE, signal.SIGXFSZ})
+_FAULTS = frozenset(
+    {
+        signal.SIGABRT,
+        signal.SIGBUS,
+        signal.SIGFPE,
+        signal.SIGILL,
+        signal.SIGSEGV,
+        signal.SIGSYS,
+        signal.SIGTRAP,
+    }
+)
+_UNRECEIVABLE = frozenset({signal.SIGKILL, signal.SIGSTOP})
 
 
 def stop_signals() -> frozenset[signal.Signals]:
     """Return the signals that ask for the end of the run."""
     return _STOP_SIGNALS - _kept()
+
+
+def received_signals() -> frozenset[int]:
+    """Return every signal that is received and understood, or disregarded: none of them ends a process of ours."""
+    return frozenset(signal.valid_signals()) - _FAULTS - _UNRECEIVABLE - _LEFT_ALONE - _kept()
 
 
 def _kept() -> frozenset[signal.Signals]:
@@ -40,7 +65,12 @@ def reset_signals(*, unblock: bool = True) -> None:
         with contextlib.suppress(OSError, ValueError):  # SIGKILL, SIGSTOP and those of the C library
             signal.signal(number, signal.SIG_DFL)
     if unblock:
-        signal.pthread_sigmask(signal.SIG_SETMASK, ())
+        unblock_signals()
+
+
+def unblock_signals() -> None:
+    """Let every signal through."""
+    signal.pthread_sigmask(signal.SIG_SETMASK, ())
 
 
 def disregard_hang_up() -> None:

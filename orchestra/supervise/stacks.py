@@ -1,0 +1,53 @@
+"""Where our own processes are in their code, written at once by a handler that needs no interpreter (faulthandler).
+
+One pipe is shared by keeper, supervisor and resolver: made before the first fork, written without blocking, and read by
+the supervisor, or by the keeper where the supervisor is stuck.
+"""
+
+from __future__ import annotations
+
+import faulthandler
+import os
+import select
+import signal
+
+_READ_SIZE = 65536
+
+
+class Stacks:
+    """The pipe. What does not fit into it is lost; `descriptor` is where it is read."""
+
+    __slots__ = ("_writable", "descriptor")
+
+    def __init__(self) -> None:
+        self.descriptor, self._writable = os.pipe()
+        os.set_blocking(self.descriptor, False)
+        os.set_blocking(self._writable, False)
+
+    def show_on_request(self, *, chain: bool) -> None:
+        """From now on write the stacks of this process on SIGQUIT; `chain` calls the handler that was there too."""
+        faulthandler.register(signal.SIGQUIT, self._writable, all_threads=True, chain=chain)
+
+    def show(self, name: str) -> None:
+        """Write the stacks of this process now, under its name."""
+        self.title(name)
+        faulthandler.dump_traceback(self._writable, all_threads=True)
+
+    def title(self, name: str) -> None:
+        """Write whose stacks follow."""
+        try:
+            os.write(self._writable, f"{name} (pid {os.getpid()}):\n".encode())
+        except BlockingIOError:
+            return  # the pipe is full of stacks that nobody has read
+
+    def read(self, patience: float = 0.0) -> str:
+        """Return what has been written, and wait so many seconds for the first of it."""
+        poll = select.poll()
+        poll.register(self.descriptor, select.POLLIN)
+        poll.poll(patience * 1000)
+        content = bytearray()
+        while True:
+            try:
+                content += os.read(self.descriptor, _READ_SIZE)
+            except BlockingIOError:
+                return content.decode("utf-8", "replace")
