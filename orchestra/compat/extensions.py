@@ -6,7 +6,8 @@ substitutions are objects. Where a text is wanted, a list of texts and substitut
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from pathlib import PurePath
 from signal import Signals
 from typing import TYPE_CHECKING, Any, Final
 
@@ -17,14 +18,17 @@ from orchestra.compat.seam import connection
 from orchestra.compat.text import template
 from orchestra.compat.values import written
 from orchestra.description.source import Keyed, Listed, Written
-from orchestra.description.text import Opaque, Template
+from orchestra.description.text import Constant, Opaque, Template
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
     from orchestra.compat.place import Place
     from orchestra.description.entity import Entity
 
-RUNNING: Final = ("depends_on", "ready", "restart", "required", "stop", "success_exit_codes")
+RUNNING: Final = (
+    *("depends_on", "ready", "alive", "restart", "required", "stop", "success_exit_codes"),
+    *("stdin", "limits"),
+)
 INCLUDED: Final = ("for_each", "scoped", "label", "depends_on")
 
 
@@ -59,9 +63,28 @@ def _lasting(value: Any) -> Any:
     return list(value) if isinstance(value, Iterator) else value
 
 
-def _mapping(value: Any, at: Literal) -> Any:
-    """Return a mapping with texts in it."""
-    return _keyed(value, at, _text) if isinstance(value, Mapping) else _texts(value, at)
+def _part(**trees: Callable[[Any, Literal], Any]) -> Callable[[Any, Literal], Any]:
+    """Return a reader of mappings: with texts in them but for the keys that are named."""
+
+    def read(value: Any, at: Literal) -> Any:
+        if not isinstance(value, Mapping):
+            return _texts(value, at)
+        found = Keyed(at.span, at.span)
+        for key, item in value.items():
+            name = str(key)
+            found.put(name, trees.get(name, _text)(item, at.value(key)), at.key(key))
+        return found
+
+    return read
+
+
+def _typed(value: Any, at: Literal) -> Any:
+    """Return the value of a parameter, which has its type already unless it is made of substitutions."""
+    if isinstance(value, bool | int | float | str):
+        return Constant(value, at.span)
+    if isinstance(value, list | tuple) and all(isinstance(item, bool | int | float | str) for item in value):
+        return Constant(tuple(value), at.span)  # type: ignore[arg-type] - what it cannot be is told when it is resolved
+    return _text(value, at)
 
 
 def _dependencies(value: Any, at: Literal) -> Any:
@@ -103,6 +126,8 @@ def _text(value: Any, at: Literal) -> Any:
         return _scalar(value.name, at)
     if isinstance(value, str | bool | int | float):
         return _scalar(str(written(value)), at)
+    if isinstance(value, PurePath):
+        return _scalar(str(value), at)
     if isinstance(value, Substitution) or _is_text(value):
         return template(value, at.span)
     return _listed(value, at, _text) if _is_list(value) else value
@@ -141,9 +166,11 @@ def _is_text(value: Any) -> bool:
 
 _TREES: Final = {
     "depends_on": _dependencies,
-    "ready": _mapping,
-    "restart": _mapping,
-    "stop": _mapping,
+    "ready": _part(command=_texts, parameter=_part(value=_typed)),
+    "alive": _part(command=_texts),
+    "limits": _part(cores=_texts),
+    "restart": _part(),
+    "stop": _part(),
     "success_exit_codes": _texts,
     "for_each": _repeated,
 }

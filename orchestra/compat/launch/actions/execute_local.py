@@ -198,8 +198,12 @@ class ExecuteLocal(ModelledAction):
             **{name: optional(value, span) for name, value in self.__timeouts.items()},
         }
         given = {name: value for name, value in fields.items() if value is not None}
-        extensions = extension_fields(Running, self.__extensions, self._place)
+        extensions = self._extension_fields(self.__extensions)
         return self.process_description._fields(span) | given | extensions
+
+    def _extension_fields(self, extensions: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the fields for Orchestra's own keywords. Kinds of nodes take more of them."""
+        return extension_fields(Running, extensions, self._place)
 
     def _handlers(self) -> list[Handler]:
         """Return what is done about the events of this process."""

@@ -5,6 +5,7 @@ from __future__ import annotations
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.compat.extensions import RUNNING, extension_fields
 from orchestra.compat.launch.actions.execute_process import ExecuteProcess
 from orchestra.compat.launch_ros.actions.node_action_extension import NodeActionExtension
 from orchestra.compat.launch_ros.models import params, remaps
@@ -41,6 +42,8 @@ class Node(ExecuteProcess):
     `TypeError` for `parameters` and `ros_arguments` that are no list, for remappings that are not pairs in tuples, and
     for values that no parameter can have.
     """
+
+    _more_keywords = (*RUNNING, "lifecycle")
 
     UNSPECIFIED_NODE_NAME = "<node_name_unspecified>"
     UNSPECIFIED_NODE_NAMESPACE = "<node_namespace_unspecified>"
@@ -175,6 +178,10 @@ class Node(ExecuteProcess):
             "param": params(self.__parameters, span),
             "remap": remaps(self.__remappings, span),
         }
+
+    def _extension_fields(self, extensions: Mapping[str, Any]) -> dict[str, Any]:
+        program = template(self.__node_executable, self._place.span)
+        return extension_fields(NodeModel, extensions, self._place, exec=program)
 
     def __words(self) -> list[Sub]:
         """Return the words of the command line that are known without a visit."""
