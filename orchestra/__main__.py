@@ -18,9 +18,10 @@ def main() -> int:
     """Carry out the command line and return the exit status."""
     words = sys.argv[1:]
     if starts_processes(words):
+        from orchestra.control.entrance import afterwards, attend
         from orchestra.supervise.run import run
 
-        return run(lambda stream: _prepare(words, stream))
+        return run(lambda stream: _prepare(words, stream), attend, afterwards)
     from orchestra.cli.main import main as command_line
 
     return command_line(words)

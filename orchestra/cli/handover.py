@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.cli.boundary import Telling, guarded
 from orchestra.cli.run_options import run_options
+from orchestra.control.entrance import afterwards, attend
 from orchestra.supervise import document
 from orchestra.supervise.run import run as run_supervised
 
@@ -34,5 +35,7 @@ def supervised(
 ) -> int:
     """Run what `prepare` hands over: for a command line that `orchestra.__main__` did not know for a run."""
     return run_supervised(
-        lambda stream: guarded(lambda: prepare(options, stream), Telling.of(command, options))
+        lambda stream: guarded(lambda: prepare(options, stream), Telling.of(command, options)),
+        attend,
+        afterwards,
     )

@@ -15,6 +15,7 @@ import sys
 from pathlib import Path
 from typing import BinaryIO
 
+from orchestra.control.entrance import afterwards, attend
 from orchestra.supervise.run import run
 
 
@@ -39,4 +40,4 @@ def prepare(stream: BinaryIO) -> int:
     return int(value or 0)
 
 
-sys.exit(run(prepare))
+sys.exit(run(prepare, attend, afterwards))

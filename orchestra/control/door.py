@@ -1,0 +1,112 @@
+"""The socket of a run: made by its supervisor, found by its clients through a link in the run directory."""
+
+from __future__ import annotations
+
+import os
+import socket
+import stat
+import struct
+from typing import TYPE_CHECKING
+
+from orchestra.control.place import ENDING, folders, inside, open_folder
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+# The link in the run directory.
+LINK = "control.sock"
+_CREDENTIALS = struct.Struct("3i")  # pid, uid and gid (SO_PEERCRED in unix(7))
+_WAITING = 128
+
+
+def listen(run: str) -> tuple[socket.socket, str]:
+    """Return a socket that listens for the clients of a run, and its path. Raises `OSError` where there is no place."""
+    *others, last = folders()
+    for path in others:
+        try:
+            return _listen(path, run + ENDING)
+        except OSError:
+            continue
+    return _listen(last, run + ENDING)
+
+
+def _listen(path: str, name: str) -> tuple[socket.socket, str]:
+    folder = open_folder(path, create=True)
+    listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM | socket.SOCK_NONBLOCK)
+    before = os.umask(0o177)
+    try:
+        listener.bind(inside(folder, name))
+        listener.listen(_WAITING)
+    except OSError:
+        listener.close()
+        raise
+    finally:
+        os.umask(before)
+        os.close(folder)
+    return listener, f"{path}/{name}"
+
+
+def connect(path: str) -> socket.socket:
+    """Return a connection to the socket at a path. Raises `OSError`, `PermissionError` where others may pose as it."""
+    where, _, name = path.rpartition("/")
+    folder = open_folder(where)
+    connection = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
+    try:
+        connection.connect(inside(folder, name))
+        if owner(connection) != os.getuid():
+            raise PermissionError(1, "another user listens there", path)
+    except OSError:
+        connection.close()
+        raise
+    finally:
+        os.close(folder)
+    return connection
+
+
+def owner(connection: socket.socket) -> int:
+    """Return the user on the other side of a connection."""
+    size = _CREDENTIALS.size
+    uid: int = _CREDENTIALS.unpack(connection.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, size))[1]
+    return uid
+
+
+def is_stale(path: str) -> bool:
+    """Tell whether a path is a socket of ours at which nobody listens."""
+    try:
+        if not stat.S_ISSOCK(os.lstat(path).st_mode):
+            return False
+        connect(path).close()
+    except ConnectionRefusedError:
+        return True
+    except OSError:
+        return False
+    return False
+
+
+def remove(path: str) -> None:
+    """Remove a socket; nothing where it has gone, and nothing that is none. Raises `OSError`."""
+    where, _, name = path.rpartition("/")
+    try:
+        folder = open_folder(where)
+    except FileNotFoundError:
+        return
+    try:
+        if stat.S_ISSOCK(os.stat(name, dir_fd=folder, follow_symlinks=False).st_mode):
+            os.unlink(name, dir_fd=folder)
+    except FileNotFoundError:
+        return
+    finally:
+        os.close(folder)
+
+
+def link(directory: Path, path: str) -> None:
+    """Let clients find the socket of a run from its directory. Raises `OSError`."""
+    (directory / LINK).symlink_to(path)
+
+
+def linked(directory: Path) -> str | None:
+    """Return the path of a run's socket, None where it has none."""
+    try:
+        return str((directory / LINK).readlink())
+    except OSError:
+        return None
