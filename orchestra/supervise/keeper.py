@@ -40,6 +40,7 @@ _GIVE_UP_AFTER = 1.0
 _FORWARDED = frozenset({signal.SIGWINCH, signal.SIGCONT})
 
 FAILED, UNSTOPPABLE = 1, 4
+_BUG = 3
 
 
 def keep(supervise: Callable[[], int], patience: Patience, stacks: Stacks) -> int:
@@ -54,6 +55,8 @@ def keep(supervise: Callable[[], int], patience: Patience, stacks: Stacks) -> in
     if status is not None and os.WIFEXITED(status) and os.WEXITSTATUS(status) == UNSTOPPABLE:
         return UNSTOPPABLE  # the supervisor has tried everything, and has named what is left
     left = sweep(os.getpid(), _pause)
+    if status is None or not os.WIFEXITED(status) or os.WEXITSTATUS(status) == _BUG:
+        _clear_caps()
     if status is not None and os.WIFEXITED(status):
         return UNSTOPPABLE if left else os.WEXITSTATUS(status)
     say(f"the supervisor {_fate(status)}; {_outcome(left)}")
@@ -64,6 +67,15 @@ def _fate(status: int | None) -> str:
     if status is None:
         return "cannot be ended"
     return f"was ended by {signal.Signals(os.WTERMSIG(status)).name}"
+
+
+def _clear_caps() -> None:
+    """Remove what a supervisor that could not do it itself has left of its memory caps."""
+    from orchestra.supervise import caps  # noqa: PLC0415 - not every run has some, and few supervisors die
+
+    stuck = caps.clear(os.getpid())
+    if stuck:
+        say(f"control groups could not be removed: {', '.join(stuck)}")
 
 
 def _outcome(left: list[int]) -> str:
