@@ -12,6 +12,7 @@ from orchestra.plan import codec
 from orchestra.supervise import directory
 from orchestra.supervise.attention import Attention
 from orchestra.supervise.confines import Confines
+from orchestra.supervise.dump import Dump
 from orchestra.supervise.furnishing import furnish
 from orchestra.supervise.identity import identity
 from orchestra.supervise.kin import Kin, send_to_groups
@@ -41,6 +42,9 @@ def conduct(beginnings: Beginnings) -> int:
     loop = Loop()
     collection = Collection(beginnings.resolver, loop)
     attention = Attention(loop, beginnings.signals, collection.stop_signal)
+    dump = Dump(loop, beginnings.stacks, say)
+    dump.report, dump.resolver = collection.state_report, lambda: collection.pid
+    attention.on_dump = dump.take
     document, resolver = _collect(loop, collection, beginnings.resolver)
     confines = Confines(loop, beginnings.run_id)
     unfit = confines.take_up(document.plan)
@@ -67,7 +71,8 @@ def conduct(beginnings: Beginnings) -> int:
         confines=confines,
         more_time=beginnings.more_time,
     ) as around:
-        outcome = _run(beginnings, attention, plan, around)
+        dump.say, dump.folder, dump.resolver = around.journal.say, around.folder, lambda: around.questions.pid
+        outcome = _run(beginnings, attention, dump, plan, around)
     try:
         run_directory.release(settled=outcome.status != UNSTOPPABLE)
         directory.prune(runs)
@@ -110,8 +115,11 @@ def _furnish(plan: Plan, run_directory: RunDirectory) -> Plan:
     return furnish(plan, str(run_directory.path))
 
 
-def _run(beginnings: Beginnings, attention: Attention, plan: Plan, around: Surroundings) -> Outcome:
+def _run(
+    beginnings: Beginnings, attention: Attention, dump: Dump, plan: Plan, around: Surroundings
+) -> Outcome:
     system = System(plan, around)
+    dump.report = system.state_report
     attention.on_child = system.look
     attention.on_stop = system.stop_signal
     around.recorder.record(
@@ -144,6 +152,7 @@ def _conclude(system: System, around: Surroundings, beginnings: Beginnings) -> O
         around.loop.run_once()
     left = end_leftovers(around, beginnings.run_id, remaining=system.stopping.remaining)
     outcome = judge(system.facts(left))
+    around.journal.settle()
     if around.journal.lost:
         around.journal.say(f"{around.journal.lost} bytes of logs could not be written")
     if os.getppid() != beginnings.keeper:

@@ -134,6 +134,7 @@ class _Watch:
             self._stop(number)
         elif number == signal.SIGQUIT:
             self._stacks.show("keeper")
+            self._stacks.title("supervisor", self._supervisor)
             self._tell(signal.SIGQUIT)
         elif number == signal.SIGTSTP:
             self._suspend()

@@ -26,6 +26,12 @@ class Timer:
         """Whether it was taken back, or has been made."""
         return self._callback is None
 
+    @property
+    def name(self) -> str:
+        """What is called, for people."""
+        callback = getattr(self._callback, "func", self._callback)
+        return getattr(callback, "__qualname__", repr(callback))
+
     def cancel(self) -> None:
         """Take the call back; harmless where it has been made."""
         self._callback = None
@@ -67,6 +73,12 @@ class Loop:
     def forget(self, descriptor: int) -> None:
         """Call no more for this descriptor; do it before the descriptor is closed."""
         self._selector.unregister(descriptor)
+
+    def pending(self) -> list[tuple[float, str]]:
+        """Return in how many seconds each timer is due, and what it calls; for people."""
+        now = self.clock()
+        waiting = sorted((due, order, timer) for due, order, timer in self._timers if not timer.cancelled)
+        return [(due - now, timer.name) for due, _, timer in waiting]
 
     def run_once(self) -> None:
         """Wait for the next thing to happen and make its calls."""

@@ -82,6 +82,11 @@ class Questions:
         return bool(self._waiting) or (self._current is not None and not self._abandoned)
 
     @property
+    def pid(self) -> int | None:
+        """The pid of the resolver until it has been reaped."""
+        return self._pid
+
+    @property
     def alive(self) -> bool:
         """Whether the resolver has not been reaped."""
         return self._pid is not None

@@ -43,6 +43,7 @@ class Collection:
         self._open = True
         self._ending: Ending | None = None
         self._signal: int | None = None
+        self._began = loop.clock()
         self._pidfd = os.pidfd_open(resolver.pid)
         loop.on_readable(resolver.descriptor, self._read)
         loop.on_readable(self._pidfd, self._exited)
@@ -51,6 +52,18 @@ class Collection:
         """End it all: nothing has been started yet."""
         self._signal = number if self._signal is None else self._signal
         send_to_groups([self._resolver.pid], signal.SIGKILL)
+
+    @property
+    def pid(self) -> int | None:
+        """The pid of the resolver until it has been reaped."""
+        return None if self._ending else self._resolver.pid
+
+    def state_report(self) -> str:
+        """Say what is waited for."""
+        waited = self._loop.clock() - self._began
+        return (
+            f"  nothing has been started: for {waited:.1f} s the resolver has been reading the launch files"
+        )
 
     @property
     def done(self) -> bool:

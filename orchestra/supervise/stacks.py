@@ -30,13 +30,13 @@ class Stacks:
 
     def show(self, name: str) -> None:
         """Write the stacks of this process now, under its name."""
-        self.title(name)
+        self.title(name, os.getpid())
         faulthandler.dump_traceback(self._writable, all_threads=True)
 
-    def title(self, name: str) -> None:
+    def title(self, name: str, pid: int) -> None:
         """Write whose stacks follow."""
         try:
-            os.write(self._writable, f"{name} (pid {os.getpid()}):\n".encode())
+            os.write(self._writable, f"{name} (pid {pid}):\n".encode())
         except BlockingIOError:
             return  # the pipe is full of stacks that nobody has read
 
