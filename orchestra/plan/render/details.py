@@ -4,23 +4,22 @@ from __future__ import annotations
 
 import json
 import shlex
+from itertools import groupby
 from typing import TYPE_CHECKING
+
+from orchestra.plan.render.conditions import alive_lines, dependency_line, ready_lines
+from orchestra.resolve.quantities import SIZES, UNLIMITED
+from orchestra.values import Restart
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from orchestra.plan.conditions import Dependency, Ready
     from orchestra.plan.model import Process
-    from orchestra.values import ParameterValue, Restart, Stop
+    from orchestra.values import Limits, ParameterValue, Stop
 
 _WIDTH = 11
 _LONGEST = 400  # characters of a value: the description of a robot has thousands, and JSON shows all of them
-_REACHED = {
-    "started": "has started",
-    "ready": "is ready",
-    "completed": "has completed",
-    "exited": "has exited",
-}
+_DEFAULT = Restart("no")
 
 
 def process_details(process: Process) -> Iterator[str]:
@@ -34,10 +33,13 @@ def process_details(process: Process) -> Iterator[str]:
     yield from _labelled("files", [file.path for file in process.parameter_files])
     yield from _labelled("remaps", [f"{old} -> {new}" for old, new in process.remappings])
     yield from _labelled("output", [_output(process.output)] if process.output else [])
-    yield from _labelled("after", map(_dependency, process.depends_on))
-    yield from _labelled("ready", [_ready(process.ready)] if process.ready else [])
+    yield from _labelled("after", map(dependency_line, process.depends_on))
+    yield from _labelled("ready", ready_lines(process.ready) if process.ready else [])
+    yield from _labelled("alive", alive_lines(process.alive) if process.alive else [])
     yield from _labelled("restart", [_restart(process.restart)] if process.restart else [])
     yield from _labelled("stop", [_stop(process.stop)] if process.stop else [])
+    yield from _labelled("limits", _limits(process.limits) if process.limits else [])
+    yield from _labelled("stdin", ["what is typed"] if process.stdin else [])
     yield from _labelled("lifecycle", [process.lifecycle] if process.lifecycle else [])
     yield from _labelled("required", ["the run ends with it"] if process.required else [])
 
@@ -76,26 +78,47 @@ def _environment(process: Process) -> Iterator[str]:
         yield f"{name} unset" if value is None else f"{name}={shlex.quote(value)}"
 
 
-def _dependency(dependency: Dependency) -> str:
-    return f"{dependency.process} {_REACHED[dependency.condition]}{_within(dependency.timeout)}"
-
-
-def _ready(ready: Ready) -> str:
-    if ready.message is not None:
-        awaited = f"at the first message on {ready.message}"
-    else:
-        awaited = f"at a line of output that matches {ready.log!r}"
-    return awaited + _within(ready.timeout)
-
-
 def _restart(restart: Restart) -> str:
     budget = "" if restart.budget is None else f", {restart.budget} times at most"
-    return f"{restart.policy}, after {restart.delay:g} s to {restart.max_delay:g} s{budget}"
+    growth = "" if restart.growth == _DEFAULT.growth else f", growing by the factor {restart.growth:g}"
+    jitter = "" if not restart.jitter else f", up to {100 * restart.jitter:g} % more at random"
+    return f"{restart.policy}, after {restart.delay:g} s to {restart.max_delay:g} s{growth}{jitter}{budget}"
 
 
 def _stop(stop: Stop) -> str:
     return f"{stop.signal}, after {stop.timeout:g} s SIGTERM, after {stop.kill_timeout:g} s more SIGKILL"
 
 
-def _within(timeout: float | None) -> str:
-    return "" if timeout is None else f", within {timeout:g} s"
+def _limits(limits: Limits) -> Iterator[str]:
+    if limits.cores is not None:
+        exclusive = ", which no other process has" if limits.exclusive else ""
+        yield f"cores {', '.join(_ranges(limits.cores))}{exclusive}"
+    if limits.nice is not None:
+        yield f"nice {limits.nice}"
+    if limits.scheduler is not None:
+        yield f"scheduler {limits.scheduler}{'' if limits.priority is None else f' at {limits.priority}'}"
+    if limits.memory is not None:
+        yield f"memory {_bytes(limits.memory)}"
+    for name, pair in limits.rlimits.items():
+        texts = ["unlimited" if item == UNLIMITED else _amount(name, item) for item in pair]
+        yield f"{name} {':'.join(dict.fromkeys(texts))}"
+
+
+def _ranges(cores: tuple[int, ...]) -> Iterator[str]:
+    """Yield numbers that follow each other as ranges."""
+    for _, group in groupby(enumerate(cores), lambda item: item[1] - item[0]):
+        numbers = [core for _, core in group]
+        yield str(numbers[0]) if len(numbers) == 1 else f"{numbers[0]}-{numbers[-1]}"
+
+
+def _amount(name: str, number: int) -> str:
+    return _bytes(number) if name in SIZES else str(number)
+
+
+def _bytes(size: int) -> str:
+    """Return a size in the greatest unit that says it exactly."""
+    for unit in ("", "K", "M", "G"):
+        if size % 1024 or not size:
+            return f"{size}{unit}"
+        size //= 1024
+    return f"{size}T"

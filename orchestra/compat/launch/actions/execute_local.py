@@ -46,7 +46,7 @@ class ExecuteLocal(ModelledAction):
     `output_format` and `log_cmd`. Orchestra's own keys are keywords too (`orchestra.compat.extensions.RUNNING`).
     """
 
-    _more_keywords = RUNNING
+    _more_keywords: tuple[str, ...] = RUNNING
 
     def __init__(  # noqa: PLR0913 - upstream's signature
         self,
