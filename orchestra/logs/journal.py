@@ -1,55 +1,38 @@
-"""Where output goes: the file of its process, the merged file, and the screen."""
+"""Where output goes: the file of its process, the merged files, and the screen."""
 
 from __future__ import annotations
 
+import os
 import time
 from typing import TYPE_CHECKING
 
-from orchestra.logs import names, outputs
-from orchestra.logs.files import LogFile
+from orchestra.logs import forms, names, outputs
+from orchestra.logs.narration import Narration
 from orchestra.logs.page import Page
-from orchestra.logs.terminal_text import coloured, for_screen, plain
+from orchestra.logs.records import OURS, Record, dumps
+from orchestra.logs.rotation import Rotation
+from orchestra.logs.terminal_text import coloured, plain
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from pathlib import Path
 
     from orchestra.logs.outputs import Output
-    from orchestra.logs.screen import Screen
+    from orchestra.logs.sheets import Sheets
+    from orchestra.logs.writer import LogFile, Writer
 
 OURSELVES = "orchestra"
 
-
-class Sheet:
-    """A screen, the page that is on it, and whether it shows colours."""
-
-    def __init__(self, screen: Screen, *, colour: bool) -> None:
-        self._screen = screen
-        self._page = Page()
-        self.colour = colour
-
-    def write(self, source: object, prefix: str, text: str) -> None:
-        """Show a piece of a source's output."""
-        self._screen.write(self._page.compose(source, prefix, text))
-
-    def end(self) -> None:
-        """End an unfinished line."""
-        self._screen.write(self._page.end())
-
-
-class Sheets:
-    """What the user sees: the output of processes, and our own messages. Both may be one and the same sheet."""
-
-    def __init__(self, output: Sheet, messages: Sheet) -> None:
-        self.output = output
-        self.messages = messages
+# At the end of a run a disk must take something every so many seconds, and all within the second time.
+_PATIENCE, _LONGEST = 0.5, 1.5
 
 
 class Journal:
     """Writes what processes and we ourselves have to say.
 
-    `wanted` maps each process, in plan order, to its `output`; `forced`, where given, counts for all of them. `failed`
-    hears of a file that cannot be written, `told` of everything that we say.
+    `wanted` maps each process, in plan order, to its `output`; `forced`, where given, counts for all of them. `told`
+    hears everything that we say. The file of a process has its bytes and nothing else; of what could not be written
+    there, a line in its place tells.
     """
 
     def __init__(
@@ -57,47 +40,61 @@ class Journal:
         folder: Path,
         wanted: Mapping[str, Output],
         sheets: Sheets,
-        failed: Callable[[Path, OSError], None],
+        writer: Writer,
         told: Callable[[str], None],
         wall: Callable[[], float] = time.time,
         *,
+        rotation: Rotation | None = None,
         forced: str | None = None,
     ) -> None:
         self._folder = folder
         self._sheets = sheets
-        self._failed = failed
+        self._writer = writer
         self._told = told
         self._wall = wall
+        self._rotation = rotation or Rotation()
         self._forced = forced
         self._shown: dict[str, frozenset[str]] = {}
         self._prefixes: dict[str, str] = {}
         self._colours: dict[str, str] = {}
         self._files: dict[str, LogFile] = {}
-        self._pages: dict[str, Page] = {}
-        self._all = LogFile(folder / "all.log", failed)
+        self._narrations: dict[str, Narration] = {}
+        self._all = writer.file(folder / "all.log", self._rotation, forms.OUTPUT)
         self._all_page = Page()
+        self._records = writer.file(folder / "all.jsonl", self._rotation, forms.RECORDS)
         self.add(wanted)
 
     def add(self, wanted: Mapping[str, Output]) -> None:
         """Take up more processes, after those that are known: names and files of these stay."""
         for process, output in wanted.items():
             self._shown[process] = outputs.on_screen(output if self._forced is None else self._forced)
-            self._pages[process] = Page()
+            self._narrations[process] = Narration(process)
         self._prefixes = names.prefixes(self._shown)
         self._colours = self._colour_prefixes() if self._sheets.output.colour else self._prefixes
         stems = names.log_stems(self._shown)
         for process in wanted:
-            self._files[process] = LogFile(self._folder / f"{stems[process]}.log", self._failed)
+            path = self._folder / f"{stems[process]}.log"
+            self._files[process] = self._writer.file(path, self._rotation, forms.OUTPUT)
 
-    def output(self, process: str, stream: str, text: str) -> None:
-        """Write a piece of a process's output."""
+    def begin(self, process: str, pid: int, environment: Mapping[str, str]) -> None:
+        """Another run of a process begins: what it writes from now on is of this pid."""
+        self._narrations[process].begin(pid, environment)
+
+    def output(self, process: str, stream: str, text: str, *, shown: bool = True) -> None:
+        """Write a piece of a process's output; without `shown`, to the files alone."""
         if not text:
             return
-        self._files[process].write(self._pages[process].compose(stream, "", text))
-        source = (process, stream)
-        self._write_all(source, names.shown(process), text)
-        if stream in self._shown[process]:
-            self._sheets.output.write(source, self._colours[process], for_screen(text))
+        self._files[process].write(text)
+        now, source = self._wall(), (process, stream)
+        self._write_all(source, names.shown(process), text, now)
+        self._records.write(self._narrations[process].add(stream, text, now))
+        if shown and stream in self._shown[process]:
+            self._sheets.output.write(source, self._colours[process], text)
+
+    def let_through(self, process: str, data: bytes) -> None:
+        """Show raw output of a process that has the user's terminal for itself."""
+        if self._shown[process]:
+            self._sheets.output.let_through(process, data)
 
     def say(self, text: str) -> None:
         """Tell the user something, in whole lines."""
@@ -109,26 +106,36 @@ class Journal:
     def note(self, text: str) -> None:
         """Keep something for whoever reads the run afterwards, in whole lines."""
         self._told(text)
-        self._write_all(OURSELVES, OURSELVES, f"{text}\n")
+        now = self._wall()
+        self._write_all(OURSELVES, OURSELVES, f"{text}\n", now)
+        for line in text.split("\n"):
+            self._records.write(dumps(Record(now, None, os.getpid(), OURS, None, None, line)) + "\n")
 
     def rest(self, process: str) -> None:
         """Close the file of a process that does not run; its next output opens it again."""
+        self._records.write(self._narrations[process].end(self._wall()))
         self._files[process].close()
+
+    def settle(self) -> None:
+        """Wait until the disk has what was written so far, unless it hangs."""
+        self._writer.finish(_PATIENCE, _LONGEST)
 
     def close(self) -> None:
         """End unfinished lines and close the files."""
         self._sheets.output.end()
         self._all.write(self._all_page.end())
-        for file in (*self._files.values(), self._all):
-            file.close()
+        for process in self._files:
+            self.rest(process)
+        self._all.close()
+        self._records.close()
 
     @property
     def lost(self) -> int:
-        """The number of bytes that could not be written to files."""
-        return sum(file.lost for file in (*self._files.values(), self._all))
+        """The number of bytes that could not be written to files, or have not been."""
+        return self._writer.lost
 
-    def _write_all(self, source: object, name: str, text: str) -> None:
-        self._all.write(self._all_page.compose(source, f"{self._wall():.6f} [{name}] ", plain(text)))
+    def _write_all(self, source: object, name: str, text: str, now: float) -> None:
+        self._all.write(self._all_page.compose(source, f"{now:.6f} [{name}] ", plain(text)))
 
     def _colour_prefixes(self) -> dict[str, str]:
         return {

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import codecs
+import re
 
 # A line longer than this goes on in pieces, so that memory stays bounded whatever a program writes.
 LONGEST_HELD = 65536
+# The begin of a sequence that sets a colour (ECMA-48); cut in two it would be no sequence to whoever looks for it.
+_CUT = re.compile(r"\x1b(?:\[[0-9;:]{0,30})?\Z")
 
 
 class Lines:
@@ -29,15 +32,23 @@ class Lines:
         text = self._held + self._decoder.decode(data)
         end = text.rfind("\n") + 1
         if len(text) - end > LONGEST_HELD:
-            end = len(text)
+            end = _uncut(text)
         self._held = text[end:]
         return text[:end]
 
     def flush(self) -> str:
         """Return the line that is held although it is not finished."""
-        text, self._held = self._held, ""
+        end = _uncut(self._held)
+        text, self._held = self._held[:end], self._held[end:]
         return text
 
     def close(self) -> str:
         """Return everything that is left at the end of the stream."""
-        return self.flush() + self._decoder.decode(b"", final=True)
+        text, self._held = self._held, ""
+        return text + self._decoder.decode(b"", final=True)
+
+
+def _uncut(text: str) -> int:
+    """Return where to cut an unfinished line: at its end, or before a sequence that has only begun."""
+    found = _CUT.search(text, max(0, len(text) - 32))
+    return found.start() if found else len(text)

@@ -25,9 +25,8 @@ OURS: Final = "orchestra"
 class Record:
     """A line. `time` is in seconds since the epoch, `process` its id in the plan, None where Orchestra speaks.
 
-    `stream` is `stdout`, `stderr`, `terminal` (both, of a process with a terminal of its own) or `orchestra`.
-    `severity` is one of `SEVERITIES` where the line says so, `logger` the name of the ROS logger. `text` is without
-    the end of the line and without colours.
+    `stream` is `stdout`, `stderr` or `orchestra`. `severity` is one of `SEVERITIES` where the line says so, `logger`
+    the name of the ROS logger. `text` is without the end of the line and without colours.
     """
 
     time: float

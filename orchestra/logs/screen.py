@@ -42,9 +42,12 @@ class Screen:
 
     def write(self, text: str) -> None:
         """Write now what the screen takes, and keep the rest. The text should consist of whole lines where it can."""
+        self.put(text.encode("utf-8", "replace"))
+
+    def put(self, data: bytes) -> None:
+        """Write bytes as they are."""
         if self.closed:
             return
-        data = text.encode("utf-8", "replace")
         if self._size + len(data) > BACKLOG:
             self._dropped += max(1, data.count(b"\n"))
             return

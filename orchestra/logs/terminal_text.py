@@ -7,6 +7,14 @@ import re
 # Select Graphic Rendition: colours and weights (ECMA-48, 8.3.117).
 _STYLE = re.compile(r"\x1b\[[0-9;:]*m")
 RESET = "\x1b[0m"
+# Control functions of one byte but the tab; sequences of the forms CSI, OSC (to its terminator) and others (ECMA-48).
+_SPECIAL = re.compile(r"[\x00-\x08\x0b-\x1f\x7f-\x9f\udc80-\udcff]")
+_CONTROL = re.compile(
+    r"\x1b\[[0-?]*[ -/]*[@-~]"
+    r"|\x1b[\]PX^_][^\x07\x1b]*(?:\x07|\x1b\\)"
+    r"|\x1b[ -/]*[0-~]"
+    r"|[\x00-\x08\x0b-\x1f\x7f-\x9f\udc80-\udcff]"
+)
 
 # Easy to tell from each other on dark and light ground; neighbours in a plan get neighbours here.
 _COLOURS = (36, 33, 32, 35, 34, 96, 93, 92, 95, 94)
@@ -26,16 +34,29 @@ def for_screen(text: str) -> str:
     """Return output as it may stand behind a prefix.
 
     A line that was overwritten with carriage returns, as progress bars do, shows what it came to. A style that a line
-    leaves switched on ends with it.
+    leaves switched on ends with it. Whatever else would move the cursor, ring, or change what the terminal does is
+    left out, and bytes that are no text become question marks.
     """
-    if "\r" not in text and "\x1b" not in text:
+    if not _SPECIAL.search(text):
         return text
     return "\n".join(_line_for_screen(line) for line in text.split("\n"))
 
 
+def overwrites(text: str) -> bool:
+    """Tell whether the first line of a piece of output begins anew what stands in its line already."""
+    return "\r" in text.partition("\n")[0].rstrip("\r")
+
+
 def _line_for_screen(line: str) -> str:
-    shown = line.rstrip("\r").rpartition("\r")[2]
+    shown = _CONTROL.sub(_harmless, line.rstrip("\r").rpartition("\r")[2])
     return shown + RESET if "\x1b" in shown else shown
+
+
+def _harmless(found: re.Match[str]) -> str:
+    sequence = found[0]
+    if _STYLE.fullmatch(sequence):
+        return sequence
+    return "?" if len(sequence) == 1 else ""
 
 
 def wants_colour(*, asked: bool | None, terminal: bool, environment: dict[str, str]) -> bool:

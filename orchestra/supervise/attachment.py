@@ -69,7 +69,7 @@ class Attachment:
         return self._typed is not None
 
     def write(self, data: bytes) -> int:
-        """Type something; return how many bytes were taken, 0 where nothing takes input. The rest may be tried later."""
+        """Type something; return how many bytes were taken, none where nothing takes input."""
         return self._typed.write(data) if self._typed else 0
 
     def resize(self, columns: int, lines: int) -> None:

@@ -18,6 +18,8 @@ class RunOptions:
     here depends on a terminal. `debug` shows messages of level debug too. `files` is a folder with temporary files of
     the launch files' code: it becomes part of the run directory.
 
+    Each log file is put away when it has `log_size` bytes (0: never), and `log_keep` older pieces of it are kept.
+
     Limits are in seconds: `service_timeout` until the service of a lifecycle node or a container is there,
     `answer_timeout` for its answer, `resolver_timeout` for the code of the description that decides what a trigger
     does.
@@ -31,6 +33,8 @@ class RunOptions:
     noninteractive: bool = False
     debug: bool = False
     files: str | None = None
+    log_size: int = 64 * 1024 * 1024
+    log_keep: int = 7
     service_timeout: float = 60.0
     answer_timeout: float = 60.0
     resolver_timeout: float = 30.0

@@ -11,7 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from orchestra.events import Kind
-    from orchestra.logs.files import LogFile
+    from orchestra.logs.writer import LogFile
 
 
 class Recorder:
@@ -47,7 +47,7 @@ class Recorder:
             listener(line)
 
     def listen(self, listener: Callable[[str], None]) -> None:
-        """Let a listener have the line of each event from now on, once it is written."""
+        """Let a listener have the line of each event from now on, once it is on its way to the file."""
         self._listeners.append(listener)
 
     def close(self) -> None:

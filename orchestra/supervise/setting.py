@@ -6,24 +6,21 @@ import os
 from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING
 
-from orchestra.logs.files import LogFile
-from orchestra.logs.journal import Journal, Sheet, Sheets
-from orchestra.logs.outputs import OVERRIDE, forced_output
 from orchestra.logs.screen import Screen, same_file
+from orchestra.logs.sheets import Sheet, Sheets
 from orchestra.logs.terminal_text import wants_colour
+from orchestra.supervise.books import books
 from orchestra.supervise.discovery import quick_discovery
 from orchestra.supervise.environment import node_environment
 from orchestra.supervise.host import this_host
 from orchestra.supervise.kin import Kin
 from orchestra.supervise.observation import Observers
 from orchestra.supervise.questions import Questions
-from orchestra.supervise.recorder import Recorder
 from orchestra.supervise.surroundings import Surroundings
 from orchestra.supervise.trial import Trials
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-    from pathlib import Path
 
     from orchestra.plan.model import Plan, Process
     from orchestra.supervise.confines import Confines
@@ -53,28 +50,15 @@ def surroundings(
     with ExitStack() as opened:
         opened.callback(confines.close)
         sheets = opened.enter_context(_screens(loop, options))
-        warn = _Warning()
-        recorder = Recorder(LogFile(run_directory.events, warn))
-        opened.callback(recorder.close)
-        forced, complaint = _forced(options)
-        journal = Journal(
-            run_directory.logs,
-            {process.id: process.output for process in plan.processes},
-            sheets,
-            warn,
-            lambda text: recorder.record("message", text=text),
-            forced=forced,
-        )
-        warn.say = journal.say
-        if complaint:
-            journal.say(complaint)
-        opened.callback(journal.close)
+        written = opened.enter_context(books(loop, run_directory, plan, options, sheets))
+        journal = written.journal
         kin = Kin(run_id)
         yield Surroundings(
             loop=loop,
             kin=kin,
             journal=journal,
-            recorder=recorder,
+            recorder=written.recorder,
+            intake=written.intake,
             observers=Observers(loop, kin, lambda text: journal.say(f"observer: {text.rstrip()}")),
             trials=Trials(loop, kin),
             questions=Questions(resolver, loop, kin, options.resolver_timeout),
@@ -84,26 +68,6 @@ def surroundings(
             options=options,
             more_time=more_time,
         )
-
-
-def _forced(options: RunOptions) -> tuple[str | None, str | None]:
-    """Return the output that counts for every process, and what is wrong with the caller's wish for one."""
-    try:
-        return forced_output(os.environ, show_all=options.show_all_output), None
-    except ValueError as error:
-        return None, f"{OVERRIDE} is ignored: {error}"
-
-
-class _Warning:
-    """Tells about files that cannot be written: once for all of them, since the cause is one."""
-
-    def __init__(self) -> None:
-        self.say: Callable[[str], None] | None = None
-
-    def __call__(self, path: Path, error: OSError) -> None:
-        say, self.say = self.say, None
-        if say:
-            say(f"logs are incomplete: {path} cannot be written: {error.strerror}")
 
 
 def _environment(

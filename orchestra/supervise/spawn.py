@@ -27,9 +27,10 @@ _OUTPUT_FLAGS = 1  # the index of c_oflag in what tcgetattr returns
 class Child:
     """A started program: its pid, which is its process group and session too, a pidfd, and its output.
 
-    `outputs` maps `stdout` and `stderr` to the descriptors to read. It is reaped by `reap` alone: until then the kernel
-    gives neither the pid nor the group to anyone else, so signals to them can hit no stranger. `dumped` says whether
-    the kernel wrote its memory to a core file, `usage` what it used, once it is reaped (getrusage(2)).
+    `outputs` maps `stdout` and `stderr` to the descriptors to read; whoever reads them closes them. It is reaped by
+    `reap` alone: until then the kernel gives neither the pid nor the group to anyone else, so signals to them can hit
+    no stranger. `dumped` says whether the kernel wrote its memory to a core file, `usage` what it used, once it is
+    reaped (getrusage(2)).
     """
 
     def __init__(self, process: subprocess.Popen[bytes], outputs: dict[str, int]) -> None:
@@ -50,12 +51,10 @@ class Child:
         return (result.si_status, None) if exited else (None, result.si_status)
 
     def reap(self) -> None:
-        """Collect the ended program and close what belongs to it."""
+        """Collect the ended program."""
         _, status, self.usage = os.wait4(self.pid, 0)
         self._process.returncode = os.waitstatus_to_exitcode(status)
         os.close(self.pidfd)
-        for descriptor in self.outputs.values():
-            os.close(descriptor)
 
 
 def spawn(spec: Spec, stdin: int | None = None) -> Child:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 from orchestra.logs.journal import Journal
 from orchestra.plan.model import Process
 from orchestra.supervise.confines import Confines
+from orchestra.supervise.intake import Intake
 from orchestra.supervise.kin import Kin
 from orchestra.supervise.loop import Loop
 from orchestra.supervise.observation import Observers
@@ -52,6 +53,9 @@ class Listener(Protocol):
     def look(self) -> None:
         """Find out who became our child."""
 
+    def quiesce(self, process: str, done: Callable[[], None]) -> None:
+        """Let the nodes of a process leave their work before it is ended; `done` is called once it is over."""
+
 
 @dataclass(frozen=True, slots=True)
 class Surroundings:
@@ -66,6 +70,7 @@ class Surroundings:
     kin: Kin
     journal: Journal
     recorder: Recorder
+    intake: Intake
     observers: Observers
     trials: Trials
     questions: Questions

@@ -88,6 +88,7 @@ class Trial:
         if name in self._reading:
             self._reading.discard(name)
             self._loop.forget(self._child.outputs[name])
+            os.close(self._child.outputs[name])
 
     def _ended(self) -> None:
         ended = self._child.ended()
@@ -95,7 +96,8 @@ class Trial:
             return
         self._kill()
         for name in self._written:
-            self._read(name)
+            if name in self._reading:
+                self._read(name)
             self._stop_reading(name)
         self._loop.forget(self._child.pidfd)
         self._kin.remove(self._child.pid)

@@ -148,6 +148,7 @@ class Unit:
                 self._watch(timeout)
             case life.Quiesce(timeout):
                 self._set_timer("rung", timeout, life.RungExpired(life.QUIESCE))
+                self._listener.quiesce(self.id, partial(self.handle, life.RungExpired(life.QUIESCE)))
             case _:
                 self._plainly[type(effect)]()
 
@@ -173,12 +174,14 @@ class Unit:
         self._child = child
         self._around.kin.add(child.pid, self.id)
         self._around.confines.started(process, child.pid)
+        self._around.journal.begin(self.id, child.pid, environment)
         self._streams = [
             Stream(
                 self._around.loop,
                 descriptor,
                 partial(self._output, name),
                 partial(self._listener.wrote, self.id, child.pid, name),
+                self._around.intake,
             )
             for name, descriptor in child.outputs.items()
         ]
@@ -215,7 +218,7 @@ class Unit:
     def _bury(self) -> None:
         """Nothing of this run is left: read the rest of its output, and give everything back."""
         for stream in self._streams:
-            stream.close()
+            stream.part()
         self._streams = []
         self._notices.end()
         if self._child:
