@@ -17,6 +17,14 @@ class Command:
 COMMANDS: Final[dict[str, Command]] = {
     "launch": Command("orchestra.cli.launch", "start what a launch file describes, watch it, stop it"),
     "run": Command("orchestra.cli.run", "start one node"),
+    "ps": Command("orchestra.cli.ps", "show which runs are alive, and how their processes stand"),
+    "logs": Command("orchestra.cli.logs", "show what the processes of a run have written"),
+    "events": Command("orchestra.cli.events", "show what has happened in a run"),
+    "start": Command("orchestra.cli.start", "start processes of a run"),
+    "stop": Command("orchestra.cli.stop", "end processes of a run"),
+    "restart": Command("orchestra.cli.restart", "end processes of a run and start them anew"),
+    "signal": Command("orchestra.cli.signal", "send a signal to processes of a run"),
+    "down": Command("orchestra.cli.down", "end a run"),
     "plan": Command("orchestra.cli.plan", "show what a launch file would start"),
     "check": Command("orchestra.cli.check", "find what is wrong in launch files and parameter files"),
     "schema": Command(
