@@ -36,7 +36,7 @@ class Rules:
     """What the plan says about the life of a process. `ready_timeout` in seconds, None for ever.
 
     `guarded`: it has to give signs of life once it is ready, and gets SIGABRT first where it hangs and `aborts` says
-    so. `managed`: it is a lifecycle node that is active while it runs.
+    so. `managed`: nodes in it may have been brought to active, and leave that state before it is ended.
     """
 
     restart: Restart | None = None

@@ -44,18 +44,24 @@ class Node(NamedTuple):
 
 
 class LifecycleNodes:
-    """Moves lifecycle nodes. `happened` hears of transitions, `went_wrong` of those that failed, in words."""
+    """Moves lifecycle nodes.
+
+    `happened` hears of transitions, `entered` of the states that our own led to, `went_wrong` of those that failed, in
+    words.
+    """
 
     def __init__(
         self,
         orders: Orders,
         surroundings: Surroundings,
         happened: Callable[[Happening], None],
+        entered: Callable[[Node, str], None],
         went_wrong: Callable[[str], None],
     ) -> None:
         self._orders = orders
         self._around = surroundings
         self._happened = happened
+        self._entered = entered
         self._went_wrong = went_wrong
         self._nodes: dict[str, Node] = {}
         self._todo: dict[str, deque[tuple[int, ...]]] = {}
@@ -67,11 +73,6 @@ class LifecycleNodes:
     def moving(self) -> bool:
         """Whether an answer of a node is awaited."""
         return bool(self._moving)
-
-    @property
-    def watching(self) -> bool:
-        """Whether transitions are listened for."""
-        return bool(self._watched)
 
     def appeared(self, node: Node, *, watched: bool) -> None:
         """A node is there, or its process at least; `watched` wants to hear of its transitions."""
@@ -103,9 +104,7 @@ class LifecycleNodes:
         if name in self._watched:
             self._watched.discard(name)
             self._around.observers.forget(_watch(name))
-        if name in self._moving:
-            self._moving.discard(name)
-            self._orders.withdraw(_move(name))
+        self._withdraw(name)
         for transitions in self._todo.pop(name, ()):
             self._failed(name, transitions[0], reason)
 
@@ -121,12 +120,23 @@ class LifecycleNodes:
             for transitions in self._todo.pop(name):
                 self._failed(name, transitions[0], reason)
 
+    def release(self, name: str) -> None:
+        """A node is being ended: nothing is asked of it any more, and that is no failure."""
+        self._todo.pop(name, None)
+        self._withdraw(name)
+
     def stop(self) -> None:
         """The run ends: nothing is asked of nodes any more."""
         self._stopped = True
-        self._todo.clear()
         for name in [*self._nodes]:
+            self.release(name)
             self.disappeared(name, "the run ends")
+        self._todo.clear()
+
+    def _withdraw(self, name: str) -> None:
+        if name in self._moving:
+            self._moving.discard(name)
+            self._orders.withdraw(_move(name))
 
     def _go_on(self, name: str) -> None:
         node, todo = self._nodes.get(name), self._todo.get(name)
@@ -146,6 +156,7 @@ class LifecycleNodes:
             "transition_done", name, transition=_LABELS.get(transition, transition), state=message["state"]
         )
         self._around.journal.say(f"{shown(name)} is {message['state']}")
+        self._entered(self._nodes[name], message["state"])
         todo = self._todo[name]
         rest = todo[0][1:]
         if rest:

@@ -68,6 +68,10 @@ class Loading:
         """Tell whether something is to be loaded into a process."""
         return bool(self._container(process).wanted)
 
+    def loaded_into(self, process: str) -> list[str]:
+        """Return the ids of the components that are in a process."""
+        return [*self._container(process).there]
+
     def add(self, components: Iterable[Component], outside: Mapping[str, str]) -> None:
         """Take up more components; `outside` is the environment that sees containers which are none of the plan."""
         for component in components:

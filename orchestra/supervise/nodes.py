@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.logs.names import shown
+from orchestra.supervise.deactivation import Deactivation
 from orchestra.supervise.lifecycle import TO_ACTIVE, LifecycleNodes, Node
 from orchestra.supervise.loading import Loading
 from orchestra.supervise.orders import Limits, Orders
@@ -34,21 +35,18 @@ class Nodes:
         self._around = surroundings
         limits = Limits(surroundings.options.service_timeout, surroundings.options.answer_timeout)
         orders = Orders(surroundings.observers, surroundings.loop, limits, settled)
-        self._lifecycle = LifecycleNodes(orders, surroundings, happened, went_wrong)
+        self._lifecycle = LifecycleNodes(orders, surroundings, happened, self._entered, went_wrong)
+        self._deactivation = Deactivation(surroundings, settled)
         self._loading = Loading(orders, surroundings, self._loaded, went_wrong)
         self._processes: dict[str, Process] = {}
         self._pids: dict[str, int] = {}
         self._watched: set[str | None] = set()
+        self._managed: set[str] = set()
 
     @property
     def pending(self) -> bool:
         """Whether the answer of a node is awaited."""
         return self._lifecycle.moving or self._loading.busy
-
-    @property
-    def busy(self) -> bool:
-        """Whether the observer is needed."""
-        return self.pending or self._lifecycle.watching
 
     def concerns(self, process: Process) -> bool:
         """Tell whether the observer will be needed when a process runs."""
@@ -80,7 +78,7 @@ class Nodes:
         node = Node(name, full_name(process), environment, pid)
         self._lifecycle.appeared(node, watched=self._is_watched(name, process.kind))
         if process.lifecycle == "active":
-            self._lifecycle.change(name, TO_ACTIVE)
+            self._keep_active(name)
         if self._loading.awaits(name):
             self._loading.started(name, environment)
 
@@ -89,8 +87,10 @@ class Nodes:
         self._pids.pop(name, None)
         reason = f"{shown(name)} has ended ({reason})"
         self._lifecycle.disappeared(name, reason)
+        self._deactivation.ended(name)
         for component in self._loading.ended(name):
             self._lifecycle.disappeared(component.id, reason)
+            self._deactivation.gone(component.id)
 
     def never(self, name: str, reason: str) -> None:
         """A process will not start (again) by itself."""
@@ -107,8 +107,18 @@ class Nodes:
         for name in names:
             self._lifecycle.change(name, transitions)
 
+    def quiesce(self, process: str, done: Callable[[], None]) -> None:
+        """Deactivate the nodes in a process that are kept active, before it is ended.
+
+        `done` is called once, whatever comes of it: at once where there is nothing to do, never after its end.
+        """
+        names = [process, *self._loading.loaded_into(process)]
+        for name in names:
+            self._lifecycle.release(name)
+        self._deactivation.begin(process, names, done)
+
     def stop(self) -> None:
-        """The run ends."""
+        """The run ends: nodes are only asked to deactivate, each before its process is ended."""
         self._lifecycle.stop()
         self._loading.stop()
 
@@ -121,7 +131,15 @@ class Nodes:
         watched = self._is_watched(component.id, "lifecycle_node" if managed else "component")
         self._lifecycle.appeared(Node(component.id, node, environment, pid), watched=watched)
         if managed:
-            self._lifecycle.change(component.id, TO_ACTIVE)
+            self._keep_active(component.id)
+
+    def _keep_active(self, name: str) -> None:
+        self._managed.add(name)
+        self._lifecycle.change(name, TO_ACTIVE)
+
+    def _entered(self, node: Node, state: str) -> None:
+        if node.id in self._managed:
+            self._deactivation.entered(node, state)
 
 
 def full_name(process: Process) -> str:

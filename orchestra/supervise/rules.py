@@ -21,5 +21,5 @@ def rules_of(process: Process) -> Rules:
         ready_timeout=process.ready.timeout if process.ready else None,
         guarded=process.alive is not None,
         aborts=process.alive is not None and process.alive.abort,
-        managed=process.lifecycle == "active",
+        managed=process.lifecycle == "active" or process.kind in ("node", "container"),
     )

@@ -24,7 +24,7 @@ from orchestra.supervise.unit import Unit
 from orchestra.supervise.verdict import Verdict
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
     from orchestra.plan.model import Plan, Process
     from orchestra.plan.reactions import Trigger, TriggeredAction
@@ -55,7 +55,6 @@ class System:
         self._pids: dict[str, int] = {}
         self._dirty = False
         self._looked_in = -1
-        surroundings.observers.on_death = self.failed
 
     @property
     def over(self) -> bool:
@@ -182,6 +181,10 @@ class System:
             if unit and not self._around.kin.of(owner):
                 unit.nothing_left()
 
+    def quiesce(self, process: str, done: Callable[[], None]) -> None:
+        """Deactivate the lifecycle nodes in a process before it is ended."""
+        self._nodes.quiesce(process, done)
+
     # What triggers do.
 
     def carry_out(self, action: TriggeredAction) -> None:
@@ -254,8 +257,8 @@ class System:
             self.stopping.go_on()
         else:
             self._beginning.begin_or_skip()
-        if not self._nodes.busy and not any(map(self._needs_observer, self._units.values())):
-            self._around.observers.leave()
+        if self.stopping.begun or not any(map(self._needs_observer, self._units.values())):
+            self._around.observers.relieve()
 
     def _needs_observer(self, unit: Unit) -> bool:
         """Tell whether the observer will be needed for a process that is about to start, or is for its readiness."""
@@ -286,7 +289,7 @@ class System:
             )
         self._beginning.stop()
         self._nodes.stop()
-        self._around.observers.leave()
+        self._around.observers.drop()
         self.stopping.begin(cause)
         self._triggers.happened(happenings.shutdown(cause, due_to_sigint=due_to_sigint))
         self.changed()

@@ -1,0 +1,192 @@
+"""The orders that are open in one part of the middleware, and the observer that carries them out.
+
+An observer that dies, hangs or talks nonsense is replaced, once in a while, and given its orders again: looking and
+listening begin anew, and a transition that has been made meanwhile is not asked for again. A component that may have
+been loaded is not: the same one twice is worse than an error.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
+
+from orchestra.supervise import dialogue
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+
+    from orchestra.supervise import observer
+    from orchestra.supervise.loop import Loop, Timer
+    from orchestra.supervise.observer import Observer
+
+    # Who hears what the observer says to one order.
+    Heard: TypeAlias = Callable[[dict[str, Any]], None]
+    Start: TypeAlias = Callable[[tuple[observer.Heard, observer.Lost]], Observer]
+
+# Orders that only look and listen, those to which an answer is awaited all the time, and one that must not be repeated.
+_LOOKING = ("watch", "rate", "transitions")
+_AWAITED = ("watch", "rate", "change_state", "load")
+_ONCE = "load"
+
+
+class Patience(NamedTuple):
+    """In seconds. While something is awaited, the observer is asked `every` so often whether it still answers.
+
+    It has to within `answer`, or within `start` before its first answer. One that is lost is replaced unless another
+    one was within `lasting`.
+    """
+
+    every: float = 5.0
+    answer: float = 15.0
+    start: float = 60.0
+    lasting: float = 60.0
+
+
+@dataclass(slots=True)
+class _Open:
+    """An order, who hears of it, and whether it has come so far that a node has been asked something."""
+
+    order: Mapping[str, Any]
+    heard: Heard
+    asked: bool = False
+
+
+class Lookout:
+    """Keeps an observer at work as long as there is something to do. `told` gets what users should know of it."""
+
+    def __init__(self, loop: Loop, start: Start, told: Callable[[str], None], patience: Patience) -> None:
+        self._loop = loop
+        self._start = start
+        self._told = told
+        self._patience = patience
+        self._observer: Observer | None = None
+        self._former: list[Observer] = []
+        self._open: dict[str, _Open] = {}
+        self._replaced_at: float | None = None
+        self._timer: Timer | None = None
+        self._unanswered = 0
+        self._answers = False
+
+    @property
+    def alive(self) -> Sequence[Observer]:
+        """Its observers whose process has not been reaped."""
+        self._former = [one for one in self._former if one.alive]
+        return [*self._former, *([self._observer] if self._observer and self._observer.alive else [])]
+
+    def prepare(self) -> Observer:
+        """Return the observer, started where there is none. Raises `OSError`."""
+        if self._observer is None or self._observer.leaving:
+            self._retire()
+            self._unanswered, self._answers = 0, False
+            self._observer = self._start((self._heard, self._lost))
+        return self._observer
+
+    def order(self, name: str, order: Mapping[str, Any], heard: Heard) -> None:
+        """Have something done; `heard` gets everything that is said to it."""
+        self._open[name] = _Open(order, heard)
+        try:
+            self.prepare().tell({"id": name, **order})
+        except OSError as error:
+            self._fail([name], f"the observer could not be started: {error}")
+        self._attend()
+
+    def forget(self, name: str) -> None:
+        """Take an order back."""
+        if self._open.pop(name, None) and self._observer:
+            self._observer.tell({"forget": name})
+
+    def drop(self) -> None:
+        """Look out for nothing any more; what nodes are asked goes on."""
+        for name in [name for name, one in self._open.items() if one.order["do"] in _LOOKING]:
+            self.forget(name)
+
+    def relieve(self) -> None:
+        """Let the observer end where there is nothing to do."""
+        if not self._open and self._observer:
+            self._observer.leave()
+
+    def leave(self) -> None:
+        """Let the observer end, whatever is still to do."""
+        self._open.clear()
+        self.relieve()
+
+    def _heard(self, observer: Observer, message: dict[str, Any]) -> None:
+        if observer is not self._observer:
+            return
+        if "pong" in message:
+            self._unanswered, self._answers = 0, True
+            return
+        one = self._open.get(message["id"])
+        if one is None:  # taken back while the answer was on its way
+            return
+        if not dialogue.fits(message, one.order["do"]):
+            observer.kill()
+            self._lost(observer, f"said what nobody understands: {message}")
+            return
+        one.asked = one.asked or message["say"] == "asking"
+        if dialogue.is_final(message):
+            del self._open[message["id"]]
+        one.heard(message)
+
+    def _lost(self, observer: Observer, why: str) -> None:
+        if observer is not self._observer:
+            return
+        self._retire()
+        if not self._open:
+            return
+        reason = f"the observer, which looks into the ROS graph, {why}"
+        now, before = self._loop.clock(), self._replaced_at
+        self._replaced_at = now
+        if before is not None and now < before + self._patience.lasting:
+            self._fail([*self._open], f"{reason}, and so did the one before")
+            return
+        self._told(f"{why}; it is started again")
+        self._fail(
+            [name for name, one in self._open.items() if one.asked and one.order["do"] == _ONCE], reason
+        )
+        self._again()
+
+    def _again(self) -> None:
+        """Give a new observer all that is open."""
+        try:
+            observer = self.prepare() if self._open else None
+        except OSError as error:
+            self._fail([*self._open], f"the observer could not be started again: {error}")
+            return
+        for name, one in self._open.items():
+            if observer:
+                observer.tell({"id": name, **one.order, "again": True})
+        self._attend()
+
+    def _fail(self, names: Sequence[str], reason: str) -> None:
+        for name in names:
+            one = self._open.pop(name, None)
+            if one:
+                one.heard({"id": name, "say": "impossible", "reason": reason})
+
+    def _retire(self) -> None:
+        if self._observer:
+            self._former.append(self._observer)
+        self._observer = None
+
+    def _attend(self) -> None:
+        """Ask for a sign of life as long as something is awaited."""
+        if self._timer is None and any(one.order["do"] in _AWAITED for one in self._open.values()):
+            self._timer = self._loop.call_later(self._patience.every, self._ask)
+
+    def _ask(self) -> None:
+        """Asks are counted, not seconds: while we were stopped ourselves, the observer could not answer."""
+        self._timer = None
+        observer = self._observer
+        if observer is None or not any(one.order["do"] in _AWAITED for one in self._open.values()):
+            self._unanswered = 0
+            return
+        limit = self._patience.answer if self._answers else self._patience.start
+        if self._unanswered * self._patience.every >= limit:
+            observer.kill()
+            self._lost(observer, f"has not answered for {limit:g} s")
+        else:
+            self._unanswered += 1
+            observer.tell({"ping": self._unanswered})
+        self._attend()
