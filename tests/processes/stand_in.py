@@ -2,6 +2,7 @@
 
 ignore=INT,TERM     ignore these signals
 polite=3            on SIGINT or SIGTERM say "bye" and exit with 3
+leisurely=SECONDS   on SIGINT take so long, then say "bye" and exit with 0
 child               start a stand-in that ignores nothing in the own group
 child=ignore        ... that ignores INT and TERM
 escape              start one in a session of its own (setsid); escape=ignore as above
@@ -22,6 +23,7 @@ import os
 import signal
 import subprocess
 import sys
+import time
 from collections.abc import Callable
 from pathlib import Path
 
@@ -43,6 +45,15 @@ def bid_farewell(status: int) -> None:
 
     for number in (signal.SIGINT, signal.SIGTERM):
         signal.signal(number, end)
+
+
+def take_leave(seconds: float) -> None:
+    def end(_number: int, _frame: object) -> None:
+        time.sleep(seconds)
+        write("bye\n")
+        os._exit(0)
+
+    signal.signal(signal.SIGINT, end)
 
 
 def start(kind: str, manner: str) -> None:
@@ -93,6 +104,7 @@ def show_dispositions(_value: str) -> None:
 ACTIONS: dict[str, Callable[[str], object]] = {
     "ignore": ignore,
     "polite": lambda value: bid_farewell(int(value or 0)),
+    "leisurely": lambda value: take_leave(float(value)),
     "child": lambda value: start("child", value),
     "escape": lambda value: start("escape", value),
     "daemon": lambda value: start("daemon", value),

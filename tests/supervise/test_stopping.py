@@ -206,3 +206,34 @@ def _lose_right_to_kill() -> None:
 
 _NOBODY = 65534
 _CAPBSET_DROP, _CAP_KILL = 24, 5
+
+
+@pytest.mark.parametrize(
+    "seconds",
+    [
+        5.8,  # longer than the usual deadline
+        pytest.param(11.5, marks=pytest.mark.long),  # longer than the keeper's usual patience
+    ],
+)
+def test_a_description_may_ask_for_more_time(tmp_path: Path, seconds: float) -> None:
+    slow = process("slow", f"leisurely={seconds}", "say=up", "linger", stop=Stop(timeout=30.0))
+    base = process("base", "polite", "say=up", "linger")
+    user = process(
+        "user", "polite", "say=up", "linger", depends_on=after("slow", "started") + after("base", "started")
+    )
+    with launched(tmp_path, plan(slow, base, user)) as run:
+        for name in ("slow", "base", "user"):
+            run.await_line(name, "up")
+        run.send(signal.SIGTERM)
+        assert run.wait() == 143
+        assert run.log("slow") == "up\nbye\n"
+        assert signals(run, "slow") == ["SIGINT"]
+        assert not run.everything()
+
+
+def test_without_a_keeper_nobody_gets_more_time(tmp_path: Path) -> None:
+    stubborn = process("a", *STUBBORN, stop=Stop(timeout=600.0))
+    with launched(tmp_path, plan(stubborn)) as run:
+        run.await_line("a", "up")
+        run.send(signal.SIGKILL)
+        run.assert_gone(7.0)
