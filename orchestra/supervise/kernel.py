@@ -9,6 +9,8 @@ import os
 _SET_PDEATHSIG = 1
 _SET_NAME = 15
 _SET_CHILD_SUBREAPER = 36
+# From linux/signal.h.
+_SS_DISABLE = 2
 
 _LIBC = ctypes.CDLL(None, use_errno=True)
 
@@ -32,6 +34,20 @@ def set_name(name: str) -> None:
     """Set what `ps -o comm` shows: at most 15 bytes."""
     buffer = ctypes.create_string_buffer(name.encode()[:15])
     _prctl(_SET_NAME, ctypes.addressof(buffer))
+
+
+class _Stack(ctypes.Structure):
+    _fields_ = (("base", ctypes.c_void_p), ("flags", ctypes.c_int), ("size", ctypes.c_size_t))
+
+
+def handle_signals_on_the_ordinary_stack() -> None:
+    """Give up the alternate signal stack of this thread (sigaltstack(2)).
+
+    It is small, and a burst of signals, whose handlers interrupt each other, overflows it.
+    """
+    if _LIBC.sigaltstack(ctypes.byref(_Stack(None, _SS_DISABLE, 0)), None):
+        code = ctypes.get_errno()
+        raise OSError(code, f"sigaltstack: {os.strerror(code)}")
 
 
 def _prctl(option: int, value: int) -> None:

@@ -11,6 +11,8 @@ import os
 import select
 import signal
 
+from orchestra.supervise import kernel
+
 _READ_SIZE = 65536
 
 
@@ -27,6 +29,7 @@ class Stacks:
     def show_on_request(self, *, chain: bool) -> None:
         """From now on write the stacks of this process on SIGQUIT; `chain` calls the handler that was there too."""
         faulthandler.register(signal.SIGQUIT, self._writable, all_threads=True, chain=chain)
+        kernel.handle_signals_on_the_ordinary_stack()
 
     def show(self, name: str) -> None:
         """Write the stacks of this process now, under its name."""
