@@ -83,7 +83,7 @@ def _typed(value: Any, at: Literal) -> Any:
     if isinstance(value, bool | int | float | str):
         return Constant(value, at.span)
     if isinstance(value, list | tuple) and all(isinstance(item, bool | int | float | str) for item in value):
-        return Constant(tuple(value), at.span)  # type: ignore[arg-type] # mixed ones are told later
+        return Constant(tuple(value), at.span)
     return _text(value, at)
 
 

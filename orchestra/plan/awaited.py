@@ -98,19 +98,19 @@ class _Names:
 
     def topic(self, written: Value | None) -> str | None:
         """Return the full name of a topic."""
-        return self._named(written, "topic", lambda name: self._remapped(name, "topic"))
+        return self._named(written, "a topic", lambda name: self._remapped(name, "topic"))
 
     def service(self, written: Value | None) -> str | None:
         """Return the full name of a service."""
-        return self._named(written, "service", lambda name: self._remapped(name, "service"))
+        return self._named(written, "a service", lambda name: self._remapped(name, "service"))
 
     def action(self, written: Value | None) -> str | None:
         """Return the full name of an action: what is remapped are the services that it is made of."""
-        return self._named(written, "action", self._action)
+        return self._named(written, "an action", self._action)
 
     def node(self, written: Value | None) -> str | None:
         """Return the full name of a node."""
-        return self._named(written, "node", self._node)
+        return self._named(written, "a node", self._node)
 
     def parameter(self, fact: ResolvedParameterFact | None) -> ParameterFact | None:
         """Return a parameter of a node with its full name."""
@@ -126,7 +126,7 @@ class _Names:
         try:
             return full(written.text)
         except InvalidName as error:
-            message = f"'{written.text}' cannot be a {what}: {error.fault.reason}"
+            message = f"'{written.text}' cannot be {what}: {error.fault.reason}"
             if written.text == OWN:
                 message = error.fault.reason
             self._problems.error(Code.BAD_NAME, message, written.location)

@@ -10,7 +10,7 @@ from orchestra.resolve.amounts import UnfitError
 
 _HERE: Final = "localhost"
 _PORTS: Final = range(1, 65536)
-_ADDRESS: Final = re.compile(r"(?:(?P<host>\[[^][\s]*\]|[^][\s:/@]*):)?(?P<port>[0-9]+)")
+_ADDRESS: Final = re.compile(r"(?:(?P<host>\[[^][\s]*\]|[^][\s:/@]*):)?(?P<port>[0-9]{1,9})")
 _URL: Final = re.compile(
     r"(?:(?P<scheme>[A-Za-z][A-Za-z0-9+.-]*)://)?(?:[^\s/?#@]*@)?"
     r"(?P<host>\[[^][\s]*\]|[^][\s:/?#@]*)(?P<port>:[^\s/?#]*)?(?P<rest>(?:[/?#]\S*)?)"
@@ -63,9 +63,7 @@ def _no_address(text: str) -> UnfitError:
         return UnfitError(f"'{text}' is a URL: `tcp` is HOST:PORT, `http` waits for URLs", near)
     host, _, port = text.rpartition(":")
     if port.isdecimal() and _is_ipv6(host):
-        return UnfitError(
-            f"'{text}' may be an address alone: an IPv6 address stands in brackets", f"[{host}]:{port}"
-        )
+        return UnfitError("an IPv6 address with a port stands in brackets", f"[{host}]:{port}")
     if _is_ipv6(text.strip("[]")) or re.fullmatch(r"[A-Za-z0-9.-]+", text):
         return UnfitError(f"'{text}' lacks a port: HOST:PORT, or PORT alone")
     return UnfitError(f"'{text}' is neither PORT nor HOST:PORT")

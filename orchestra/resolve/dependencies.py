@@ -32,7 +32,7 @@ def _dependency(written: DependsOn, run: Resolution) -> ResolvedDependency | Poi
     condition, required = run.word(written.condition, CONDITIONS), run.flag(written.required, default=True)
     if not isinstance(name, Value) or isinstance(timeout, Poison):
         return POISON
-    if isinstance(condition, Poison) or isinstance(required, Poison):
+    if isinstance(condition, Poison) or isinstance(required, Poison) or written.faulty:
         return POISON
     return ResolvedDependency(
         cast("DependencyKind", kind) if action is None else "action",

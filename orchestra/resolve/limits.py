@@ -38,7 +38,9 @@ def limits(written: Written | None, run: Resolution) -> Limits | Poison | None:
         memory=sound(made(written.memory, cap, run)),
         rlimits=sound(_rlimits(written, run)) or {},
     )
-    return POISON if sound.faulty or not _is_scheduled(found, written, run) else found
+    if sound.faulty or written.faulty or not _is_scheduled(found, written, run):
+        return POISON
+    return found
 
 
 def _is_scheduled(found: Limits, written: Written, run: Resolution) -> bool:

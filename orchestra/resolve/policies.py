@@ -35,7 +35,7 @@ def restart(action: Running, run: Resolution) -> Restart | Poison | None:
     max_delay, min_uptime = sound(run.number(written.max_delay)), sound(run.number(written.min_uptime))
     growth, jitter = sound(amount(written.growth, GROWTH, run)), sound(amount(written.jitter, SHARE, run))
     budget = sound(whole(written.budget, BUDGET, run))
-    if sound.faulty or policy is None:
+    if sound.faulty or policy is None or written.faulty:
         return POISON
     if max_delay is not None and delay is not None and max_delay < delay:
         place = run.at((written.max_delay or written).span)

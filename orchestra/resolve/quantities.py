@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import Final
 
+from orchestra.description.source import shortened
 from orchestra.nearest import nearest
 from orchestra.resolve.amounts import UnfitError
 
@@ -14,19 +15,22 @@ SIZES: Final = frozenset({"as", "core", "data", "fsize", "memlock", "msgqueue", 
 
 _LAST_CORE: Final = 8191  # Linux is built for 8192 at most
 _MOST: Final = 2**63 - 1
-_SIZE: Final = re.compile(r"([0-9]+(?:\.[0-9]+)?)\s*([KMGT]?)(?:i?B)?", re.IGNORECASE)
+_SIZE: Final = re.compile(r"([0-9]{1,20})(?:\.([0-9]{1,20}))?\s*([KMGT]?)(?:i?B)?", re.IGNORECASE)
 _POWERS: Final = {"": 0, "K": 1, "M": 2, "G": 3, "T": 4}
-_CORES: Final = re.compile(r"\s*([0-9]+)\s*(?:-\s*([0-9]+)\s*)?")
+_CORES: Final = re.compile(r"\s*([0-9]{1,20})\s*(?:-\s*([0-9]{1,20})\s*)?")
 _WORDS: Final = ("unlimited", "infinity", "infinite", "inf", "none", "max")
 
 
 def size(text: str) -> int:
     """Return a number of bytes: `K`, `M`, `G` and `T` are powers of 1024. Raises `UnfitError`."""
     found = _SIZE.fullmatch(text.strip())
-    number = None if found is None else float(found[1]) * 1024 ** _POWERS[found[2].upper()]
-    if found is None or number is None or number != int(number) or number > _MOST:
-        raise UnfitError(f"expected a size as 512M or 2G, or a number of bytes, found '{text}'")
-    return int(number) if found[2] or "." in found[1] else int(found[1])
+    if found is not None:
+        decimals = found[2] or ""
+        scaled = int(found[1] + decimals) * 1024 ** _POWERS[found[3].upper()]
+        number, rest = divmod(scaled, 10 ** len(decimals))
+        if not rest and number <= _MOST:
+            return number
+    raise UnfitError(f"expected a size as 512M or 2G, or a number of bytes, found '{shortened(text)}'")
 
 
 def cap(text: str) -> int:
@@ -79,7 +83,7 @@ def distinct(found: tuple[int, ...]) -> tuple[int, ...]:
 def _range(part: str, text: str) -> range:
     found = _CORES.fullmatch(part)
     if found is None:
-        raise UnfitError(f"expected numbers of cores as 0-3,6, found '{text}'")
+        raise UnfitError(f"expected numbers of cores as 0-3,6, found '{shortened(text)}'")
     first, last = int(found[1]), int(found[2] or found[1])
     if last > _LAST_CORE or first > _LAST_CORE:
         raise UnfitError(f"there is no core {max(first, last)}: Linux counts from 0 to {_LAST_CORE} at most")
@@ -93,9 +97,9 @@ def _single(text: str, *, is_size: bool) -> int:
     if text.lower() == _WORDS[0]:
         return UNLIMITED
     if text == str(UNLIMITED) or nearest(text, _WORDS) is not None or text.lower() in _WORDS:
-        raise UnfitError(f"expected a number or unlimited, found '{text}'", _WORDS[0])
+        raise UnfitError(f"expected a number or unlimited, found '{shortened(text)}'", _WORDS[0])
     if is_size:
         return size(text)
-    if not re.fullmatch("[0-9]+", text) or int(text) > _MOST:
-        raise UnfitError(f"expected a whole number or unlimited, found '{text}'")
+    if not re.fullmatch("[0-9]{1,20}", text) or int(text) > _MOST:
+        raise UnfitError(f"expected a whole number or unlimited, found '{shortened(text)}'")
     return int(text)

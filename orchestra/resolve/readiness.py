@@ -56,7 +56,7 @@ def readiness(written: Ready | None, run: Resolution) -> ResolvedReady | Poison 
         timeout=sound(run.number(written.timeout)),
         interval=sound(amount(written.interval, INTERVAL, run)),
     )
-    if sound.faulty:
+    if sound.faulty or written.faulty:
         return POISON
     if found.empty:
         run.problems.error(
@@ -83,7 +83,7 @@ def life(written: Alive | None, run: Resolution) -> ResolvedAlive | Poison | Non
         abort=sound(run.flag(written.abort)) is True,
         location=run.at((written.min_rate or written).span),
     )
-    return POISON if sound.faulty else found
+    return POISON if sound.faulty or written.faulty else found
 
 
 def _pattern(written: Template | None, run: Resolution) -> str | Poison | None:

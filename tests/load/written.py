@@ -14,8 +14,8 @@ Actions = list[dict[str, Any]]
 _ESCAPES = {'"': "&quot;", "\n": "&#10;", "\t": "&#9;", "\r": "&#13;"}
 _SEPARATORS = (",", ";", ", ", "|", " and ", "\ue000")
 # Where a text that stands in quotes in YAML is one, whatever it looks like; in a list of any parameter too.
-_TEXTS = {"param"}
-_LISTS_OF_TEXTS = {"param", "set_parameter"}
+_TEXTS = {"param", "parameter"}
+_LISTS_OF_TEXTS = {"param", "parameter", "set_parameter"}
 
 
 def as_yaml(actions: Actions) -> str:

@@ -51,13 +51,17 @@ _TEXTS = {
 }
 _PLAIN = {"shell": "shell", "respawn_max_retries": "respawn_max_retries", "autostart": "autostart"}
 _EXTENSIONS = (
+    "alive",
     "depends_on",
     "for_each",
     "label",
+    "lifecycle",
+    "limits",
     "ready",
     "required",
     "restart",
     "scoped",
+    "stdin",
     "stop",
     "success_exit_codes",
 )
