@@ -11,7 +11,7 @@ from orchestra.errors import Severity
 from orchestra.logs.names import log_stems
 from orchestra.supervise import caps, proc
 from orchestra.supervise.capacity import capacity
-from orchestra.supervise.cgroups import Place
+from orchestra.supervise.cgroups import Place, own_hierarchy
 from orchestra.supervise.limits import restriction, settle_session
 from orchestra.supervise.preflight import exclusive_cores, preflight
 
@@ -43,6 +43,9 @@ class Confines:
         self._keeper = caps.keeper_of(run)
         self._place: Place | None = None
         self._groups: dict[str, str] = {}
+        self._latest: dict[str, Cap] = {}
+        self._own = own_hierarchy()
+        self._killed_before = caps.killed(self._own.own) if self._own else 0
         self._pids: dict[str, int] = {}
         self._starts = 0
 
@@ -80,15 +83,20 @@ class Confines:
             self._settle(process.id, pid, process.limits.nice)
 
     def cap(self, process: str) -> Cap | None:
-        """Return what the kernel says of the memory cap of a process, where it has one."""
+        """Return what the kernel says of the memory cap of a process, where it has one or its latest run had."""
         folder = self._groups.get(process)
-        return None if folder is None else Cap(caps.peak(folder), caps.killed(folder))
+        return self._latest.get(process) if folder is None else Cap(caps.peak(folder), caps.killed(folder))
+
+    def killed_since_the_begin(self) -> bool:
+        """Tell whether the kernel has ended something in our own control group because its memory was used up."""
+        return bool(self._own and caps.killed(self._own.own) > self._killed_before)
 
     def release(self, process: str) -> None:
         """Nothing is left of a process."""
         self._pids.pop(process, None)
-        folder = self._groups.pop(process, None)
-        if folder is not None:
+        cap, folder = self.cap(process), self._groups.pop(process, None)
+        if folder is not None and cap is not None:
+            self._latest[process] = cap
             caps.remove(folder)
 
     def close(self) -> list[str]:
@@ -98,6 +106,7 @@ class Confines:
     def _make_group(self, process: Process, memory: int) -> str | None:
         if self._place is None:
             return None
+        self._latest.pop(process.id, None)
         self._starts += 1
         stem = log_stems([process.id])[process.id]
         name = caps.name_of(self._run, f"{stem}.{self._starts}")
