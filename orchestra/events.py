@@ -21,6 +21,7 @@ Kind: TypeAlias = Literal[
     "process_skipped",
     "process_ended",  # one run of it is over, whatever follows; data: code, signal, reason, hang, uptime
     "process_hung",  # a sign of life is missing; data: reason, threads (what /proc tells of each)
+    "crash_recorded",  # an end that nobody wanted has a dossier; data: folder
     "signal_sent",  # data: signal
     "descendant_adopted",  # a child of a process detached itself; data: command
     "left_behind",  # something outlived its process or the run; data: command

@@ -35,6 +35,9 @@ if TYPE_CHECKING:
 
 _LIVELY = frozenset({*LIVE, Phase.RESTARTING})
 
+# As many of a process are shown where it ends the run.
+_LAST_LINES = 10
+
 
 class System:
     """The processes of a plan and what connects them."""
@@ -273,8 +276,9 @@ class System:
             self.end_with(f"required process {unit.name} has ended")
 
     def _show_last_lines(self, unit: Unit) -> None:
-        if unit.tail.lines:
-            lines = "\n".join(f"    {line}" for line in unit.tail.lines)
+        last = unit.tail.lines[-_LAST_LINES:]
+        if last:
+            lines = "\n".join(f"    {line}" for line in last)
             self._around.journal.say(f"last lines of {unit.name}:\n{lines}")
 
     def _stop(self, cause: str, announcement: str | None = None, *, due_to_sigint: bool = False) -> None:

@@ -11,6 +11,7 @@ from orchestra.logs.names import shown
 from orchestra.logs.tail import Tail
 from orchestra.supervise import life
 from orchestra.supervise.account import Account
+from orchestra.supervise.crashes import Crashes
 from orchestra.supervise.ending import Ending, unstartable
 from orchestra.supervise.kin import send_as_asked, send_to_groups
 from orchestra.supervise.life import LIVE, Phase, State
@@ -33,6 +34,9 @@ if TYPE_CHECKING:
     from orchestra.supervise.spawn import Child
     from orchestra.supervise.surroundings import Listener, Surroundings
 
+# Enough for the stacks of an interpreter that has crashed.
+_LAST_LINES = 100
+
 
 class Unit:
     """A process of the plan from its first wait to its last end."""
@@ -43,7 +47,8 @@ class Unit:
         self.name = shown(process.id)
         self.rules = rules_of(process)
         self.state = State()
-        self.tail = Tail()
+        self.tail = Tail(_LAST_LINES)
+        self._crashes = Crashes(process, self.rules, surroundings)
         self._account = Account(process.id, self.rules, surroundings)
         self._around = surroundings
         self._listener = listener
@@ -106,6 +111,8 @@ class Unit:
     def handle(self, event: life.Event) -> None:
         """Let something happen to it."""
         before = self.state
+        if isinstance(event, life.Hung):
+            self._crashes.hung(self._around.kin.members(self.id))
         self.state, effects = transition(self.rules, before, event)
         if self.state.phase is not before.phase:
             if self.over and self.state.ending:
@@ -120,6 +127,7 @@ class Unit:
         """Send a signal that the plan wants to be sent, where it runs."""
         if self._child:
             self._account.signalled(self.pid, number)
+            self._crashes.signalled(number)
             send_as_asked(self._child.pid, number)
 
     def adopted(self, adopted: Adopted) -> None:
@@ -166,6 +174,7 @@ class Unit:
         tty, stdin = bool(process.emulate_tty), bool(process.stdin)
         try:
             environment.update(self._notices.begin())
+            self._crashes.begins(environment)
             before = self._around.confines.prepare(process)
             child = spawn(Spec(self.id, argv(process), environment, process.cwd, tty, stdin, before))
         except OSError as error:
@@ -193,6 +202,7 @@ class Unit:
         self._notices.end()
         self._around.confines.release(self.id)
         self._account.not_started(ending)
+        self._crashes.ended(self.state, ending, None, ())
         self._listener.ended(self.id, None, ending, intended=False)
         self.handle(life.Unstartable(ending, self._around.loop.clock()))
 
@@ -212,6 +222,7 @@ class Unit:
         self._account.ended(self.state, ending, child.pid, left)
         if not remains:
             self._bury()
+        self._crashes.ended(self.state, ending, child, self.tail.lines)
         self._listener.ended(self.id, child.pid, ending, intended=self.state.again or self.state.halted)
         self.handle(life.Ended(ending, remains, self._around.loop.clock()))
 
