@@ -122,6 +122,9 @@ def _run(
     dump.report = system.state_report
     attention.on_child = system.look
     attention.on_stop = system.stop_signal
+    attention.on_resize = around.console.resize
+    attention.on_suspend = around.console.suspend
+    attention.on_resume = around.console.resume
     around.recorder.record(
         "run_started",
         pid=os.getpid(),

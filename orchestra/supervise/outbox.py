@@ -12,19 +12,34 @@ if TYPE_CHECKING:
 
 
 class Outbox:
-    """Owns a non-blocking descriptor to write to. `broken` is called, once, when nobody takes anything any more."""
+    """Owns a non-blocking descriptor to write to.
 
-    def __init__(self, loop: Loop, descriptor: int, broken: Callable[[OSError], None]) -> None:
+    `broken` is called, once, when nobody takes anything any more, `drained` when all that had to wait has been taken.
+    """
+
+    def __init__(
+        self,
+        loop: Loop,
+        descriptor: int,
+        broken: Callable[[OSError], None],
+        drained: Callable[[], None] | None = None,
+    ) -> None:
         self._loop = loop
         self._descriptor = descriptor
         self._broken = broken
+        self._drained = drained
         self._content = bytearray()
         self._registered = False
         self.open = True
 
+    @property
+    def waiting(self) -> int:
+        """How many bytes have not been taken yet."""
+        return len(self._content)
+
     def send(self, data: bytes) -> None:
         """Write, now or later; nothing where it is closed."""
-        if not self.open:
+        if not self.open or not data:
             return
         idle = not self._content
         self._content += data
@@ -43,8 +58,10 @@ class Outbox:
 
     def _go_on(self) -> None:
         self._write()
-        if not self._content:
+        if not self._content and self.open:
             self._stop_waiting()
+            if self._drained:
+                self._drained()
 
     def _stop_waiting(self) -> None:
         if self._registered:

@@ -34,6 +34,15 @@ def stat(pid: int) -> Stat | None:
     return Stat(pid, state.decode(), int(parent), int(group), int(session))
 
 
+def foreground(pid: int) -> bool | None:
+    """Tell whether the group of a process is in the foreground of its terminal; None where it has none or has ended."""
+    content = _read(f"/proc/{pid}/stat")
+    if content is None:
+        return None
+    group, _session, terminal, reading = map(int, content.rpartition(b")")[2].split()[2:6])
+    return reading == group if terminal and reading > 0 else None
+
+
 def birth(pid: int) -> int | None:
     """Return when a process began, in clock ticks since the machine did; None where it has ended.
 

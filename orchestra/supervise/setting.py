@@ -10,6 +10,7 @@ from orchestra.logs.screen import Screen, same_file
 from orchestra.logs.sheets import Sheet, Sheets
 from orchestra.logs.terminal_text import wants_colour
 from orchestra.supervise.books import books
+from orchestra.supervise.console import Console
 from orchestra.supervise.discovery import quick_discovery
 from orchestra.supervise.environment import node_environment
 from orchestra.supervise.host import this_host
@@ -52,6 +53,8 @@ def surroundings(
         sheets = opened.enter_context(_screens(loop, options))
         written = opened.enter_context(books(loop, run_directory, plan, options, sheets))
         journal = written.journal
+        console = Console(loop, os.getppid())
+        opened.callback(console.close)
         kin = Kin(run_id)
         yield Surroundings(
             loop=loop,
@@ -59,6 +62,7 @@ def surroundings(
             journal=journal,
             recorder=written.recorder,
             intake=written.intake,
+            console=console,
             observers=Observers(loop, kin, lambda text: journal.say(f"observer: {text.rstrip()}")),
             trials=Trials(loop, kin),
             questions=Questions(resolver, loop, kin, options.resolver_timeout),

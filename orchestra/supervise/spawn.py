@@ -15,9 +15,11 @@ from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
 from orchestra.supervise.preparing import reported
+from orchestra.supervise.terminal import our_size, set_size
 
 if TYPE_CHECKING:
     import resource
+    from collections.abc import Callable
 
     from orchestra.supervise.spec import Spec
 
@@ -30,14 +32,15 @@ class Child:
     `outputs` maps `stdout` and `stderr` to the descriptors to read; whoever reads them closes them. It is reaped by
     `reap` alone: until then the kernel gives neither the pid nor the group to anyone else, so signals to them can hit
     no stranger. `dumped` says whether the kernel wrote its memory to a core file, `usage` what it used, once it is
-    reaped (getrusage(2)).
+    reaped (getrusage(2)). With a `tty` the outputs are terminals, and what is written to the first is its input.
     """
 
-    def __init__(self, process: subprocess.Popen[bytes], outputs: dict[str, int]) -> None:
+    def __init__(self, process: subprocess.Popen[bytes], outputs: dict[str, int], *, tty: bool) -> None:
         self._process = process
         self.pid = process.pid
         self.pidfd = os.pidfd_open(process.pid)
         self.outputs = outputs
+        self.tty = tty
         self.dumped = False
         self.usage: resource.struct_rusage | None = None
 
@@ -62,8 +65,8 @@ def spawn(spec: Spec, stdin: int | None = None) -> Child:
 
     Raises `OSError` where that is impossible; `filename` then names what is missing, or what asks for it.
     """
-    with ExitStack() as ours, ExitStack() as theirs, reported(spec.before_exec) as prepare:
-        outputs, inner = _terminals(ours, theirs) if spec.tty else _pipes(ours, theirs)
+    with ExitStack() as ours, ExitStack() as theirs, reported(_before(spec)) as prepare:
+        outputs, inner = _outputs(spec, ours, theirs)
         process = subprocess.Popen(  # noqa: S603 - running what the plan says is the purpose
             spec.command,
             env=spec.environment,
@@ -72,28 +75,51 @@ def spawn(spec: Spec, stdin: int | None = None) -> Child:
             stdout=inner[0],
             stderr=inner[1],
             start_new_session=True,
-            preexec_fn=prepare,  # noqa: PLW1509 - the supervisor has one thread
+            preexec_fn=prepare,  # noqa: PLW1509 - the other thread writes to files and holds no lock we could want
         )
-        child = _child(process, outputs)
+        child = _child(process, outputs, tty=spec.tty or spec.foremost)
         ours.pop_all()
     return child
 
 
-def _child(process: subprocess.Popen[bytes], outputs: tuple[int, int]) -> Child:
+def _child(process: subprocess.Popen[bytes], outputs: tuple[int, ...], *, tty: bool) -> Child:
     try:
         for descriptor in outputs:
             os.set_blocking(descriptor, False)
-        return Child(process, dict(zip(("stdout", "stderr"), outputs, strict=True)))
+        return Child(process, dict(zip(("stdout", "stderr"), outputs, strict=False)), tty=tty)
     except OSError:  # out of descriptors: what cannot be watched must not run
         os.killpg(process.pid, signal.SIGKILL)
         process.wait()
         raise
 
 
+def _before(spec: Spec) -> Callable[[], None] | None:
+    """Return what is to be done in the child: it takes its terminal before anything may forbid it to."""
+    if not spec.foremost:
+        return spec.before_exec
+
+    def before() -> None:
+        fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+        if spec.before_exec:
+            spec.before_exec()
+
+    return before
+
+
 def _stdin(spec: Spec, inner: tuple[int, int]) -> int | None:
+    if spec.foremost:
+        return inner[0]
     if spec.stdin:
         return None
     return inner[0] if spec.tty else subprocess.DEVNULL
+
+
+def _outputs(spec: Spec, ours: ExitStack, theirs: ExitStack) -> tuple[tuple[int, ...], tuple[int, int]]:
+    """Return what we read, and what the program writes to as its output and its errors."""
+    if spec.foremost:
+        outer, inner = _terminal(ours, theirs)
+        return (outer,), (inner, inner)
+    return _terminals(ours, theirs) if spec.tty else _pipes(ours, theirs)
 
 
 def _pipes(ours: ExitStack, theirs: ExitStack) -> tuple[tuple[int, int], tuple[int, int]]:
@@ -102,10 +128,14 @@ def _pipes(ours: ExitStack, theirs: ExitStack) -> tuple[tuple[int, int], tuple[i
 
 
 def _terminals(ours: ExitStack, theirs: ExitStack) -> tuple[tuple[int, int], tuple[int, int]]:
-    (out, inner_out), (err, inner_err) = (_owned(os.openpty(), ours, theirs) for _ in range(2))
-    for descriptor in (inner_out, inner_err):
-        _make_plain(descriptor)
+    (out, inner_out), (err, inner_err) = (_terminal(ours, theirs) for _ in range(2))
     return (out, err), (inner_out, inner_err)
+
+
+def _terminal(ours: ExitStack, theirs: ExitStack) -> tuple[int, int]:
+    outer, inner = _owned(os.openpty(), ours, theirs)
+    _make_plain(inner)
+    return outer, inner
 
 
 def _owned(pair: tuple[int, int], ours: ExitStack, theirs: ExitStack) -> tuple[int, int]:
@@ -119,15 +149,4 @@ def _make_plain(terminal: int) -> None:
     modes = termios.tcgetattr(terminal)
     modes[_OUTPUT_FLAGS] &= ~termios.OPOST
     termios.tcsetattr(terminal, termios.TCSANOW, modes)
-    columns, lines = _size()
-    fcntl.ioctl(
-        terminal, termios.TIOCSWINSZ, b"".join(n.to_bytes(2, "little") for n in (lines, columns, 0, 0))
-    )
-
-
-def _size() -> tuple[int, int]:
-    try:
-        columns, lines = os.get_terminal_size(1)
-    except OSError:
-        columns, lines = 0, 0
-    return (columns or 80, lines or 24)
+    set_size(terminal, *our_size())

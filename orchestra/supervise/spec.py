@@ -17,7 +17,11 @@ RUN_FOLDER = "${run}"
 
 @dataclass(frozen=True, slots=True)
 class Spec:
-    """One program to execute. `tty` gives it a terminal for its output, `stdin` our own standard input.
+    """One program to execute.
+
+    `tty` gives it a terminal for each of its outputs, `stdin` our own standard input. The `foremost` has instead of all
+    that one terminal for everything, which controls it: job control and questions for a password work there (setsid(2),
+    ioctl_tty(2)).
 
     `before_exec` is called in the child, after the fork and before the program begins; where it raises, nothing runs.
     """
@@ -29,6 +33,7 @@ class Spec:
     tty: bool
     stdin: bool
     before_exec: Callable[[], None] | None = None
+    foremost: bool = False
 
 
 def located(process: Process, folder: str) -> Process:

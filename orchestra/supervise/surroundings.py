@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Protocol
 from orchestra.logs.journal import Journal
 from orchestra.plan.model import Process
 from orchestra.supervise.confines import Confines
+from orchestra.supervise.console import Console
 from orchestra.supervise.intake import Intake
 from orchestra.supervise.kin import Kin
 from orchestra.supervise.loop import Loop
@@ -71,6 +72,7 @@ class Surroundings:
     journal: Journal
     recorder: Recorder
     intake: Intake
+    console: Console
     observers: Observers
     trials: Trials
     questions: Questions

@@ -19,16 +19,17 @@ from orchestra.supervise.liveness import Liveness
 from orchestra.supervise.machine import ladder, transition
 from orchestra.supervise.notification import Notices
 from orchestra.supervise.order import Life
+from orchestra.supervise.output import Output
 from orchestra.supervise.readiness import Readiness
 from orchestra.supervise.rules import rules_of
 from orchestra.supervise.spawn import spawn
 from orchestra.supervise.spec import Spec, argv
-from orchestra.supervise.stream import Stream
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from orchestra.plan.model import Process
+    from orchestra.supervise.attachment import Attachment
     from orchestra.supervise.kin import Adopted
     from orchestra.supervise.loop import Timer
     from orchestra.supervise.spawn import Child
@@ -53,7 +54,7 @@ class Unit:
         self._around = surroundings
         self._listener = listener
         self._child: Child | None = None
-        self._streams: list[Stream] = []
+        self._output = Output(process.id, surroundings, self._heard, partial(listener.wrote, process.id))
         self._notices = Notices(process, surroundings)
         self._readiness = Readiness(
             process,
@@ -89,6 +90,11 @@ class Unit:
     def pid(self) -> int | None:
         """The pid of the program; it may have ended already."""
         return self._child.pid if self._child else None
+
+    @property
+    def attachment(self) -> Attachment:
+        """Where its output can be followed, and where somebody may type to it."""
+        return self._output.attachment
 
     @property
     def over(self) -> bool:
@@ -172,28 +178,21 @@ class Unit:
         process = self.process
         environment = self._around.environment(process)
         tty, stdin = bool(process.emulate_tty), bool(process.stdin)
+        foremost = stdin and self._around.console.interactive
         try:
             environment.update(self._notices.begin())
             self._crashes.begins(environment)
             before = self._around.confines.prepare(process)
-            child = spawn(Spec(self.id, argv(process), environment, process.cwd, tty, stdin, before))
+            child = spawn(
+                Spec(self.id, argv(process), environment, process.cwd, tty, stdin, before, foremost)
+            )
         except OSError as error:
             self._not_started(unstartable(error))
             return
         self._child = child
         self._around.kin.add(child.pid, self.id)
         self._around.confines.started(process, child.pid)
-        self._around.journal.begin(self.id, child.pid, environment)
-        self._streams = [
-            Stream(
-                self._around.loop,
-                descriptor,
-                partial(self._output, name),
-                partial(self._listener.wrote, self.id, child.pid, name),
-                self._around.intake,
-            )
-            for name, descriptor in child.outputs.items()
-        ]
+        self._output.begin(child, environment, foremost=foremost)
         self._around.loop.on_readable(child.pidfd, self._exited)
         self.handle(life.Started(self._around.loop.clock()))
         self._listener.started(self.id, child.pid)
@@ -213,8 +212,7 @@ class Unit:
         if child is None or ended is None:
             return
         self._around.loop.forget(child.pidfd)
-        for stream in self._streams:
-            stream.drain()
+        self._output.drain()
         self._notices.drain()
         self._listener.look()
         left = self._around.kin.of(self.id)
@@ -228,19 +226,15 @@ class Unit:
 
     def _bury(self) -> None:
         """Nothing of this run is left: read the rest of its output, and give everything back."""
-        for stream in self._streams:
-            stream.part()
-        self._streams = []
+        self._output.end()
         self._notices.end()
         if self._child:
             self._around.kin.remove(self._child.pid)
             self._child.reap()
         self._child = None
         self._around.confines.release(self.id)
-        self._around.journal.rest(self.id)
 
-    def _output(self, stream: str, text: str) -> None:
-        self._around.journal.output(self.id, stream, text)
+    def _heard(self, stream: str, text: str) -> None:
         self.tail.feed(text)
         self._readiness.read(stream, text)
 
