@@ -182,6 +182,7 @@ class Unit:
         try:
             environment.update(self._notices.begin())
             self._crashes.begins(environment)
+            self.tail = Tail(_LAST_LINES)
             before = self._around.confines.prepare(process)
             child = spawn(
                 Spec(self.id, argv(process), environment, process.cwd, tty, stdin, before, foremost)
