@@ -16,7 +16,7 @@ import os
 import signal
 import time
 
-from orchestra.supervise import kernel, proc
+from orchestra.supervise import kernel, proc, terminal_modes
 from orchestra.supervise.patience import USUAL
 from orchestra.supervise.signals import received_signals, stop_signals
 from orchestra.supervise.standard_streams import flush, say
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
     from orchestra.supervise.patience import Patience
     from orchestra.supervise.stacks import Stacks
+    from orchestra.supervise.terminal_modes import Modes
 
 # From this Ctrl-C on everything is killed at once, and no more time than usual is given for it.
 _IMPATIENT = 3
@@ -50,8 +51,11 @@ def keep(supervise: Callable[[], int], patience: Patience, stacks: Stacks) -> in
     for number in received_signals():
         signal.signal(number, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_SETMASK, received_signals())
-    watch = _Watch(_fork(supervise), patience, stacks)
+    modes = terminal_modes.kept()
+    watch = _Watch(_fork(supervise), patience, stacks, modes)
     status = watch.until_it_ends()
+    if status is None or not os.WIFEXITED(status):
+        terminal_modes.give_back(modes)
     if status is not None and os.WIFEXITED(status) and os.WEXITSTATUS(status) == UNSTOPPABLE:
         return UNSTOPPABLE  # the supervisor has tried everything, and has named what is left
     left = sweep(os.getpid(), _pause)
@@ -106,10 +110,11 @@ def _fork(supervise: Callable[[], int]) -> int:
 class _Watch:
     """The time while the supervisor lives."""
 
-    def __init__(self, supervisor: int, patience: Patience, stacks: Stacks) -> None:
+    def __init__(self, supervisor: int, patience: Patience, stacks: Stacks, modes: Modes | None) -> None:
         self._supervisor = supervisor
         self._patience = patience
         self._stacks = stacks
+        self._modes = modes
         self._asked_at: float | None = None
         self._deadline: float | None = None
         self._interrupts = 0
@@ -176,6 +181,7 @@ class _Watch:
             return
         say("suspended, but the run goes on; `fg` brings it back")
         self._tell(signal.SIGTSTP)
+        terminal_modes.give_back(self._modes)
         os.kill(os.getpid(), signal.SIGTSTP)
         signal.pthread_sigmask(signal.SIG_UNBLOCK, {signal.SIGTSTP})
         signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGTSTP})
