@@ -122,13 +122,13 @@ class Crashes:
         try:
             folder = self._write(as_document(dossier))
         except OSError as error:
-            self._tell(f"its crash could not be recorded: {error.strerror}")
+            self._tell(f"has no crash report: {error.strerror}")
             return
         self._folders.append(folder)
         if len(self._folders) > KEPT_FIRST + KEPT_LAST:
             shutil.rmtree(self._folders.pop(KEPT_FIRST), ignore_errors=True)
         self._around.recorder.record("crash_recorded", dossier.process, pid=dossier.pid, folder=str(folder))
-        self._tell(f"crashed; see {folder} or `orchestra crash {shown(dossier.process)}`")
+        self._tell(f"has a crash report: {folder} (orchestra crash {shown(dossier.process)})")
 
     def _write(self, document: dict[str, object]) -> Path:
         """Write the files of a dossier, for the owner alone: an environment may hold secrets."""

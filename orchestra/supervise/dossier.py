@@ -68,7 +68,7 @@ class Resources:
 class Dossier:
     """Everything that is known about one abnormal end.
 
-    `command` is what was executed, `repeat` a line for a shell that does the same in the launcher's environment.
+    `command` is what was executed, `repeat` what does the same in a shell, in the launcher's environment.
     `limits` are those of the plan, `rlimits` what was in force (soft and hard), `threads` where a hung process was.
     """
 
@@ -119,15 +119,15 @@ def difference(launcher: Mapping[str, str], process: Mapping[str, str]) -> Diffe
 
 
 def repetition(command: Sequence[str], cwd: str, changes: Difference) -> str:
-    """Return a line for a POSIX shell that runs a command again, from the launcher's environment and as it was run."""
+    """Return lines for a POSIX shell that run a command again, from the launcher's environment and as it was run."""
     wanted = {**changes.added, **{name: now for name, (_, now) in changes.changed.items()}}
     # Names that are no variables for a shell are left to env, which takes any.
     words = [
-        *(word for name in changes.removed for word in ("-u", name)),
-        *(f"{name}={value}" for name, value in sorted(wanted.items())),
+        *(f"-u {shlex.quote(name)}" for name in changes.removed),
+        *(shlex.quote(f"{name}={value}") for name, value in sorted(wanted.items())),
     ]
-    line = shlex.join(["env", *words, *command] if words else [*command])
-    return f"cd {shlex.quote(cwd)} && {line}"
+    lines = [f"cd {shlex.quote(cwd)} && env", *words, shlex.join(command)]
+    return " \\\n    ".join(lines)
 
 
 def parameter_files(command: Sequence[str]) -> tuple[str, ...]:

@@ -64,7 +64,7 @@ def _core(document: dict[str, Any]) -> Iterator[str]:
 
 def _repeat(document: dict[str, Any]) -> Iterator[str]:
     yield "to run it again by hand"
-    yield f"    {document['repeat']}"
+    yield from (f"    {line}" for line in document["repeat"].split("\n"))
     for file in document["parameter_files"]:
         yield f"    parameters: {file}"
 

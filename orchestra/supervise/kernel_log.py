@@ -34,10 +34,10 @@ def recent() -> list[Line]:
 
 def about(pid: int, began: float, lines: list[Line]) -> list[str]:
     """Return what is said of a process since it began, which is in seconds of the monotonic clock."""
-    named = re.compile(rf"\[{pid}\]:? |\b[Pp]rocess {pid} |\bpid={pid},")
+    named = re.compile(rf"\[{pid}\]:? |\b[Pp]rocess {pid} ")
     return [line.text for line in lines if line.at >= began - _SLACK and named.search(line.text)]
 
 
 def tells_of_want_of_memory(lines: list[str]) -> bool:
     """Tell whether the kernel says that it ended a process because memory ran out."""
-    return any("Killed process" in line or "oom-kill" in line for line in lines)
+    return any("Killed process" in line for line in lines)
