@@ -26,7 +26,7 @@ def size(text: str) -> int:
     found = _SIZE.fullmatch(text.strip())
     if found is not None:
         decimals = found[2] or ""
-        scaled = int(found[1] + decimals) * 1024 ** _POWERS[found[3].upper()]
+        scaled = int(found[1] + decimals) << 10 * _POWERS[found[3].upper()]
         number, rest = divmod(scaled, 10 ** len(decimals))
         if not rest and number <= _MOST:
             return number

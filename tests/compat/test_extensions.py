@@ -13,7 +13,7 @@ from tests.compat import plans
 if TYPE_CHECKING:
     from pathlib import Path
 
-_BEFORE = "from launch_ros.actions import *\nimport signal\n"
+_BEFORE = "from launch_ros.actions import *\nimport pathlib\nimport signal\n"
 
 SAME: list[tuple[str, str, list[dict[str, Any]]]] = [
     (
@@ -67,6 +67,118 @@ SAME: list[tuple[str, str, list[dict[str, Any]]]] = [
                     "stop": {"signal": "SIGTERM", "timeout": 1, "kill_timeout": "2"},
                 }
             }
+        ],
+    ),
+    (
+        "every condition of readiness",
+        "Node(executable='a', name='a', namespace='n', ready={'message': 'm', 'topic': ['t', LC('x', default='1')], "
+        "'node': True, 'service': 's', 'action': 'go', 'parameter': 'p', 'lifecycle': 'active', "
+        "'tf': dict(parent='map', child=['o', LC('x', default='1')]), 'tcp': 80, 'http': 'http://h', "
+        "'file': pathlib.Path('/data') / '$(f)', 'command': ['b', LC('x', default='y z')], 'notify': True, "
+        "'timeout': 5, 'interval': .5}), "
+        "ExecuteProcess(cmd=['b'], ready={'command': 'c \"d e\"', 'lifecycle': {'node': '/a', 'state': 'inactive'}, "
+        "'parameter': {'node': '/a', 'name': 'p', 'value': '5'}}), "
+        "ExecuteProcess(cmd=['b'], ready={'parameter': {'node': '/a', 'name': 'p', 'value': ('x', 'y')}}), "
+        "ExecuteProcess(cmd=['b'], ready={'parameter': dict(node='/a', name='p', value=LC('x', default='5'))})",
+        [
+            {
+                "node": {
+                    "exec": "a",
+                    "name": "a",
+                    "namespace": "n",
+                    "ready": {
+                        "message": "m",
+                        "topic": "t$(var x 1)",
+                        "node": True,
+                        "service": "s",
+                        "action": "go",
+                        "parameter": "p",
+                        "lifecycle": "active",
+                        "tf": {"parent": "map", "child": "o$(var x 1)"},
+                        "tcp": 80,
+                        "http": "http://h",
+                        "file": r"/data/\$(f)",
+                        "command": ["b", "$(var x 'y z')"],
+                        "notify": True,
+                        "timeout": 5,
+                        "interval": 0.5,
+                    },
+                }
+            },
+            {
+                "executable": {
+                    "cmd": "b",
+                    "ready": {
+                        "command": ["c", "d e"],
+                        "lifecycle": {"node": "/a", "state": "inactive"},
+                        "parameter": {"node": "/a", "name": "p", "value": "5"},
+                    },
+                }
+            },
+            {
+                "executable": {
+                    "cmd": "b",
+                    "ready": {"parameter": {"node": "/a", "name": "p", "value": ["x", "y"]}},
+                }
+            },
+            {
+                "executable": {
+                    "cmd": "b",
+                    "ready": {"parameter": {"node": "/a", "name": "p", "value": "$(var x 5)"}},
+                }
+            },
+        ],
+    ),
+    (
+        "signs of life, limits, one word for restart, what is typed, a state, a dependency that can be done without",
+        "Node(executable='a', name='a', lifecycle='active', stdin=True, restart='always', "
+        "alive=dict(notify=3, message='m', min_rate=5, window=4, command=['b', 'c d'], interval=1, timeout=1, "
+        "failures=2, abort=True), limits={'cores': [0, '2-3'], 'exclusive': True, 'nice': -5, 'scheduler': 'rr', "
+        "'priority': 5, 'memory': 2 ** 30, 'memory_lock': 'unlimited', 'rlimits': {'nofile': 4096, 'as': '2G'}}), "
+        "LifecycleNode(executable='b', name='b', namespace='', lifecycle=LC('x', default='active'), "
+        "restart=LC('x', default='on-failure'), limits={'cores': '4,6'}, "
+        "depends_on=[{'node': '/nobody', 'required': False}, {'node': '/a', 'required': False}])",
+        [
+            {
+                "node": {
+                    "exec": "a",
+                    "name": "a",
+                    "lifecycle": "active",
+                    "stdin": True,
+                    "restart": {"policy": "always"},
+                    "alive": {
+                        "notify": 3,
+                        "message": "m",
+                        "min_rate": 5,
+                        "window": 4,
+                        "command": ["b", "c d"],
+                        "interval": 1,
+                        "timeout": 1,
+                        "failures": 2,
+                        "abort": True,
+                    },
+                    "limits": {
+                        "cores": "0,2-3",
+                        "exclusive": True,
+                        "nice": -5,
+                        "scheduler": "rr",
+                        "priority": 5,
+                        "memory": "1G",
+                        "rlimits": {"nofile": "4096:4096", "as": "2G", "memlock": "unlimited"},
+                    },
+                }
+            },
+            {
+                "lifecycle_node": {
+                    "exec": "b",
+                    "name": "b",
+                    "namespace": "",
+                    "autostart": True,
+                    "restart": "on-failure",
+                    "limits": {"cores": [4, 6]},
+                    "depends_on": [{"node": "/a", "required": False}],
+                }
+            },
         ],
     ),
     (
@@ -240,6 +352,7 @@ def visited(context):
     ]
 
 
+_MIXED = "parameter 'p': a list must hold values of one type, not 1 and 'a'"
 # What stands behind `a=`, the words that are marked, what is said of them, and what is suggested.
 FAULTS = [
     ("depends_on={'node': 'b'}", "{'node': 'b'}", "expected a list, found a mapping", None),
@@ -265,6 +378,23 @@ FAULTS = [
     ("ready={'message': None}", "message", "expected text, found nothing", None),
     ("ready={'message': 3j}", "message", "expected text, found complex", None),
     ("restart={'policy': 'ever'}", "ever", "expected one of no, on-failure, always, found 'ever'", None),
+    ("ready={'command': [['b'], 3j]}", "[['b'], 3j]", "expected text, found complex", None),
+    ("ready={'parameter': {'name': 'p', 'value': [1, 'a']}}", "[1, 'a']", _MIXED, None),
+    ("ready={'tf': 'map'}", "map", "expected a mapping, found 'map'", None),
+    ("ready={'lifecycle': {'node': 'b'}}", "{'node': 'b'}", "the key 'state' is missing", None),
+    ("alive={'mesage': '/t', 'min_rate': 5}", "mesage", "unknown key 'mesage'", "message"),
+    ("alive={'notify': -1}", "-1", "expected a number of seconds above 0, found '-1'", None),
+    ("limits={'cores': [0, 'x']}", "x", "expected numbers of cores as 0-3,6, found 'x'", None),
+    (
+        "limits={'memory': 1.5}",
+        "1.5",
+        "expected a size as 512M or 2G, or a number of bytes, found '1.5'",
+        None,
+    ),
+    ("limits=512", "512", "expected a mapping, found '512'", None),
+    ("lifecycle='on'", "on", "expected 'active', found 'on'", None),
+    ("restart='evr'", "evr", "expected one of no, on-failure, always, found 'evr'", None),
+    ("stdin=3", "3", "expected true or false, found '3'", None),
     ("restart={'delay': 1}", "{'delay': 1}", "the key 'policy' is missing", None),
     ("required='maybe'", "maybe", "expected true or false, found 'maybe'", None),
     ("required=[True]", "[True]", "expected true or false, found a list", None),

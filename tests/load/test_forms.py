@@ -10,10 +10,11 @@ from orchestra.description.actions import ACTIONS, model_of
 from orchestra.description.actions.arg import Arg
 from orchestra.description.actions.group import Group
 from orchestra.description.actions.node import Node
-from orchestra.description.conditions import Ready
+from orchestra.description.conditions import ParameterFact, Ready, TransformFact
 from orchestra.description.entity import Entity
 from orchestra.description.launch import Launch
-from orchestra.description.parts import Param
+from orchestra.description.limits import Limits, Rlimits
+from orchestra.description.parts import Param, Restart
 from orchestra.load.forms import Form, Kind, forms_of
 
 if TYPE_CHECKING:
@@ -51,6 +52,12 @@ def test_every_key_of_an_action_and_of_its_parts_has_a_form(name: str) -> None:
         (Node, "success_exit_codes", Form(Kind.LIST)),
         (Node, "param", Form(Kind.PARTS, Param)),
         (Node, "ready", Form(Kind.PART, Ready)),
+        (Node, "restart", Form(Kind.PART, Restart, or_text=True)),
+        (Ready, "parameter", Form(Kind.PART, ParameterFact, or_text=True)),
+        (Ready, "tf", Form(Kind.PART, TransformFact)),
+        (Ready, "command", Form(Kind.TEXT)),
+        (Limits, "cores", Form(Kind.TEXT)),
+        (Limits, "rlimits", Form(Kind.PART, Rlimits)),
         (Param, "value", Form(Kind.TEXT)),
         (Param, "param", Form(Kind.PARTS, Param)),
         (Arg, "choices", Form(Kind.LIST)),

@@ -160,7 +160,12 @@ def test_limits_come_into_the_plan_and_make_a_process_another_one(tmp_path: Path
         "memory_lock: unlimited, rlimits: {nofile: 1024:4096, core: unlimited, as: 1G}}"
     )
     process = _node(tmp_path, keys)
-    rlimits = {"as": (1 << 30, 1 << 30), "core": (-1, -1), "memlock": (-1, -1), "nofile": (1024, 4096)}
+    rlimits: dict[str, tuple[int, ...]] = {
+        "as": (1 << 30, 1 << 30),
+        "core": (-1, -1),
+        "memlock": (-1, -1),
+        "nofile": (1024, 4096),
+    }
     assert process.limits == Limits((0, 1, 2, 6), True, -5, "fifo", 20, 2 << 30, rlimits)
     assert process.digest != _node(tmp_path, keys.replace("20", "21")).digest
     assert _node(tmp_path, "stdin: true").digest != _node(tmp_path, "stdin: false").digest

@@ -10,7 +10,14 @@ import pytest
 
 from orchestra.location import Location, Span
 from orchestra.plan import codec
-from orchestra.plan.conditions import Dependency, Ready
+from orchestra.plan.conditions import (
+    Alive,
+    Dependency,
+    ParameterFact,
+    Ready,
+    StateFact,
+    TransformFact,
+)
 from orchestra.plan.model import (
     VERSION,
     Argument,
@@ -36,8 +43,9 @@ from orchestra.plan.reactions import (
     TriggerEvent,
     UnregisterAction,
 )
+from orchestra.plan.render.details import process_details
 from orchestra.plan.render.formats import FORMATS
-from orchestra.values import Restart, Stop
+from orchestra.values import Limits, Restart, Stop
 
 
 def _at(line: int) -> Location:
@@ -273,6 +281,92 @@ def test_a_plan_of_nothing_says_so() -> None:
 def test_a_log_condition_is_shown_as_an_expression() -> None:
     plan = _plan(replace(_bare("/a", "/"), ready=Ready("up .*", None, None)))
     assert "ready       at a line of output that matches 'up .*'\n" in _text(plan)
+
+
+def test_all_that_is_awaited_has_a_line_and_the_last_says_how_long() -> None:
+    ready = Ready(
+        "up",
+        "/m",
+        20.0,
+        "h:1",
+        "http://h/",
+        "f",
+        ("test", "a b"),
+        notify=True,
+        node="/n",
+        topic="/t",
+        service="/s",
+        action="/a",
+        parameter=ParameterFact("/n", "p", (1, 2)),
+        lifecycle=StateFact("/n", "active"),
+        tf=TransformFact("map", "odom"),
+        interval=0.5,
+    )
+    assert _said(replace(_TALKER, ready=ready), "ready") == [
+        "at the first message on /m",
+        "and at a publisher on /t",
+        "and at the node /n",
+        "and at a server of /s",
+        "and at a server of the action /a",
+        "and at the parameter p = [1, 2] of /n",
+        "and at the state active of /n",
+        "and at a transform from odom to map",
+        "and at a line of output that matches 'up'",
+        "and at a connection to h:1",
+        "and at an answer of http://h/",
+        "and at the file f",
+        "and at the success of: test 'a b'",
+        "and at its own word, READY=1, within 20 s, tried every 0.5 s",
+    ]
+
+
+def test_signs_of_life_limits_and_dependencies_are_said() -> None:
+    alive = Alive(3.0, "/m", 5.0, 2.0, ("check", "a b"), failures=1, abort=True)
+    process = replace(
+        _TALKER,
+        alive=alive,
+        stdin=True,
+        restart=Restart("always", growth=1.5, jitter=0.25),
+        depends_on=(Dependency("/clock", "ready", 20.0, _at(9), required=False),),
+        limits=Limits(
+            (0, 1, 2, 6, 8),
+            True,
+            -5,
+            "fifo",
+            20,
+            3 << 29,
+            {"as": (1 << 30, 1 << 30), "core": (0, -1), "nofile": (1024, 4096)},
+        ),
+    )
+    assert _said(process, "alive") == [
+        "says WATCHDOG=1 every 3 s",
+        "5 messages a second on /m, on the average of 2 s",
+        "success of: check 'a b'",
+        "  started every 5 s, 2 s long at most, 1 failure is a hang",
+        "ended with SIGABRT where it hangs",
+    ]
+    assert _said(process, "limits") == [
+        "cores 0-2, 6, 8, which no other process has",
+        "nice -5",
+        "scheduler fifo at 20",
+        "memory 1536M",
+        "as 1G",
+        "core 0:unlimited",
+        "nofile 1024:4096",
+    ]
+    assert _said(process, "after") == ["/clock is ready, within 20 s, if that can come about"]
+    assert _said(process, "restart") == [
+        "always, after 0 s to 30 s, growing by the factor 1.5, up to 25 % more at random"
+    ]
+    assert _said(process, "stdin") == ["what is typed"]
+
+
+def _said(process: Process, label: str) -> list[str]:
+    """Return what stands behind a label."""
+    lines = list(process_details(process))
+    first = next(index for index, line in enumerate(lines) if line.startswith(label))
+    last = next((index for index in range(first + 1, len(lines)) if lines[index][0] != " "), len(lines))
+    return [line[12:] for line in lines[first:last]]
 
 
 @pytest.mark.parametrize("name", sorted(FORMATS))

@@ -83,7 +83,7 @@ def alive_lines(alive: Alive) -> Iterator[str]:
         yield f"success of: {shlex.join(alive.command)}"
         yield (
             f"  started every {alive.interval:g} s, {alive.timeout:g} s long at most, "
-            f"{alive.failures} failure{'' if alive.failures == 1 else 's'} in a row are a hang"
+            f"{alive.failures} {'failure is' if alive.failures == 1 else 'failures in a row are'} a hang"
         )
     if alive.abort:
         yield "ended with SIGABRT where it hangs"
