@@ -20,6 +20,7 @@ COMMANDS: Final[dict[str, Command]] = {
     "ps": Command("orchestra.cli.ps", "show which runs are alive, and how their processes stand"),
     "logs": Command("orchestra.cli.logs", "show what the processes of a run have written"),
     "events": Command("orchestra.cli.events", "show what has happened in a run"),
+    "crash": Command("orchestra.cli.crash", "show why processes of a run have ended"),
     "start": Command("orchestra.cli.start", "start processes of a run"),
     "stop": Command("orchestra.cli.stop", "end processes of a run"),
     "restart": Command("orchestra.cli.restart", "end processes of a run and start them anew"),
