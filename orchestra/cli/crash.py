@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import sys
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from orchestra.cli import past, runs
@@ -14,6 +13,7 @@ from orchestra.supervise.dossier_text import summary
 
 if TYPE_CHECKING:
     from argparse import Namespace
+    from pathlib import Path
 
 _EPILOG = """\
 The latest crash is shown, and the others of the run are listed. A process is named as 'orchestra ps' shows it;
