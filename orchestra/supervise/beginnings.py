@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from orchestra.supervise.patience import Patience
     from orchestra.supervise.resolver import Resolver
     from orchestra.supervise.stacks import Stacks
+    from orchestra.supervise.summons import Summons
 
 
 class Kept:
@@ -27,18 +28,22 @@ class Kept:
 class Beginnings:
     """The run's mark, the keeper's pid, the resolver at work, the descriptor on which signals arrive as bytes.
 
-    `stacks` is where our processes write where they are; `attend` is what attends to the run besides.
+    `stacks` is where our processes write where they are; `attend` is what attends to the run besides;
+    `summons` what the service manager wants that has started us.
     """
 
-    __slots__ = ("_patience", "attend", "keeper", "resolver", "run_id", "signals", "stacks")
+    __slots__ = ("_patience", "attend", "keeper", "resolver", "run_id", "signals", "stacks", "summons")
 
-    def __init__(self, kept: Kept, resolver: Resolver, signals: int, attend: Attend | None) -> None:
+    def __init__(
+        self, kept: Kept, resolver: Resolver, signals: int, attend: Attend | None, summons: Summons
+    ) -> None:
         self.run_id = kept.run_id
         self.keeper = kept.keeper
         self.stacks = kept.stacks
         self.resolver = resolver
         self.signals = signals
         self.attend = attend
+        self.summons = summons
         self._patience = kept.patience
 
     def orphaned(self) -> bool:

@@ -20,6 +20,7 @@ from orchestra.supervise.leftovers import end_leftovers
 from orchestra.supervise.loop import Loop
 from orchestra.supervise.outcome import FAILED, MISTAKE, UNSTOPPABLE, judge
 from orchestra.supervise.resolving import Collection, Refused
+from orchestra.supervise.service_manager import ServiceManager
 from orchestra.supervise.setting import surroundings
 from orchestra.supervise.standard_streams import say
 from orchestra.supervise.system import System
@@ -42,6 +43,8 @@ def conduct(beginnings: Beginnings) -> int:
     loop = Loop()
     collection = Collection(beginnings.resolver, loop)
     attention = Attention(loop, beginnings.signals, collection.stop_signal)
+    service = ServiceManager(loop, beginnings.summons, say)
+    service.reading()
     dump = Dump(loop, beginnings.stacks, say)
     dump.report, dump.resolver = collection.state_report, lambda: collection.pid
     attention.on_dump = dump.take
@@ -66,10 +69,10 @@ def conduct(beginnings: Beginnings) -> int:
         run_directory,
         plan,
         replace(document.options, name=run_directory.name),
-        run_id=beginnings.run_id,
+        beginnings=beginnings,
         resolver=resolver,
         confines=confines,
-        more_time=beginnings.more_time,
+        service=service,
     ) as around:
         dump.say, dump.folder, dump.resolver = around.journal.say, around.folder, lambda: around.questions.pid
         outcome = _run(beginnings, attention, dump, plan, around)
@@ -151,7 +154,9 @@ def _conclude(system: System, around: Surroundings, beginnings: Beginnings) -> O
     around.observers.leave()
     around.questions.leave()
     patience = around.loop.call_later(_TOOLS_LEAVE_WITHIN, lambda: None)
-    while (around.observers.alive or around.questions.alive) and not patience.cancelled:
+    while (
+        around.observers.alive or around.questions.alive or around.trials.alive
+    ) and not patience.cancelled:
         around.loop.run_once()
     left = end_leftovers(around, beginnings.run_id, remaining=system.stopping.remaining)
     outcome = judge(system.facts(left))
@@ -161,5 +166,6 @@ def _conclude(system: System, around: Surroundings, beginnings: Beginnings) -> O
     if os.getppid() != beginnings.keeper:
         around.journal.say("the keeper was killed")
     around.journal.say(f"run ended with status {outcome.status}: {outcome.reason}")
+    around.service.ended(f"ended with status {outcome.status}: {outcome.reason}")
     around.recorder.record("run_ended", status=outcome.status, reason=outcome.reason)
     return outcome

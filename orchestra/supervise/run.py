@@ -27,6 +27,7 @@ from orchestra.supervise.signals import (
 )
 from orchestra.supervise.stacks import Stacks
 from orchestra.supervise.standard_streams import fill_standard_descriptors
+from orchestra.supervise.summons import taken
 
 TYPE_CHECKING = False  # `typing` itself costs more than the rest of this module
 if TYPE_CHECKING:
@@ -79,6 +80,7 @@ def run(
 
 def _supervise(prepare: Prepare, attend: Attend | None, kept: Kept) -> int:
     os.environ[RUN] = kept.run_id
+    summons = taken(os.environ, kept.keeper)
     # The keeper's mask is still in force: no signal can reach the resolver with our handlers, nor us without them.
     resolver = fork_resolver(prepare, kept.stacks)
     reset_signals(unblock=False)
@@ -92,4 +94,4 @@ def _supervise(prepare: Prepare, attend: Attend | None, kept: Kept) -> int:
     except BaseException:  # noqa: BLE001 - a forked child must not run on into its parent's code
         sys.excepthook(*sys.exc_info())
         return 3
-    return guarded_run(Beginnings(kept, resolver, signals, attend))
+    return guarded_run(Beginnings(kept, resolver, signals, attend, summons))

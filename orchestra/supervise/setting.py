@@ -24,11 +24,13 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from orchestra.plan.model import Plan, Process
+    from orchestra.supervise.beginnings import Beginnings
     from orchestra.supervise.confines import Confines
     from orchestra.supervise.directory import RunDirectory
     from orchestra.supervise.loop import Loop
     from orchestra.supervise.options import RunOptions
     from orchestra.supervise.resolver import Resolver
+    from orchestra.supervise.service_manager import ServiceManager
 
 _STDOUT, _STDERR = 1, 2
 # A screen that takes nothing for so long gets no more, in seconds.
@@ -42,12 +44,13 @@ def surroundings(
     plan: Plan,
     options: RunOptions,
     *,
-    run_id: str,
+    beginnings: Beginnings,
     resolver: Resolver | None,
     confines: Confines,
-    more_time: Callable[[float], bool],
+    service: ServiceManager,
 ) -> Iterator[Surroundings]:
-    """Open everything for a run; `resolver` is the one that stays for it, `more_time` asks the keeper for patience."""
+    """Open everything for a run; `resolver` is the one that stays for it."""
+    run_id = beginnings.run_id
     with ExitStack() as opened:
         opened.callback(confines.close)
         sheets = opened.enter_context(_screens(loop, options))
@@ -65,12 +68,13 @@ def surroundings(
             console=console,
             observers=Observers(loop, kin, lambda text: journal.say(f"observer: {text.rstrip()}")),
             trials=Trials(loop, kin),
+            service=service,
             questions=Questions(resolver, loop, kin, options.resolver_timeout),
             confines=confines,
             environment=_environment(run_directory, run_id, colour=sheets.output.colour),
             folder=run_directory.path,
             options=options,
-            more_time=more_time,
+            more_time=beginnings.more_time,
         )
 
 

@@ -18,6 +18,7 @@ from orchestra.supervise.observation import Observers
 from orchestra.supervise.options import RunOptions
 from orchestra.supervise.questions import Questions
 from orchestra.supervise.recorder import Recorder
+from orchestra.supervise.service_manager import ServiceManager
 from orchestra.supervise.trial import Trials
 
 if TYPE_CHECKING:
@@ -75,6 +76,7 @@ class Surroundings:
     console: Console
     observers: Observers
     trials: Trials
+    service: ServiceManager
     questions: Questions
     confines: Confines
     environment: Callable[[Process | None], dict[str, str]]

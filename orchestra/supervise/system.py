@@ -260,6 +260,7 @@ class System:
             self.stopping.go_on()
         else:
             self._beginning.begin_or_skip()
+        self._around.service.changed(self._units.values(), self._beginning.holds, self.stopping.remaining)
         if self.stopping.begun or not any(map(self._needs_observer, self._units.values())):
             self._around.observers.relieve()
 

@@ -45,6 +45,7 @@ class Trial:
         self._kin = kin
         self._told: Callable[[Result], None] | None = told
         self._gone = gone
+        self._reaped = False
         self._child = spawn(spec)
         kin.add(self._child.pid, None)
         self._written = dict.fromkeys(self._child.outputs, b"")
@@ -58,7 +59,8 @@ class Trial:
     def cancel(self) -> None:
         """End it; what comes of it is not told any more."""
         self._told = None
-        self._kill()
+        if not self._reaped:
+            self._kill()
 
     def _tell_and_kill(self, result: Result) -> None:
         self._kill()
@@ -102,6 +104,7 @@ class Trial:
         self._loop.forget(self._child.pidfd)
         self._kin.remove(self._child.pid)
         self._child.reap()
+        self._reaped = True
         self._gone(self)
         self._tell(Result(self._fault(Ending(*ended)), self._written["stdout"]))
 

@@ -2,7 +2,7 @@ from __future__ import annotations
 
 import contextlib
 import socket
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
@@ -130,7 +130,12 @@ def test_a_name_is_looked_up_once_for_some_attempts(monkeypatch: pytest.MonkeyPa
     with port(listening=False) as server, place() as here:
         probe = tcp_probe(f"LOCALHOST:{number(server)}", 0.02)
         run = here.trials.run
-        monkeypatch.setattr(here.trials, "run", lambda *words: started.append(words) or run(*words))
+
+        def counted(*words: Any) -> Any:
+            started.append(words)
+            return run(*words)
+
+        monkeypatch.setattr(here.trials, "run", counted)
         monkeypatch.setattr(address, "_KEEP", 60.0)
         here.begin(probe)
         here.until(lambda: "refused" in probe.words, "no refusal")
