@@ -11,20 +11,48 @@ if TYPE_CHECKING:
     from orchestra.supervise.serving import Answer
 
 _ONLY_SHOWING = {"--help", "--show-args", "--show-arguments", "--print", "--print-description"}
+# Commands that tell of runs that died and left something behind. `clean` does it in its own way.
+_ABOUT_RUNS = {
+    *("launch", "run", "ps", "logs", "events", "start", "stop", "restart", "signal", "down", "attach"),
+}
 _WITH_A_VALUE = {"--prefix", "--name"}  # of `run`
 
 
 def main() -> int:
     """Carry out the command line and return the exit status."""
     words = sys.argv[1:]
+    if _concerns_runs(words) and (status := _look_after_the_dead()):
+        return status
     if starts_processes(words):
-        from orchestra.control.entrance import afterwards, attend
-        from orchestra.supervise.run import run
+        from orchestra.cli.starting import started
 
-        return run(lambda stream: _prepare(words, stream), attend, afterwards)
+        flags = _flags(words)
+        return started(
+            lambda stream: _prepare(words, stream),
+            detach="--detach" in flags,
+            wait_ready="--wait-ready" in flags,
+        )
     from orchestra.cli.main import main as command_line
 
     return command_line(words)
+
+
+def _concerns_runs(words: list[str]) -> bool:
+    return bool(words) and words[0] in _ABOUT_RUNS and not {"-h", "--help"}.intersection(words)
+
+
+def _look_after_the_dead() -> int:
+    """Tell of runs that died and left something; there are none most of the time, and this costs next to nothing then.
+
+    Returns another status than 0 where the user wants to go on no more.
+    """
+    from orchestra.supervise.running import abandoned, state_path
+
+    if not abandoned(f"{state_path()}/runs"):
+        return 0
+    from orchestra.cli.remains import look_after
+
+    return look_after()
 
 
 def starts_processes(words: list[str]) -> bool:
@@ -34,8 +62,11 @@ def starts_processes(words: list[str]) -> bool:
     """
     if not words or words[0] not in ("launch", "run"):
         return False
-    flags = words[1:] if words[0] == "launch" else _flags_of_run(words[1:])
-    return not any(map(_only_shows, flags))
+    return not any(map(_only_shows, _flags(words)))
+
+
+def _flags(words: list[str]) -> list[str]:
+    return words[1:] if words[0] == "launch" else _flags_of_run(words[1:])
 
 
 def _only_shows(word: str) -> bool:

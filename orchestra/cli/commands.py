@@ -26,6 +26,7 @@ COMMANDS: Final[dict[str, Command]] = {
     "restart": Command("orchestra.cli.restart", "end processes of a run and start them anew"),
     "signal": Command("orchestra.cli.signal", "send a signal to processes of a run"),
     "down": Command("orchestra.cli.down", "end a run"),
+    "clean": Command("orchestra.cli.clean", "end what runs that died have left"),
     "plan": Command("orchestra.cli.plan", "show what a launch file would start"),
     "check": Command("orchestra.cli.check", "find what is wrong in launch files and parameter files"),
     "schema": Command(

@@ -10,11 +10,10 @@ from typing import TYPE_CHECKING
 from orchestra.cli.boundary import Telling, guarded, show_problems
 from orchestra.cli.inputs import as_errors
 from orchestra.cli.run_options import run_options
-from orchestra.control.entrance import afterwards, attend
+from orchestra.cli.starting import started
 from orchestra.errors import DescriptionError, Severity
 from orchestra.supervise import document
 from orchestra.supervise.marks import RUN
-from orchestra.supervise.run import run as run_supervised
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -57,8 +56,8 @@ def supervised(
     command: str, prepare: Callable[[Namespace, BinaryIO], int | Answer], options: Namespace
 ) -> int:
     """Run what `prepare` hands over: for a command line that `orchestra.__main__` did not know for a run."""
-    return run_supervised(
+    return started(
         lambda stream: guarded(lambda: prepare(options, stream), Telling.of(command, options)),
-        attend,
-        afterwards,
+        detach=options.detach,
+        wait_ready=options.wait_ready,
     )

@@ -7,6 +7,7 @@ import re
 import sys
 from typing import TYPE_CHECKING
 
+from orchestra.cli import log_options
 from orchestra.errors import UsageError
 from orchestra.logs.outputs import OVERRIDE, forced_output
 from orchestra.supervise.options import RunOptions
@@ -19,6 +20,12 @@ def add_to(parser: ArgumentParser) -> None:
     """Let a parser read them."""
     parser.add_argument(
         "--name", metavar="RUN", help="a name that no living run has (default: made of the file's)"
+    )
+    parser.add_argument(
+        "--detach", action="store_true", help="return as soon as the run has begun; 'orchestra down' ends it"
+    )
+    parser.add_argument(
+        "--wait-ready", action="store_true", help="with --detach: return when everything is ready"
     )
     parser.add_argument(
         "--fail-on",
@@ -42,25 +49,32 @@ def add_to(parser: ArgumentParser) -> None:
         action="store_true",
         help="take no terminal for granted (default where standard input is none)",
     )
+    log_options.add_to(parser)
 
 
 def run_options(options: Namespace, default_name: str) -> RunOptions:
     """Return how to run; a name becomes one that any file system takes.
 
-    Raises `UsageError` where the environment asks for an output that there is not.
+    Raises `UsageError` for options that do not fit, and where the environment asks for an output that there is not.
     """
+    if options.wait_ready and not options.detach:
+        raise UsageError("--wait-ready goes with --detach")
     name = re.sub(r"[^\w.-]+", "_", options.name or default_name).strip("._")
     try:
         forced_output(os.environ, show_all=options.show_all)
     except ValueError as error:
         raise UsageError(f"{OVERRIDE}: {error}") from error
+    log_size, log_keep = log_options.log_limits(options, os.environ)
     return RunOptions(
         name=name or "run",
         named=bool(options.name and name),
+        detached=options.detach,
         fail_on_any=options.fail_on == "any",
         show_all_output=options.show_all,
         noninteractive=options.noninteractive or not _at_a_terminal(),
         debug=options.debug,
+        log_size=log_size,
+        log_keep=log_keep,
     )
 
 

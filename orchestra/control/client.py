@@ -84,6 +84,12 @@ class Client:
             except GoneError:
                 return
 
+    def await_event(self) -> None:
+        """Wait until something has happened since the last time, and forget what it was. Raises `GoneError`."""
+        while not self._events:
+            self._events.append(self._next())
+        self._events.clear()
+
     def arrived(self) -> list[dict[str, Any]]:
         """Read once, where there is something, and return what is complete. Raises `GoneError` at the end."""
         self._read()

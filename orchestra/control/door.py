@@ -35,8 +35,10 @@ def _listen(path: str, name: str) -> tuple[socket.socket, str]:
     listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM | socket.SOCK_NONBLOCK)
     before = os.umask(0o177)
     try:
-        listener.bind(inside(folder, name))
+        # Nobody ever sees it without a listener, which is what a dead run leaves.
+        listener.bind(inside(folder, f".{name}"))
         listener.listen(_WAITING)
+        os.rename(f".{name}", name, src_dir_fd=folder, dst_dir_fd=folder)
     except OSError:
         listener.close()
         raise

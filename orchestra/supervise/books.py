@@ -68,6 +68,8 @@ def books(
 
 def _forced(options: RunOptions) -> tuple[str | None, str | None]:
     """Return the output that counts for every process, and what is wrong with the caller's wish for one."""
+    if options.detached:
+        return "own_log", None
     try:
         return forced_output(os.environ, show_all=options.show_all_output), None
     except ValueError as error:

@@ -22,7 +22,7 @@ class Standing:
     """How a process stands. `uptime` is that of a program that runs, in seconds; `awaited` and `ending` are words.
 
     `awaited` is what it waits for, to begin or to be ready. `ending` is how its latest run ended. `starts` counts from
-    1.
+    1. `held`: only a trigger, or an operator, starts it.
     """
 
     id: str
@@ -36,6 +36,7 @@ class Standing:
     ending: str | None
     required: bool
     executable: str
+    held: bool
 
 
 class Operation:
@@ -136,6 +137,7 @@ class Operation:
             ending=str(state.ending) if state.ending else None,
             required=unit.process.required,
             executable=unit.process.executable,
+            held=self._beginning.holds(unit.id),
         )
 
     def awaited(self, unit: Unit) -> str | None:

@@ -15,8 +15,9 @@ class RunOptions:
 
     `colour` None means: on a terminal, unless `NO_COLOR` or `FORCE_COLOR` says otherwise. `show_all_output` shows the
     output of every process, whatever the description says. `noninteractive` is accepted as by `ros2 launch`: nothing
-    here depends on a terminal. `debug` shows messages of level debug too. `files` is a folder with temporary files of
-    the launch files' code: it becomes part of the run directory.
+    here depends on a terminal. A run that is `detached` has no screen: what processes write is in their logs alone.
+    `debug` shows messages of level debug too. `files` is a folder with temporary files of the launch files' code: it
+    becomes part of the run directory.
 
     Each log file is put away when it has `log_size` bytes (0: never), and `log_keep` older pieces of it are kept.
 
@@ -27,6 +28,7 @@ class RunOptions:
 
     name: str = "run"
     named: bool = False
+    detached: bool = False
     fail_on_any: bool = False
     colour: bool | None = None
     show_all_output: bool = False
