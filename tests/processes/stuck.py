@@ -5,17 +5,21 @@ stuck.py DOCUMENT resolver       where its code decides about a deferred trigger
 stuck.py - resolver              where it reads the launch files
 """
 
+from __future__ import annotations
+
 import signal
 import sys
 from pathlib import Path
-from typing import Any, BinaryIO, NoReturn
+from typing import TYPE_CHECKING, Any, BinaryIO, NoReturn
 
 from orchestra.supervise.run import run
-from orchestra.supervise.serving import Answer
+
+if TYPE_CHECKING:
+    from orchestra.supervise.serving import Answer
 
 
 def stuck_for_ever() -> NoReturn:
-    sys.stderr.write("stuck\n")
+    sys.stderr.write("this is stuck\n")
     sys.stderr.flush()
     while True:
         signal.sigwait({signal.SIGUSR1})
