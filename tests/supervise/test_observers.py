@@ -1,0 +1,164 @@
+"""Observers that die, hang or talk nonsense: whoever waits for them hears a defined word."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import sys
+import time
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from orchestra.supervise import proc
+from orchestra.supervise.kin import Kin
+from orchestra.supervise.lookout import Patience
+from orchestra.supervise.loop import Loop
+from orchestra.supervise.observation import Observers
+from tests.supervise.plans import PATIENCE, PROCESSES
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+
+QUICK = Patience(every=0.1, answer=0.5, start=1.0, lasting=60.0)
+WATCH = {"do": "watch", "fact": "node", "name": "/n"}
+CHANGE = {"do": "change_state", "node": "/n", "transition": 3}
+LOAD = {"do": "load", "container": "/c", "component": {}}
+
+
+class Run:
+    """Observers on a loop of their own, and everything that was heard from them."""
+
+    def __init__(self, folder: Path, manners: str, patience: Patience) -> None:
+        self.folder = folder
+        self.loop = Loop()
+        self.told: list[str] = []
+        self.heard: list[dict[str, Any]] = []
+        command = (sys.executable, "-S", "-E", str(PROCESSES / "odd_observer.py"), str(folder), manners)
+        self.observers = Observers(self.loop, Kin(""), self.told.append, command=command, patience=patience)
+
+    def order(self, name: str, order: dict[str, Any], *, domain: str = "1") -> None:
+        environment = {**os.environ, "ROS_DOMAIN_ID": domain}
+        self.observers.order(name, order, environment, self.heard.append)
+
+    def until(self, condition: Callable[[], Any]) -> None:
+        deadline = time.monotonic() + PATIENCE
+        waker = self.loop.call_later(PATIENCE, lambda: None)
+        while not condition():
+            assert time.monotonic() < deadline, (self.heard, self.told)
+            self.loop.run_once()
+        waker.cancel()
+
+    def words(self) -> list[tuple[str, str]]:
+        return [(message["id"], message["say"]) for message in self.heard]
+
+    def orders(self, number: int) -> list[dict[str, Any]]:
+        """What the n-th observer was told, pings left out."""
+        path = self.folder / str(number)
+        lines = path.read_text().splitlines() if path.exists() else []
+        return [message for message in map(json.loads, lines) if "ping" not in message]
+
+    @property
+    def started(self) -> int:
+        return len(list(self.folder.iterdir()))
+
+
+@pytest.fixture
+def run(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[Run]:
+    manners, patience = request.param if isinstance(request.param, tuple) else (request.param, QUICK)
+    run = Run(tmp_path, manners, patience)
+    yield run
+    run.observers.leave()
+    run.until(lambda: not run.observers.alive)
+    run.loop.close()
+
+
+ODD = ["die", "mute", "hang", "garbage", "list", "nameless", "wordless", "factless", "endless"]
+
+
+@pytest.mark.parametrize("run", [f"{manner},good" for manner in ODD], indirect=True)
+def test_one_that_is_lost_is_replaced_and_gets_its_orders_again(run: Run) -> None:
+    run.order("a", WATCH)
+    run.order("b", CHANGE)
+    run.until(lambda: len([word for word in run.words() if word[1] == "done"]) == 2)
+    assert run.orders(1) == [{"id": "a", **WATCH, "again": True}, {"id": "b", **CHANGE, "again": True}]
+    assert len(run.told) == 1
+    assert run.told[0].endswith("; it is started again")
+
+
+@pytest.mark.parametrize("run", ODD, indirect=True)
+def test_where_the_next_one_is_lost_too_the_orders_fail(run: Run) -> None:
+    run.order("a", WATCH)
+    run.until(lambda: run.heard)
+    assert run.words() == [("a", "impossible")]
+    reason = run.heard[0]["reason"]
+    assert reason.startswith("the observer, which looks into the ROS graph, ")
+    assert reason.endswith(", and so did the one before")
+    assert run.started == 2
+
+
+@pytest.mark.parametrize("run", [("die", QUICK._replace(lasting=0.0))], indirect=True)
+def test_one_that_is_lost_after_a_long_time_is_replaced_again(run: Run) -> None:
+    run.order("a", WATCH)
+    run.until(lambda: run.started > 3)
+    assert run.heard == []
+
+
+@pytest.mark.parametrize("run", ["ask,good"], indirect=True)
+def test_a_component_that_may_have_been_loaded_is_not_loaded_again(run: Run) -> None:
+    run.order("a", LOAD)
+    run.order("b", CHANGE)
+    run.until(lambda: run.words() == [("a", "asking"), ("b", "asking")])
+    (pid,) = proc.children(os.getpid())
+    os.kill(pid, signal.SIGKILL)
+    run.until(lambda: len(run.heard) == 5)
+    assert run.words()[2:] == [("a", "impossible"), ("b", "asking"), ("b", "done")]
+    assert run.heard[2]["reason"] == "the observer, which looks into the ROS graph, ended (SIGKILL)"
+    assert [order["id"] for order in run.orders(1)] == ["b"]
+
+
+@pytest.mark.parametrize("run", ["hang"], indirect=True)
+def test_one_that_only_listens_is_not_asked_whether_it_is_there(run: Run) -> None:
+    """Nothing is awaited, so nobody wakes up."""
+    run.order("a", {"do": "transitions", "node": "/n"})
+    run.order("b", {"do": "stay", "node": "/n"})
+    run.until(lambda: len(run.orders(0)) == 2)
+    assert run.loop._until_next_timer() is None
+    run.order("c", WATCH)
+    assert run.loop._until_next_timer() is not None
+
+
+@pytest.mark.parametrize("run", ["mute,good"], indirect=True)
+def test_one_with_nothing_to_do_leaves_and_the_next_order_starts_another(run: Run) -> None:
+    run.order("a", WATCH)
+    run.until(lambda: run.orders(0))
+    run.observers.relieve()
+    assert not run.observers.alive[0].leaving
+    run.observers.forget("a")
+    run.observers.relieve()
+    run.order("b", WATCH)
+    run.until(lambda: ("b", "done") in run.words())
+    assert not [word for word in run.words() if word[0] == "a"]
+    assert run.told == []
+
+
+@pytest.mark.parametrize("run", ["mute"], indirect=True)
+def test_at_the_end_only_what_nodes_are_asked_goes_on(run: Run) -> None:
+    run.order("a", WATCH)
+    run.order("r", {"do": "rate", "topic": "/t", "window": 1.0})
+    run.order("b", CHANGE)
+    run.observers.drop()
+    run.until(lambda: len(run.orders(0)) == 5)
+    assert run.orders(0)[3:] == [{"forget": "a"}, {"forget": "r"}]
+
+
+def test_one_that_cannot_be_started_is_a_reason(tmp_path: Path) -> None:
+    loop, heard = Loop(), list[dict[str, Any]]()
+    observers = Observers(loop, Kin(""), print, command=(str(tmp_path / "nothing"),))
+    observers.order("a", WATCH, dict(os.environ), heard.append)
+    assert [message["say"] for message in heard] == ["impossible"]
+    assert heard[0]["reason"].startswith("the observer could not be started: ")
+    assert proc.descendants(os.getpid()) == []
+    loop.close()
