@@ -66,6 +66,7 @@ class Beginning:
                 self._skip(unit, fate.blocker)
             elif fate.begin and unit.id not in self._held:
                 begun += 1
+                self._untime_edges(unit)
                 unit.handle(life.Start())
             elif unit.id not in self._held:
                 self._time_edges(unit, fate.awaited)
@@ -106,6 +107,7 @@ class Beginning:
     def _skip(self, unit: Unit, blocker: Dependency) -> None:
         target, condition = shown(blocker.process), _PARTICIPLES[blocker.condition]
         self._around.journal.say(f"{unit.name} is skipped: {target} will not be {condition} any more")
+        self._untime_edges(unit)
         unit.handle(life.Skip())
         self._listener.skipped(unit.id)
         if unit.process.required:
@@ -120,6 +122,13 @@ class Beginning:
                 self._edge_timers[unit.id, edge] = self._around.loop.call_later(
                     edge.timeout, partial(self._edge_expired, unit, edge)
                 )
+
+    def _untime_edges(self, unit: Unit) -> None:
+        """Stop the clocks of a process that waits no more, so that they wake nobody."""
+        for edge in unit.process.depends_on:
+            timer = self._edge_timers.pop((unit.id, edge), None)
+            if timer:
+                timer.cancel()
 
     def _edge_expired(self, unit: Unit, edge: Dependency) -> None:
         target = self._units[edge.process]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import contextlib
+import json
 import os
 import shutil
 import signal
@@ -30,14 +31,18 @@ _LOOK_AGAIN = 0.02
 # A process that waits for something that never comes does not start; in seconds.
 _ALL_WITHIN = 6.0
 _LONGEST_WAIT = 20.0
+# What clients say that are no friends: nothing, nonsense, half a line, far too much, many requests at once, and for
+# ever without reading an answer.
 _CLIENTS = (
     b"",
     b"\xff\x00garbage\n",
-    b'{"do": "ps"',
+    b'{"id": 1, "request": "snap',
     b"[" * 200_000,
-    b"{}\n" * 1000,
-    b'{"version": 1}\nnull\n',
+    b"{}\nnull\n" * 1000,
+    b'{"id": 1, "request": "snapshot"}\n' * 1000,
+    b'{"id": 1, "request": "subscribe"}\n',
 )
+_EACH = 15
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,6 +96,7 @@ class Actor:
             "free disk": lambda: self._ballast.unlink(missing_ok=True),
             "remove logs": self._remove_logs,
             "hammer": self._hammer,
+            "order": lambda: self._order(act),
             "wait for all": lambda: self._until(self._all_run, _ALL_WITHIN),
             "pass time": lambda: self._until(_after(act.chosen)),
         }
@@ -135,14 +141,24 @@ class Actor:
 
     def _hammer(self) -> None:
         """Connect to every socket of the run, and say too much, too little, nonsense or nothing."""
+        for words in _CLIENTS * _EACH:
+            self._call(words)
+
+    def _order(self, act: Act) -> None:
+        """Ask for something as `orchestra stop` does, and do not wait for the answer."""
+        root = self.case.roots[int(act.chosen * len(self.case.roots))]
+        request = {"id": 1, "request": act.order, "processes": [root.member.name], "wait": False}
+        self._call(json.dumps(request).encode() + b"\n")
+
+    def _call(self, words: bytes) -> None:
+        """Say something on a connection of its own, which stays open until the run is over."""
         for path in self.stage.socket_files():
-            for words in _CLIENTS * 5:
-                client = socket.socket(socket.AF_UNIX)
-                client.setblocking(False)
-                self._clients.append(client)
-                with contextlib.suppress(OSError):
-                    client.connect(str(path))
-                    client.send(words)
+            client = socket.socket(socket.AF_UNIX)
+            client.setblocking(False)
+            self._clients.append(client)
+            with contextlib.suppress(OSError):
+                client.connect(str(path))
+                client.send(words)
 
     def _until(self, condition: Callable[[], bool], seconds: float = _LONGEST_WAIT) -> None:
         """Wait for a condition; a run that does not get there is judged as it is."""

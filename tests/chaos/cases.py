@@ -20,6 +20,7 @@ Deed: TypeAlias = Literal[
     "free disk",
     "remove logs",
     "hammer",
+    "order",
     "wait for all",
     "pass time",
 ]
@@ -72,13 +73,15 @@ class Act:
     """Something that befalls the run, `delay` seconds after what befell it before.
 
     `signal` is sent to `target` (a name without SIG), typed (`^C`, `^Z`, `^\\` by the signals that they make), or of no
-    meaning. `chosen` picks the member, of those that are there.
+    meaning. `chosen` picks the member, of those that are there, or the process of the plan that a client of the control
+    socket gives an `order` about: start, stop, restart, or down, which is about all.
     """
 
     deed: Deed
     delay: float = 0.0
     target: Target = "keeper"
     signal: str = ""
+    order: str = ""
     chosen: float = 0.0
 
 

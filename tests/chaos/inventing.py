@@ -109,16 +109,22 @@ def _annoyance(chance: Random, disk: int | None) -> Act:
             delay,
             "member",
             chance.choice(("KILL", "STOP", "SEGV", "TERM", "CONT")),
-            chance.random(),
+            chosen=chance.random(),
         ),
-        Act("signal", delay, "member", "KILL", chance.random()),
+        Act("signal", delay, "member", "KILL", chosen=chance.random()),
         Act("signal", delay, chance.choice(("keeper", "supervisor")), "QUIT"),
         Act("signal", delay, "keeper", "TSTP"),
         Act("signal", delay, "keeper", "CONT"),
         Act("signal", delay, chance.choice(("keeper", "supervisor")), "STOP"),
         Act("signal", delay, chance.choice(("keeper", "supervisor")), "CONT"),
         Act("signal", delay, "observer", chance.choice(("KILL", "STOP", "TERM"))),
-        Act("hammer", delay, chosen=chance.random()),
+        Act("hammer", delay),
+        Act(
+            "order",
+            delay,
+            order=chance.choice(("start", "stop", "restart", "restart")),
+            chosen=chance.random(),
+        ),
     ]
     rare = [Act("remove logs", delay)]
     full = [Act("fill disk", delay), Act("fill disk", delay), Act("free disk", delay)] if disk else []
@@ -128,8 +134,17 @@ def _annoyance(chance: Random, disk: int | None) -> Act:
 def _end(chance: Random, screen: Screen) -> tuple[Act, ...]:
     """Return what ends the run for sure: whoever still sleeps is woken."""
     delay = round(chance.choice((0.0, chance.uniform(0, 0.8))), 2)
-    wake = (Act("signal", delay, "keeper", "CONT"), Act("signal", 0.0, "supervisor", "CONT"))
+    # Twice: what is suspended by its own hand may not have come to it yet (SIGTSTP).
+    wake = (
+        *(Act("signal", wait, "keeper", "CONT") for wait in (delay, 0.2)),
+        Act("signal", 0.0, "supervisor", "CONT"),
+    )
     ends = [
+        (
+            Act("signal", 0.0, "supervisor", "STOP"),
+            Act("signal", 0.3, "keeper", chance.choice(_STOP_SIGNALS)),
+        ),
+        (Act("order", order="down"), Act("signal", 3.0, "keeper", "TERM")),
         (Act("signal", 0.0, "keeper", chance.choice(_STOP_SIGNALS)),),
         (Act("signal", 0.0, "supervisor", chance.choice(_STOP_SIGNALS)),),
         (Act("signal", 0.0, "keeper", "KILL"),),

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
 
 # One file for all programs of a user that can be traced, nodes among them; lttng-ust(3) leaves it to the next one.
 _OF_THE_USER = "lttng-ust-wait-"
+# The folder for the sockets of all runs of a user.
+_SOCKETS = "runtime/orchestra"
 _AS_ROOT = ("--mount", "--net", "--propagation", "private")
 _AS_USER = ("--user", "--map-root-user", *_AS_ROOT)
 _FURNISH = (
@@ -98,7 +100,9 @@ class Stage:
 
     def litter(self) -> list[str]:
         """Return the files that a run may not leave: temporary ones, and shared memory."""
-        found = [str(path) for path in self._files("tmp", "runtime", "work")]
+        found = [
+            str(path) for path in self._files("tmp", "runtime", "work") if path != self.folder / _SOCKETS
+        ]
         if self.holder is not None:
             shared = self.seen(Path("/dev/shm")).iterdir()  # noqa: S108 - of its own
             found += [str(path) for path in shared if not path.name.startswith(_OF_THE_USER)]

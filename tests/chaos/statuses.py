@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 _FAILED = 1
 _SIGNALLED = 128
+# Why a run ends where nothing has failed.
+_SUCCESS = re.compile(r"required process \S+ has ended|an operator ended it")
 _STOP_SIGNALS = ("INT", "TERM", "HUP")
 
 
@@ -73,7 +75,7 @@ def _as_described(case: Case, seen: Observation, befell: Fate) -> set[int]:
     cause = (stopping.cause or "") if stopping else ""
     if cause in {f"SIG{name}" for name in _STOP_SIGNALS}:
         return {_SIGNALLED + signal.Signals[cause]}
-    natural = 0 if stopping is None or re.fullmatch(r"required process \S+ has ended", cause) else _FAILED
+    natural = 0 if stopping is None or _SUCCESS.fullmatch(cause) else _FAILED
     # A signal may have come while the run was ending for that cause.
     return {natural, *(_SIGNALLED + number for number in befell.stop_signals[:1])}
 
@@ -81,6 +83,9 @@ def _as_described(case: Case, seen: Observation, befell: Fate) -> set[int]:
 def _without_events(case: Case, befell: Fate) -> set[int]:
     """Where the disk was full the events do not tell what came first."""
     codes = {root.member.code for root in case.roots if root.required}
+    codes |= (
+        {_SIGNALLED + signal.Signals[f"SIG{name}"] for name in ("KILL", "SEGV", "TERM")} if codes else set()
+    )
     return {0, *codes, *(_SIGNALLED + number for number in befell.stop_signals[:1])}
 
 
@@ -99,10 +104,14 @@ def _hit(delivery: Delivery, target: str, name: str) -> bool:
 
 
 def _frozen(deliveries: tuple[Delivery, ...]) -> bool:
-    """Tell whether the supervisor was stopped and nobody has woken it."""
-    last = [each.act.signal for each in deliveries if _hit(each, "supervisor", each.act.signal)]
-    last = [name for name in last if name in ("STOP", "CONT")]
-    return bool(last) and last[-1] == "STOP"
+    """Tell whether the supervisor was stopped and nobody has woken it; the keeper does where it wants it to end."""
+    frozen = False
+    for each in deliveries:
+        if _hit(each, "supervisor", "STOP"):
+            frozen = True
+        elif _hit(each, "supervisor", "CONT") or (each.act.target == "keeper" and _stop_signal(each)):
+            frozen = False
+    return frozen
 
 
 def _stop_signal(delivery: Delivery) -> int | None:
