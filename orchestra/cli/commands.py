@@ -25,6 +25,7 @@ COMMANDS: Final[dict[str, Command]] = {
     "stop": Command("orchestra.cli.stop", "end processes of a run"),
     "restart": Command("orchestra.cli.restart", "end processes of a run and start them anew"),
     "signal": Command("orchestra.cli.signal", "send a signal to processes of a run"),
+    "attach": Command("orchestra.cli.attach", "see what a process writes, and type what it reads"),
     "down": Command("orchestra.cli.down", "end a run"),
     "clean": Command("orchestra.cli.clean", "end what runs that died have left"),
     "plan": Command("orchestra.cli.plan", "show what a launch file would start"),

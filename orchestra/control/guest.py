@@ -49,6 +49,10 @@ class Guest:
         """Have something called when it goes."""
         self._farewells.append(farewell)
 
+    def at_drain(self, drained: Callable[[], None] | None) -> None:
+        """Have something called whenever it has taken all that waited for it; None for nothing."""
+        self._outlet.drained = drained
+
     @property
     def pending(self) -> int:
         """The number of bytes that it has not taken yet."""

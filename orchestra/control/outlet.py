@@ -19,10 +19,12 @@ BACKLOG = 1024 * 1024
 class Outlet:
     """The way to one client. `broken` is called, once, with the reason why nothing reaches it any more.
 
+    `drained` is called whenever everything that had to wait has been taken.
     What waits is shared: the same event for a hundred clients is there once.
     """
 
     def __init__(self, loop: Loop, connection: socket.socket, broken: Callable[[str], None]) -> None:
+        self.drained: Callable[[], None] | None = None
         self._loop = loop
         self._connection = connection
         self._broken = broken
@@ -88,6 +90,8 @@ class Outlet:
             self._loop.forget(self._watched)
             os.close(self._watched)
             self._watched = None
+            if self._open and self.drained:
+                self.drained()
 
     def _give_up(self, reason: str) -> None:
         self.close()

@@ -5,6 +5,7 @@
     start, stop, restart  processes, wait             `processes` are names or patterns (`selection`)
     signal                processes, signal           by name or number
     down                  reason                      the end of the run; `run_ended` is its last event
+    attach, input, resize, detach                     `attaching` says more
 
 `start`, `stop` and `restart` answer `{"refused": {ID: WHY, ...}, "processes": {ID: STANDING, ...}}` when what they
 concern is at rest, or at once where `wait` is false. A standing has the fields of
@@ -19,6 +20,7 @@ from dataclasses import asdict, dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.control import protocol
+from orchestra.control.attaching import Attaching
 from orchestra.control.protocol import Refusal
 from orchestra.control.selection import UnmatchedError, select
 from orchestra.control.subscribers import Subscribers
@@ -43,6 +45,7 @@ class Desk:
     operation: Operation
     subscribers: Subscribers
     waiting: Waiting
+    attaching: Attaching
 
 
 def _snapshot(desk: Desk, guest: Guest, request: Request) -> None:
@@ -121,6 +124,26 @@ def _down(desk: Desk, guest: Guest, request: Request) -> None:
     desk.operation.down(str(request.given.get("reason") or _BY_AN_OPERATOR))
 
 
+def _attach(desk: Desk, guest: Guest, request: Request) -> None:
+    process = request.given.get("process")
+    chosen = _fitting(desk, [process])
+    if len(chosen) != 1:
+        raise Refusal("malformed", f"'{process}' is {len(chosen)} processes, and one can be attached to")
+    guest.send(protocol.answer(request.id, desk.attaching.begin(guest, chosen[0], request.given)))
+
+
+def _input(desk: Desk, guest: Guest, request: Request) -> None:
+    guest.send(protocol.answer(request.id, desk.attaching.input(guest, request.given)))
+
+
+def _resize(desk: Desk, guest: Guest, request: Request) -> None:
+    guest.send(protocol.answer(request.id, desk.attaching.resize(guest, request.given)))
+
+
+def _detach(desk: Desk, guest: Guest, request: Request) -> None:
+    guest.send(protocol.answer(request.id, desk.attaching.detach(guest)))
+
+
 def _selected(desk: Desk, request: Request) -> list[str]:
     patterns = request.given.get("processes")
     if not isinstance(patterns, list) or not patterns:
@@ -145,6 +168,10 @@ REQUESTS: Final[dict[str, Callable[[Desk, Guest, Request], None]]] = {
     "restart": _restart,
     "signal": _signal,
     "down": _down,
+    "attach": _attach,
+    "input": _input,
+    "resize": _resize,
+    "detach": _detach,
 }
 
 

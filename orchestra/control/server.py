@@ -12,6 +12,7 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from orchestra.control import door, protocol
+from orchestra.control.attaching import Attaching
 from orchestra.control.guest import Guest
 from orchestra.control.protocol import Refusal
 from orchestra.control.requests import Desk, handler_of
@@ -158,6 +159,7 @@ class Control:
     def _happened(self, line: str) -> None:
         self._desk.subscribers.happened(line)
         self._desk.waiting.happened()
+        self._desk.attaching.happened()
 
     def _serve(self, guest: Guest, request: Request) -> None:
         """See to a request. Whatever a client may have found to break, the run goes on without this one answer."""
@@ -186,5 +188,7 @@ def attend(around: Surroundings, operation: Operation, run: str, keeper: int) ->
         "supervisor": os.getpid(),
     }
     subscribers = Subscribers(around.recorder)
-    desk = Desk(hello, operation, subscribers, Waiting(around.loop, operation))
+    desk = Desk(
+        hello, operation, subscribers, Waiting(around.loop, operation), Attaching(around.loop, operation)
+    )
     return Control(around, desk, hello)
