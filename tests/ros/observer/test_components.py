@@ -242,3 +242,17 @@ def test_a_component_may_be_a_lifecycle_node(tmp_path: Path) -> None:
         "inactive",
         "active",
     ]
+
+
+def test_components_that_are_active_are_deactivated_before_their_container_ends(tmp_path: Path) -> None:
+    parts = tuple(component(name, plugin="Managed", lifecycle="active") for name in ("one", "two"))
+    with launched(tmp_path, plan(container(), components=parts), environment=DOMAIN) as run:
+        for part in parts:
+            run.await_event("transition_done", part.id, count=2)
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+        (end,) = run.of_kind("process_ended", NAME)
+        for part in parts:
+            *_, last = run.of_kind("transition_done", part.id)
+            assert last.data == {"transition": "deactivate", "state": "inactive"}
+            assert last.monotonic < end.monotonic

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import sys
 from typing import TYPE_CHECKING, Any
@@ -11,15 +12,18 @@ import pytest
 from orchestra.plan.reactions import ChangeStateAction, TriggerEvent
 from orchestra.supervise.options import RunOptions
 from orchestra.values import Restart
+from tests.ros.observer.conversation import Domain, observing
 from tests.supervise.plans import (
     HERE,
     PROCESSES,
+    after,
     finished,
     launched,
     log,
     plan,
     process,
     shutdown,
+    wait_for,
     when,
     when_ended,
 )
@@ -169,3 +173,104 @@ def test_an_order_for_a_node_that_will_not_come_fails(tmp_path: Path) -> None:
     (event,) = run.of_kind("transition_failed")
     assert "could not be started" in event.data["reason"]
     assert "it is over" in run.stderr
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_node_is_deactivated_before_it_is_ended(tmp_path: Path, number: int) -> None:
+    """The observer has stayed for it, alone, and is gone at the end."""
+    with launched(tmp_path, plan(node(lifecycle="active")), environment=DOMAIN) as run:
+        run.await_event("transition_done", "/managed", count=2)
+        run.send(number)
+        assert run.wait() == 128 + number
+        assert run.log("managed").splitlines() == ["up", "configure", "activate", "deactivate"]
+        (left,) = run.of_kind("transition_done", "/managed")[2:]
+        assert left.data == {"transition": "deactivate", "state": "inactive"}
+        assert "error" not in run.stderr
+        assert not run.everything()
+
+
+def test_levels_are_deactivated_one_after_the_other(tmp_path: Path) -> None:
+    """What depends on a node leaves its work before that node does."""
+    server = node(name="server", lifecycle="active")
+    client = node(name="client", lifecycle="active", depends_on=after("/server", "started"))
+    with launched(tmp_path, plan(server, client), environment=DOMAIN) as run:
+        for name in ("/server", "/client"):
+            run.await_event("transition_done", name, count=2)
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+        steps = [
+            (event.kind, event.process)
+            for event in run.events
+            if event.kind == "process_ended" or event.data.get("transition") == "deactivate"
+        ]
+        assert steps == [
+            ("transition_done", "/client"),
+            ("process_ended", "/client"),
+            ("transition_done", "/server"),
+            ("process_ended", "/server"),
+        ]
+
+
+@pytest.mark.parametrize(
+    ("manner", "reason"),
+    [
+        ("fail", "the node refused it, or failed, and is still active"),
+        ("error", "it failed; the node was active and is "),
+        ("die", "it ended before"),
+        ("hang", "it ended before"),
+    ],
+)
+def test_a_node_that_does_not_deactivate_is_ended_all_the_same(
+    tmp_path: Path, manner: str, reason: str
+) -> None:
+    bad = node(f"{manner}=deactivate", lifecycle="active")
+    with launched(tmp_path, plan(bad), environment=DOMAIN) as run:
+        run.await_event("transition_done", "/managed", count=2)
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+        assert run.log("managed").splitlines()[-1] == "deactivate"
+        (event,) = run.of_kind("transition_failed")
+        assert event.data["transition"] == "deactivate"
+        assert event.data["reason"].startswith(reason)
+        assert f"managed did not deactivate: {reason}" in run.stderr
+        assert not run.everything()
+
+
+def test_a_node_that_was_deactivated_by_somebody_else_is_left_alone(tmp_path: Path) -> None:
+    with launched(tmp_path, plan(node(lifecycle="active")), environment=DOMAIN) as run:
+        run.await_event("transition_done", "/managed", count=2)
+        with observing(Domain(int(DOMAIN["ROS_DOMAIN_ID"]), tmp_path)) as somebody:
+            somebody.ask("down", "change_state", node="/managed", transition=DEACTIVATE)
+            somebody.said("down", "done")
+            run.send(signal.SIGINT)
+            assert run.wait() == 130
+        assert run.log("managed").splitlines() == ["up", "configure", "activate", "deactivate"]
+        assert run.of_kind("transition_done")[-1].data["state"] == "inactive"
+
+
+def test_a_node_that_crashes_is_brought_to_active_again_although_its_ghost_is_there(tmp_path: Path) -> None:
+    """The observer that stayed still sees the one that was killed."""
+    again = node(lifecycle="active", restart=Restart("on-failure"))
+    with launched(tmp_path, plan(again), environment=DOMAIN) as run:
+        run.await_event("transition_done", "/managed", count=2)
+        pid = run.of_kind("process_running", "/managed")[0].pid
+        assert pid is not None
+        os.kill(pid, signal.SIGKILL)
+        states = [run.await_event("transition_done", "/managed", count=3 + n).data["state"] for n in (0, 1)]
+        assert states == ["inactive", "active"]
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+        assert run.log("managed").splitlines() == [*["up", "configure", "activate"] * 2, "deactivate"]
+
+
+def test_an_observer_that_is_killed_is_replaced_and_deactivates_the_node(tmp_path: Path) -> None:
+    with launched(tmp_path, plan(node(lifecycle="active")), environment=DOMAIN) as run:
+        run.await_event("transition_done", "/managed", count=2)
+        first = run.own("orc-observer")
+        os.kill(first, signal.SIGKILL)
+        wait_for(lambda: run.own("orc-observer") != first, "another observer")
+        assert "observer: ended (SIGKILL); it is started again" in run.stderr
+        # Whether it knows the node already or not: this is a defined end.
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+        assert not run.everything()
