@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import json
 import os
+import signal
 import subprocess
 import sys
 from typing import TYPE_CHECKING
 
 import pytest
 
+from orchestra.plan.conditions import Alive
 from tests.supervise.plans import PROCESSES, after, finished, launched, plan, process, ready_when, wait_for
 
 if TYPE_CHECKING:
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from orchestra.plan.model import Process
+    from tests.supervise.plans import Launched
 
 DOMAIN = {"ROS_DOMAIN_ID": "30"}
 
@@ -125,3 +128,53 @@ def test_files_in_the_working_directory_are_not_taken_for_modules(tmp_path: Path
     )
     with launched(tmp_path, plan(node), environment=DOMAIN, cwd=folder) as run:
         run.await_event("process_ready", "publisher")
+
+
+def test_an_observer_that_is_killed_is_replaced_and_the_wait_goes_on(tmp_path: Path) -> None:
+    go = tmp_path / "go"
+    script = 'while [ ! -e "$0" ]; do sleep 0.05; done; exec "$@"'
+    talk = (sys.executable, str(PROCESSES / "publisher.py"), "/chat,RELIABLE,VOLATILE,0")
+    node = process(
+        "publisher",
+        command=("/bin/sh", "-c", script, str(go), *talk),
+        ready=ready_when(message="/chat", timeout=60.0),
+    )
+    with launched(tmp_path, plan(node), environment=DOMAIN) as run:
+        replaced(run)
+        go.touch()
+        run.await_event("process_ready", "publisher")
+
+
+def test_without_any_observer_the_wait_fails_and_says_why(tmp_path: Path) -> None:
+    node = publisher("/chat,RELIABLE,VOLATILE,-", ready=ready_when(message="/chat"))
+    with launched(tmp_path, plan(node), environment=DOMAIN) as run:
+        replaced(run)
+        os.kill(run.own("orc-observer"), signal.SIGKILL)
+        assert run.wait() == 1
+    assert (
+        "cannot tell whether publisher is ready: the observer, which looks into the ROS graph, "
+        "ended (SIGKILL), and so did the one before"
+    ) in run.stderr
+
+
+def test_an_observer_that_is_killed_is_not_taken_for_a_hung_node(tmp_path: Path) -> None:
+    """It hangs when it has published for 6 s, not when nobody can see that it does."""
+    alive = Alive(message="/chat", window=0.5)
+    node = publisher("/chat,RELIABLE,VOLATILE,60", ready=ready_when(message="/chat"), alive=alive)
+    with launched(tmp_path, plan(node), environment=DOMAIN) as run:
+        ready = run.await_event("process_ready", "publisher")
+        replaced(run)
+        hung = run.await_event("process_hung", "publisher")
+        assert hung.monotonic - ready.monotonic > 5.0
+        assert "no message on /chat for 0.5 s" in run.stderr
+        run.send(signal.SIGINT)
+        run.wait()
+        assert not run.everything()
+
+
+def replaced(run: Launched) -> None:
+    """Kill the observer of a run and wait for the next one."""
+    first = run.own("orc-observer")
+    os.kill(first, signal.SIGKILL)
+    wait_for(lambda: run.own("orc-observer") != first, "another observer")
+    assert "observer: ended (SIGKILL); it is started again" in run.stderr
