@@ -9,6 +9,8 @@ import os
 _SET_PDEATHSIG = 1
 _SET_NAME = 15
 _SET_CHILD_SUBREAPER = 36
+# From asm-generic/resource.h.
+_RLIMIT_LOCKS = 10
 # From linux/signal.h.
 _SS_DISABLE = 2
 
@@ -34,6 +36,21 @@ def set_name(name: str) -> None:
     """Set what `ps -o comm` shows: at most 15 bytes."""
     buffer = ctypes.create_string_buffer(name.encode()[:15])
     _prctl(_SET_NAME, ctypes.addressof(buffer))
+
+
+class _Limit(ctypes.Structure):
+    _fields_ = (("soft", ctypes.c_uint64), ("hard", ctypes.c_uint64))
+
+
+def set_lock_limit(number: int) -> None:
+    """Set the soft limit on file locks of this process, which all that it starts inherits and which limits nothing.
+
+    Where the hard limit is lower it stays as it is: whoever looks for the number has other ways.
+    """
+    limit = _Limit()
+    _LIBC.prlimit64(0, _RLIMIT_LOCKS, None, ctypes.byref(limit))
+    limit.soft = min(number, limit.hard)
+    _LIBC.prlimit64(0, _RLIMIT_LOCKS, ctypes.byref(limit), None)
 
 
 class _Stack(ctypes.Structure):

@@ -13,8 +13,8 @@ import signal
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from orchestra.supervise import proc
-from orchestra.supervise.marks import PROCESS, RUN
+from orchestra.supervise import kernel, proc
+from orchestra.supervise.marks import PROCESS, RUN, number_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -46,8 +46,24 @@ class Kin:
 
     def __init__(self, run_id: str) -> None:
         self._run_id = run_id
+        self._numbers: dict[str, int | None] = {}
         self._own: dict[int, str | None] = {}
         self._adopted: dict[int, Adopted] = {}
+
+    def marked(self, owner: str, prepare: Callable[[], None] | None) -> Callable[[], None] | None:
+        """Return what is to be done in a program of a process before it begins: to take its number, then to prepare."""
+        if owner not in self._numbers:
+            self._numbers[owner] = number_of(self._run_id, len(self._numbers) + 1)
+        mark = self._numbers[owner]
+        if mark is None:
+            return prepare
+
+        def take_number() -> None:
+            kernel.set_lock_limit(mark)
+            if prepare:
+                prepare()
+
+        return take_number
 
     def add(self, pid: int, owner: str | None) -> None:
         """Take note of a child that we started; `owner` None for one of our own tools."""
@@ -96,12 +112,17 @@ class Kin:
         return facts.group if facts else None
 
     def _owner(self, pid: int) -> str | None:
-        """Tell by the marks, else by the session, which a child shares with the program unless it made its own."""
+        """Tell by the marks, else by the session, which most share with the program, else by the number."""
         run, process = proc.marks(pid, (RUN, PROCESS))
         if run == self._run_id and process is not None:
             return process
         facts = proc.stat(pid)
-        return self._own.get(facts.session) if facts else None
+        owner = self._own.get(facts.session) if facts else None
+        number = None if owner else proc.lock_limit(pid)
+        return owner if number is None else self._numbered(number)
+
+    def _numbered(self, number: int) -> str | None:
+        return next((owner for owner, known in self._numbers.items() if known == number), None)
 
 
 def _reaped(pid: int) -> bool:

@@ -13,9 +13,10 @@ import os
 import sys
 import time
 
+from orchestra.supervise import kernel
 from orchestra.supervise.beginnings import Beginnings, Kept
 from orchestra.supervise.keeper import keep
-from orchestra.supervise.marks import RUN
+from orchestra.supervise.marks import RUN, number_of, run_mark
 from orchestra.supervise.patience import Patience
 from orchestra.supervise.resolver import fork_resolver
 from orchestra.supervise.signals import (
@@ -66,7 +67,7 @@ def run(
     """
     fill_standard_descriptors()
     keeper = os.getpid()
-    run_id = f"{time.time_ns():x}-{keeper}"
+    run_id = run_mark(time.time_ns(), keeper)
     patience, stacks = Patience(), Stacks()
 
     def supervise() -> int:
@@ -80,6 +81,7 @@ def run(
 
 def _supervise(prepare: Prepare, attend: Attend | None, kept: Kept) -> int:
     os.environ[RUN] = kept.run_id
+    kernel.set_lock_limit(number_of(kept.run_id) or 0)
     summons = taken(os.environ, kept.keeper)
     # The keeper's mask is still in force: no signal can reach the resolver with our handlers, nor us without them.
     resolver = fork_resolver(prepare, kept.stacks)

@@ -14,6 +14,7 @@ import termios
 from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
+from orchestra.supervise import kernel
 from orchestra.supervise.preparing import reported
 from orchestra.supervise.terminal import our_size, set_size
 
@@ -93,13 +94,19 @@ def _child(process: subprocess.Popen[bytes], outputs: tuple[int, ...], *, tty: b
         raise
 
 
-def _before(spec: Spec) -> Callable[[], None] | None:
-    """Return what is to be done in the child: it takes its terminal before anything may forbid it to."""
-    if not spec.foremost:
-        return spec.before_exec
+def _before(spec: Spec) -> Callable[[], None]:
+    """Return what is to be done in the child: it takes its terminal before anything may forbid it to.
+
+    It gets SIGTERM when the supervisor is killed, since the keeper, who would end it, may be killed as well. Before the
+    program begins, our own handler would take that signal and be forgotten.
+    """
+    supervisor = os.getpid()
 
     def before() -> None:
-        fcntl.ioctl(0, termios.TIOCSCTTY, 0)
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
+        kernel.die_with_parent(signal.SIGTERM, supervisor)
+        if spec.foremost:
+            fcntl.ioctl(0, termios.TIOCSCTTY, 0)
         if spec.before_exec:
             spec.before_exec()
 

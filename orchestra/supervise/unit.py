@@ -183,7 +183,7 @@ class Unit:
             environment.update(self._notices.begin())
             self._crashes.begins(environment)
             self.tail = Tail(_LAST_LINES)
-            before = self._around.confines.prepare(process)
+            before = self._around.kin.marked(self.id, self._around.confines.prepare(process))
             child = spawn(
                 Spec(self.id, argv(process), environment, process.cwd, tty, stdin, before, foremost)
             )

@@ -53,7 +53,7 @@ def test_a_program_that_leaves_something_behind(tmp_path: Path, kind: str) -> No
     run = finished(tmp_path, plan(process("a", f"{kind}=ignore", "exit=3", required=True, stop=QUICK)))
     assert run.popen.returncode == 3
     left = run.of_kind("left_behind")
-    assert [event.process for event in left] == [None if kind == "anonymous" else "a"]
+    assert [event.process for event in left] == ["a"]
     assert "stand_in.py" in left[0].data["command"]
 
 
