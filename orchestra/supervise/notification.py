@@ -83,16 +83,11 @@ class Notices:
 
     def drain(self) -> None:
         """Read what has come by now: a process may say something and end."""
-        for _ in range(_BATCH):
-            if not self._read_one():
-                return
+        self._read_batch()
 
     def _read(self) -> None:
         """Read some messages; who sends them faster than they are read has to wait."""
-        for _ in range(_BATCH):
-            if self._socket is None or not self._read_one():
-                return
-        if self._socket and self._pause is None:
+        if self._read_batch() and self._socket and self._pause is None:
             self._around.loop.forget(self._socket.fileno())
             self._pause = self._around.loop.call_later(_PAUSE, self._go_on)
 
@@ -101,17 +96,26 @@ class Notices:
         if self._socket:
             self._around.loop.on_readable(self._socket.fileno(), self._read)
 
-    def _read_one(self) -> bool:
+    def _read_batch(self) -> bool:
+        """Read some messages; tell whether there may be more."""
+        known: dict[int | None, bool] = {}  # the kernel gives a pid to nobody else as fast as that
+        for _ in range(_BATCH):
+            if self._socket is None or not self._read_one(self._socket, known):
+                return False
+        return True
+
+    def _read_one(self, opened: socket.socket, known: dict[int | None, bool]) -> bool:
         """Read a message; tell whether there was one."""
-        if self._socket is None:
-            return False
         space = socket.CMSG_SPACE(_CREDENTIALS.size) + socket.CMSG_SPACE(_MOST_DESCRIPTORS * 4)
         try:
-            data, ancillary, flags, _ = self._socket.recvmsg(_LONGEST, space, socket.MSG_CMSG_CLOEXEC)
+            data, ancillary, flags, _ = opened.recvmsg(_LONGEST, space, socket.MSG_CMSG_CLOEXEC)
         except OSError:  # nothing is there, or no memory for it: the loop tells when to look again
             return False
         try:
-            if not flags & socket.MSG_TRUNC and self._is_from_it(_sender(ancillary)):
+            sender = _sender(ancillary)
+            if sender not in known:
+                known[sender] = self._is_from_it(sender)
+            if known[sender] and not flags & socket.MSG_TRUNC:
                 self._hear(parse(data))
         finally:
             for descriptor in _descriptors(ancillary):

@@ -115,7 +115,8 @@ class ServiceManager:
         """Tell what has not been told before."""
         if not self._socket:
             return
-        new = {name: value for name, value in assignments.items() if self._told.get(name) != value}
+        lines = {name: "".join(filter(str.isprintable, value)) for name, value in assignments.items()}
+        new = {name: value for name, value in lines.items() if self._told.get(name) != value}
         self._told |= new
         self._waiting |= new
         if self._waiting and self._again is None:
