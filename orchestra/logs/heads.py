@@ -101,10 +101,15 @@ def _pattern(written: str) -> re.Pattern[str] | None:
         name = token[1]
         if name not in _TOKENS:
             continue  # rcutils writes what it does not know as it stands
-        parts += (re.escape(head[end : token.start()]), _TOKENS[name] if name not in seen else ".*?")
+        parts += (re.escape(head[end : token.start()]), _again(name) if name in seen else _TOKENS[name])
         seen.add(name)
         end = token.end()
     parts.append(re.escape(head[end:]))
     if not seen & {"severity", "name"}:
         return None
     return re.compile("".join(parts))
+
+
+def _again(name: str) -> str:
+    """Return what matches a token for the second time; a group has its name once."""
+    return f"(?P={name})" if name in ("severity", "name") else _TOKENS[name]

@@ -71,6 +71,7 @@ class Writer:
         # All below is guarded by the condition. A positive number stands for so many bytes that were dropped.
         self._waiting: dict[Appended, list[bytes | int]] = {}
         self._size = 0
+        self._dropped = 0
         self._steps = 0
         self._wanted = False
         self._stuck = False
@@ -88,7 +89,7 @@ class Writer:
     @property
     def lost(self) -> int:
         """The number of bytes that no file has, those that wait for a disk that hangs included."""
-        return sum(file.lost for file in self._files) + self._size
+        return sum(file.lost for file in self._files) + self._size + self._dropped
 
     @property
     def full(self) -> bool:
@@ -107,6 +108,7 @@ class Writer:
             if isinstance(data, bytes):
                 if self._stuck and self._size > MOST:
                     _drop(waiting, len(data))
+                    self._dropped += len(data)
                     return
                 self._size += len(data)
             waiting.append(data)
@@ -183,6 +185,8 @@ class Writer:
                 file.close()
             elif item:
                 file.lose(item)
+                with self._changed:
+                    self._dropped -= item
 
     def _append(self, file: Appended, data: bytes) -> None:
         error = file.append(data)

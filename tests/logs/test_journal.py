@@ -5,37 +5,70 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.logs.journal import Journal, Sheet, Sheets
+from orchestra.logs import records
+from orchestra.logs.journal import Journal
 from orchestra.logs.outputs import Output, forced_output, on_screen
 from orchestra.logs.screen import Screen
+from orchestra.logs.sheets import Sheet, Sheets
+from tests.logs.files import writing
 
 if TYPE_CHECKING:
     from pathlib import Path
 
 
 @pytest.mark.conforms("4.10 line format", "4.10 own_log files", "D70", "4.10 full")
-def test_output_goes_to_its_file_the_merged_file_and_the_screen(tmp_path: Path) -> None:
+def test_output_goes_to_its_file_the_merged_files_and_the_screen(tmp_path: Path) -> None:
     readable, writable = os.pipe()
     sheet = Sheet(Screen(writable, lambda _wanted: None), colour=False)
     told: list[str] = []
     words = {"/a": None, "/b": "own_log"}
-    journal = Journal(tmp_path, words, Sheets(sheet, sheet), lambda *_: None, told.append, lambda: 12.5)
-    journal.output("/a", "stdout", "\x1b[32mone\x1b[0m\nhal")
-    journal.output("/b", "stdout", "hidden\n")
-    journal.say("two\nlines")
-    journal.output("/a", "stdout", "f\n")
-    journal.output("/a", "stdout", "")
-    journal.close()
+    with writing() as writer:
+        journal = Journal(tmp_path, words, Sheets(sheet, sheet), writer, told.append, lambda: 12.5)
+        journal.begin("/a", 7, {})
+        journal.output("/a", "stdout", "\x1b[32mone\x1b[0m\nhal")
+        journal.output("/b", "stdout", "hidden\n")
+        journal.say("two\nlines")
+        journal.output("/a", "stdout", "f\n")
+        journal.output("/a", "stdout", "")
+        journal.output("/a", "stderr", "no end")
+        journal.close()
+        journal.settle()
+        assert journal.lost == 0
     assert told == ["two\nlines"]
-    assert (tmp_path / "a.log").read_text() == "\x1b[32mone\x1b[0m\nhalf\n"
+    assert (tmp_path / "a.log").read_text() == "\x1b[32mone\x1b[0m\nhalf\nno end"
     assert (tmp_path / "b.log").read_text() == "hidden\n"
     assert (tmp_path / "all.log").read_text() == (
         "12.500000 [a] one\n12.500000 [a] hal\n12.500000 [b] hidden\n"
-        "12.500000 [orchestra] two\n12.500000 [orchestra] lines\n12.500000 [a] f\n"
+        "12.500000 [orchestra] two\n12.500000 [orchestra] lines\n12.500000 [a] f\n12.500000 [a] no end\n"
     )
+    found = [(r.process, r.pid, r.stream, r.text) for r in records.read(tmp_path / "all.jsonl")]
+    assert found == [
+        ("/a", 7, "stdout", "one"),
+        ("/b", None, "stdout", "hidden"),
+        (None, os.getpid(), "orchestra", "two"),
+        (None, os.getpid(), "orchestra", "lines"),
+        ("/a", 7, "stdout", "half"),
+        ("/a", 7, "stderr", "no end"),
+    ]
     assert os.read(readable, 65536).decode() == (
-        "[a] \x1b[32mone\x1b[0m\x1b[0m\n[a] hal\n[orchestra] two\n[orchestra] lines\n[a] f\n"
+        "[a] \x1b[32mone\x1b[0m\x1b[0m\n[a] hal\n[orchestra] two\n[orchestra] lines\n[a] f\n[a] no end\n"
     )
+    os.close(readable)
+    os.close(writable)
+
+
+def test_the_file_of_a_process_has_its_bytes_and_nothing_else(tmp_path: Path) -> None:
+    """Two streams that have begun lines stand there as in a terminal."""
+    readable, writable = os.pipe()
+    sheet = Sheet(Screen(writable, lambda _wanted: None), colour=False)
+    with writing() as writer:
+        journal = Journal(tmp_path, {"/a": None}, Sheets(sheet, sheet), writer, lambda _text: None)
+        journal.output("/a", "stdout", "10%\r20%")
+        journal.output("/a", "stderr", "\udcff\x00oops\n")
+        journal.output("/a", "stdout", "\r30%\n")
+        journal.close()
+    assert (tmp_path / "a.log").read_bytes() == b"10%\r20%\xff\x00oops\n\r30%\n"
+    assert os.read(readable, 65536).decode() == "[a] 20%\n[a] ??oops\n[a] 30%\n"
     os.close(readable)
     os.close(writable)
 
@@ -94,21 +127,22 @@ def test_processes_may_be_added_and_notes_are_not_shown(tmp_path: Path) -> None:
     readable, writable = os.pipe()
     sheet = Sheet(Screen(writable, lambda _wanted: None), colour=False)
     told: list[str] = []
-    journal = Journal(
-        tmp_path,
-        {"/a": "own_log"},
-        Sheets(sheet, sheet),
-        lambda *_: None,
-        told.append,
-        lambda: 1.0,
-        forced="both",
-    )
-    journal.output("/a", "stdout", "one\n")
-    journal.add({"a": None, "/longer": "log"})
-    journal.output("a", "stdout", "two\n")
-    journal.output("/a", "stdout", "three\n")
-    journal.note("kept")
-    journal.close()
+    with writing() as writer:
+        journal = Journal(
+            tmp_path,
+            {"/a": "own_log"},
+            Sheets(sheet, sheet),
+            writer,
+            told.append,
+            lambda: 1.0,
+            forced="both",
+        )
+        journal.output("/a", "stdout", "one\n")
+        journal.add({"a": None, "/longer": "log"})
+        journal.output("a", "stdout", "two\n")
+        journal.output("/a", "stdout", "three\n")
+        journal.note("kept")
+        journal.close()
     assert (tmp_path / "a.log").read_text() == "one\nthree\n"
     assert (tmp_path / "a~2.log").read_text() == "two\n"
     assert told == ["kept"]

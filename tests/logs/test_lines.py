@@ -42,3 +42,21 @@ def test_an_endless_line_is_given_in_pieces() -> None:
     lines = Lines()
     given_text = "".join(lines.feed(b"x" * 1000) for _ in range(200))
     assert len(given_text) > 200 * 1000 - LONGEST_HELD - 1000
+
+
+@pytest.mark.parametrize("cut", range(1, 6))
+def test_a_colour_cut_by_a_read_stays_in_one_piece(cut: int) -> None:
+    lines, colour = Lines(), b"\x1b[31m"
+    assert lines.feed(b"a" + colour[:cut]) == ""
+    before = lines.flush()
+    assert before == ("a" if cut < len(colour) else "a\x1b[31m")
+    assert before + lines.feed(colour[cut:] + b"red\n") == "a\x1b[31mred\n"
+
+
+def test_what_only_looks_like_the_begin_of_a_colour_is_given_at_the_end() -> None:
+    lines = Lines()
+    lines.feed(b"x\x1b[")
+    assert lines.flush() == "x"
+    assert lines.flush() == ""
+    assert lines.unfinished
+    assert lines.close() == "\x1b["

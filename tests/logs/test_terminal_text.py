@@ -44,3 +44,20 @@ def test_who_decides_about_colour(
     asked: bool | None, terminal: bool, environment: dict[str, str], colour: bool
 ) -> None:
     assert wants_colour(asked=asked, terminal=terminal, environment=environment) is colour
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("a\x1b[2Kb\x1b[1;1Hc", "abc"),
+        ("\x1b]0;title\x07x", "x"),
+        ("\x1b]8;;http://x\x1b\\link\x1b]8;;\x1b\\", "link"),
+        ("\x1bc\x1b(0x", "x"),
+        ("\x00\x07\x0e\x7f\x9b\udcff", "??????"),
+        ("\x1b[31mred\x1b[K", "\x1b[31mred\x1b[0m"),
+        ("tab\tstays", "tab\tstays"),
+        ("\x1b[", "?["),
+    ],
+)
+def test_what_would_change_the_terminal_is_left_out(text: str, shown: str) -> None:
+    assert for_screen(text) == shown
