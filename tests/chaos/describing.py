@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from orchestra.plan.model import Process
-    from tests.chaos.cases import Case, Root
+    from tests.chaos.cases import Case, Member, Root
 
 NEVER = "/never"
 
@@ -35,8 +35,9 @@ def prepared(case: Case, folder: Path, cookie: str) -> tuple[str, ...]:
     return (sys.executable, "-m", "orchestra", "launch", str(path))
 
 
-def _command(root: Root, cookie: str) -> tuple[str, ...]:
-    return (sys.executable, "-S", "-E", str(PROCESSES / "tree.py"), cookie, member_words(root.member))
+def command_of(member: Member, cookie: str) -> tuple[str, ...]:
+    """Return the command of a member; the cookie is only there to be seen."""
+    return (sys.executable, "-S", "-E", str(PROCESSES / "tree.py"), cookie, member_words(member))
 
 
 def _announcement(root: Root) -> str:
@@ -56,7 +57,7 @@ def _process(root: Root, cookie: str) -> Process:
     }
     return process(
         root.member.name,
-        command=_command(root, cookie),
+        command=command_of(root.member, cookie),
         required=root.required,
         emulate_tty=root.tty,
         ready=ready,
@@ -67,7 +68,7 @@ def _process(root: Root, cookie: str) -> Process:
 def _action(root: Root, cookie: str) -> dict[str, Any]:
     action: dict[str, Any] = {
         "name": root.member.name,
-        "cmd": list(_command(root, cookie)),
+        "cmd": list(command_of(root.member, cookie)),
         "required": root.required,
         "emulate_tty": root.tty,
         "respawn": root.respawn,
