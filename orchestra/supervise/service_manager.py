@@ -32,9 +32,17 @@ _NAMED = 3
 class Known(Protocol):
     """A process, as far as it is told of."""
 
-    id: str
-    name: str
-    state: State
+    @property
+    def id(self) -> str:
+        """Its id in the plan."""
+
+    @property
+    def name(self) -> str:
+        """Its name for people."""
+
+    @property
+    def state(self) -> State:
+        """Where it is in its life."""
 
     @property
     def awaited(self) -> str:
