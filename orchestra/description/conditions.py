@@ -67,7 +67,7 @@ class Ready(Entity):
     )
     command: Argv | None = Field(default=None, description="This command exits with 0.")
     notify: Flag | None = Field(default=None, description="It says `READY=1` itself, as to systemd.")
-    timeout: Seconds | None = Field(default=None, description="After so many seconds it has failed.")
+    timeout: Seconds | None = Field(default=None, description="After so many seconds the run has failed.")
     interval: Annotated[Template, INTERVAL] | None = Field(
         default=None, description="Seconds between two tries of `tcp`, `http`, `file` and `command`."
     )

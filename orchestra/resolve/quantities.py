@@ -27,7 +27,8 @@ def size(text: str) -> int:
     if found is not None:
         decimals = found[2] or ""
         scaled = int(found[1] + decimals) << 10 * _POWERS[found[3].upper()]
-        number, rest = divmod(scaled, 10 ** len(decimals))
+        parts: int = 10 ** len(decimals)
+        number, rest = divmod(scaled, parts)
         if not rest and number <= _MOST:
             return number
     raise UnfitError(f"expected a size as 512M or 2G, or a number of bytes, found '{shortened(text)}'")

@@ -87,40 +87,44 @@ _rules = st.lists(
     max_size=2,
 )
 _flags = st.sampled_from([True, False, "$(var a true)"])
+
+
+def _complete(ready: dict[str, Any]) -> dict[str, Any]:
+    """Return a condition that awaits something, and is tried at intervals only where that can be."""
+    tried = any(key in ready for key in ("tcp", "http", "file", "command"))
+    kept = {key: value for key, value in ready.items() if key != "interval" or tried}
+    return kept if kept.keys() - {"timeout"} else {**kept, "message": "/t"}
+
+
+_pauses = st.sampled_from([0.5, 2, "$(var a 3)"])
 _fact_names = st.sampled_from(["t", "/u", "~/v", "$(var a w)"])
 _commands = st.sampled_from(["test -e 'a b'", ["test", "$(var a x)"], ["one word"]])
-_ready = _some(
-    log=st.sampled_from(["up", "$(var a up)", "^a\\\\.b"]),
-    message=_fact_names,
-    topic=_fact_names,
-    node=_fact_names | st.just("/m") | st.booleans(),
-    service=_fact_names,
-    action=_fact_names,
-    parameter=_names
+_facts: dict[str, st.SearchStrategy[Any]] = {
+    "log": st.sampled_from(["up", "$(var a up)", "^a\\\\.b"]),
+    "message": _fact_names,
+    "topic": _fact_names,
+    "node": _fact_names | st.just("/m") | st.booleans(),
+    "service": _fact_names,
+    "action": _fact_names,
+    "parameter": _names
     | st.fixed_dictionaries(
         {"name": _names, "node": st.just("/n")}, optional={"value": _scalars | _lists | st.just(True)}
     ),
-    lifecycle=st.just("active")
+    "lifecycle": st.just("active")
     | st.fixed_dictionaries({"node": _names, "state": st.sampled_from(["inactive", "$(var a active)"])}),
-    tf=st.fixed_dictionaries({"parent": st.just("map"), "child": st.sampled_from(["o", "$(var a b)"])}),
-    tcp=st.sampled_from([8080, "h:1", "[::1]:2", "$(var a 3)"]),
-    http=st.sampled_from(["http://h:80/x", "https://$(var a h)"]),
-    file=st.sampled_from(["f", "$(var a f)/g"]),
-    command=_commands,
-    notify=_flags,
-    timeout=_seconds,
-    interval=_seconds,
-)
-_alive = _some(
-    notify=_seconds,
-    message=_fact_names,
-    min_rate=_seconds,
-    window=_seconds,
-    command=_commands,
-    interval=_seconds,
-    timeout=_seconds,
-    failures=st.sampled_from([1, "$(var a 4)"]),
-    abort=_flags,
+    "tf": st.fixed_dictionaries({"parent": st.just("map"), "child": st.sampled_from(["o", "$(var a b)"])}),
+    "tcp": st.sampled_from([8080, "h:1", "[::1]:2", "$(var a 3)"]),
+    "http": st.sampled_from(["http://h:80/x", "https://$(var a h)"]),
+    "file": st.sampled_from(["f", "$(var a f)/g"]),
+    "command": _commands,
+    "notify": _flags,
+}
+_ready = _some(**_facts, timeout=_seconds, interval=_pauses).map(_complete)
+_of_rate = {"message": _fact_names, "min_rate": st.sampled_from([5, "$(var a 2.5)"])}
+_of_command = {"interval": _pauses, "timeout": _pauses, "failures": st.sampled_from([1, "$(var a 4)"])}
+_alive = st.one_of(
+    st.fixed_dictionaries({"notify": _pauses, **_of_rate}, optional={"window": _pauses, "abort": _flags}),
+    st.fixed_dictionaries({"command": _commands}, optional={"notify": _pauses, **_of_command}),
 )
 _restart = st.fixed_dictionaries(
     {"policy": st.sampled_from(["no", "on-failure", "$(var a always)"])},
@@ -132,16 +136,18 @@ _restart = st.fixed_dictionaries(
         "budget": st.sampled_from([0, 3, "$(var a 5)"]),
     },
 )
+_cores = st.sampled_from([0, "0-3,6", "$(var a 1)", [0, 1], ["2-3", "$(var a 4)"]])
 _sizes = st.sampled_from([4096, "512M", "$(var a 2)G", "unlimited"])
-_limits = _some(
-    cores=st.sampled_from([0, "0-3,6", "$(var a 1)", [0, 1], ["2-3", "$(var a 4)"]]),
-    exclusive=_flags,
-    nice=st.sampled_from([-20, 19, "$(var a 5)"]),
-    scheduler=st.sampled_from(["batch", "fifo", "$(var a rr)"]),
-    priority=st.sampled_from([1, "$(var a 99)"]),
-    memory=_sizes,
-    memory_lock=_sizes,
-    rlimits=_some(nofile=st.sampled_from([1024, "1024:4096", "$(var a 7)"]), core=_sizes, memlock=_sizes),
+_limits = st.one_of(
+    st.fixed_dictionaries({"cores": _cores}, optional={"exclusive": _flags, "memory": _sizes}),
+    st.fixed_dictionaries(
+        {"scheduler": st.sampled_from(["rr", "$(var a fifo)"])},
+        optional={"priority": st.sampled_from([1, "$(var a 99)"])},
+    ),
+    _some(nice=st.sampled_from([-20, 19, "$(var a 5)"]), memory=_sizes, memory_lock=_sizes),
+    _some(
+        rlimits=_some(nofile=st.sampled_from([1024, "1024:4096", "$(var a 7)"]), core=_sizes, memlock=_sizes)
+    ),
 )
 _process = {
     "env": st.lists(st.fixed_dictionaries({"name": _names, "value": any_text.map(escaped)}), max_size=2),
