@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import time
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -28,15 +29,27 @@ class Kept:
 class Beginnings:
     """The run's mark, the keeper's pid, the resolver at work, the descriptor on which signals arrive as bytes.
 
+    `began` is now, in seconds since the epoch;
     `stacks` is where our processes write where they are; `attend` is what attends to the run besides;
     `summons` what the service manager wants that has started us.
     """
 
-    __slots__ = ("_patience", "attend", "keeper", "resolver", "run_id", "signals", "stacks", "summons")
+    __slots__ = (
+        "_patience",
+        "attend",
+        "began",
+        "keeper",
+        "resolver",
+        "run_id",
+        "signals",
+        "stacks",
+        "summons",
+    )
 
     def __init__(
         self, kept: Kept, resolver: Resolver, signals: int, attend: Attend | None, summons: Summons
     ) -> None:
+        self.began = time.time()
         self.run_id = kept.run_id
         self.keeper = kept.keeper
         self.stacks = kept.stacks

@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.plan import codec
-from orchestra.supervise import directory
+from orchestra.supervise import directory, shared_memory
 from orchestra.supervise.attention import Attention
 from orchestra.supervise.confines import Confines
 from orchestra.supervise.dump import Dump
@@ -159,6 +159,8 @@ def _conclude(system: System, around: Surroundings, beginnings: Beginnings) -> O
     ) and not patience.cancelled:
         around.loop.run_once()
     left = end_leftovers(around, beginnings.run_id, remaining=system.stopping.remaining)
+    if around.kin.struck:
+        shared_memory.remove_leftovers(beginnings.began)
     outcome = judge(system.facts(left))
     around.journal.settle()
     if around.journal.lost:

@@ -52,6 +52,7 @@ def keep(supervise: Callable[[], int], patience: Patience, stacks: Stacks) -> in
         signal.signal(number, signal.SIG_DFL)
     signal.pthread_sigmask(signal.SIG_SETMASK, received_signals())
     modes = terminal_modes.kept()
+    began = time.time()
     watch = _Watch(_fork(supervise), patience, stacks, modes)
     status = watch.until_it_ends()
     if status is None or not os.WIFEXITED(status):
@@ -61,6 +62,7 @@ def keep(supervise: Callable[[], int], patience: Patience, stacks: Stacks) -> in
     left = sweep(os.getpid(), _pause)
     if status is None or not os.WIFEXITED(status) or os.WEXITSTATUS(status) == _BUG:
         _clear_caps()
+        _clear_shared_memory(began)
     if status is not None and os.WIFEXITED(status):
         return UNSTOPPABLE if left else os.WEXITSTATUS(status)
     say(f"the supervisor {_fate(status)}; {_outcome(left)}")
@@ -71,6 +73,13 @@ def _fate(status: int | None) -> str:
     if status is None:
         return "cannot be ended"
     return f"was ended by {signal.Signals(os.WTERMSIG(status)).name}"
+
+
+def _clear_shared_memory(began: float) -> None:
+    """Remove what nodes could not remove themselves."""
+    from orchestra.supervise import shared_memory  # noqa: PLC0415 - as below
+
+    shared_memory.remove_leftovers(began)
 
 
 def _clear_caps() -> None:

@@ -46,6 +46,8 @@ class Kin:
 
     def __init__(self, run_id: str) -> None:
         self._run_id = run_id
+        # Whether a child of ours has ended by a signal, and perhaps could not clear up behind itself.
+        self.struck = False
         self._numbers: dict[str, int | None] = {}
         self._own: dict[int, str | None] = {}
         self._adopted: dict[int, Adopted] = {}
@@ -70,8 +72,11 @@ class Kin:
         self._own[pid] = owner
 
     def remove(self, pid: int) -> None:
-        """Forget a child that we have reaped ourselves."""
+        """Forget a child that has ended and is about to be reaped by whoever started it."""
         del self._own[pid]
+        with contextlib.suppress(ChildProcessError):
+            ended = os.waitid(os.P_PID, pid, os.WEXITED | os.WNOHANG | os.WNOWAIT)
+            self.struck |= ended is not None and ended.si_code != os.CLD_EXITED
 
     def refresh(self) -> tuple[list[Adopted], list[Adopted]]:
         """Look at our children: return who is new among us, and who has ended. The latter are reaped."""
@@ -80,7 +85,7 @@ class Kin:
             if pid not in self._own and pid not in self._adopted:
                 self._adopted[pid] = adopted = Adopted(pid, self._owner(pid), proc.command(pid))
                 new.append(adopted)
-        ended = [adopted for adopted in self._adopted.values() if _reaped(adopted.pid)]
+        ended = [adopted for adopted in self._adopted.values() if self._reaped(adopted.pid)]
         for adopted in ended:
             del self._adopted[adopted.pid]
         return new, ended
@@ -121,15 +126,16 @@ class Kin:
         number = None if owner else proc.lock_limit(pid)
         return owner if number is None else self._numbered(number)
 
+    def _reaped(self, pid: int) -> bool:
+        try:
+            reaped, status = os.waitpid(pid, os.WNOHANG)
+        except ChildProcessError:
+            return True
+        self.struck |= reaped == pid and os.WIFSIGNALED(status)
+        return reaped == pid
+
     def _numbered(self, number: int) -> str | None:
         return next((owner for owner, known in self._numbers.items() if known == number), None)
-
-
-def _reaped(pid: int) -> bool:
-    try:
-        return os.waitpid(pid, os.WNOHANG)[0] == pid
-    except ChildProcessError:
-        return True
 
 
 def send_to_groups(pids: Iterable[int], number: int) -> None:

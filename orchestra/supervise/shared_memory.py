@@ -1,0 +1,120 @@
+"""Removes shared memory that participants of Fast DDS, ended by SIGKILL or a crash, could not remove themselves.
+
+Seen with Fast DDS 2.14 in /dev/shm: a participant has a segment `fastrtps_HEX` and a port `fastrtps_portN` with its
+mutex `sem.fastrtps_portN_mutex`, and holds a lock (flock(2)) on the file `..._el` of each as long as it lives. It maps
+its own segments and ports, and those of all whom it talks to. One that ends by itself removes everything.
+
+They are removed where they are ours, came while the run did, nobody holds their lock, and nobody whom we can see maps
+them: locks also tell of processes in other namespaces. Where there is no lock, they must have been there for a while,
+for whoever makes them maps them a moment later. The lock is held meanwhile, so that nobody can begin to use them.
+"""
+
+from __future__ import annotations
+
+import fcntl
+import os
+import re
+import time
+from contextlib import contextmanager, suppress
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+_FOLDER = "/dev/shm"  # noqa: S108 - where Linux has POSIX shared memory (shm_overview(7))
+# What is removed together has one stem.
+_STEM = r"fastrtps_(?:[0-9a-f]{16}|port[0-9]+)"
+_OURS = re.compile(rf"(?:sem\.)?({_STEM})(?:_mutex|_el|_sl)?")
+_LOCKS = ("_el", "_sl")
+# How long a file without a lock must have been there, in seconds.
+_SETTLED = 2.0
+# Time stamps of files are those of the latest tick of the kernel's clock, and may lie a little before the run.
+_TICK = 0.1
+
+
+def remove_leftovers(began: float) -> list[str]:
+    """Remove what nobody uses of that which came since `began`, in seconds since the epoch; return the names."""
+    stems = [stem for stem in _stems(began) if _is_free(stem)]
+    if not stems:
+        return []
+    mapped = _mapped()
+    return [file for stem in stems if stem not in mapped for file in _remove(stem)]
+
+
+def _stems(began: float) -> set[str]:
+    """Return the stems of all files of this user that came since then, or of which a part did."""
+    try:
+        names = os.listdir(_FOLDER)  # noqa: PTH208 - this runs in the keeper too, without pathlib
+    except OSError:
+        return set()
+    matched = ((_OURS.fullmatch(name), name) for name in names)
+    return {match[1] for match, name in matched if match and _came_since(name, began - _TICK)}
+
+
+def _came_since(name: str, began: float) -> bool:
+    """Tell by the time of the latest change through a descriptor: that is the begin, for the rest goes through maps."""
+    try:
+        status = os.lstat(f"{_FOLDER}/{name}")
+    except OSError:
+        return False
+    return status.st_uid == os.geteuid() and status.st_mtime >= began
+
+
+def _is_free(stem: str) -> bool:
+    with _locked(stem) as free:
+        return free
+
+
+def _mapped() -> set[str]:
+    """Return the stems of all that a process, as far as we may look at it, has in its memory."""
+    found: set[str] = set()
+    for pid in filter(str.isdigit, os.listdir("/proc")):  # noqa: PTH208 - as above
+        with suppress(OSError), open(f"/proc/{pid}/maps", "rb") as maps:  # noqa: PTH123 - as above
+            names = (os.fsdecode(line.rpartition(b"/")[2].rstrip()) for line in maps if b"fastrtps_" in line)
+            found.update(match[1] for name in names if (match := _OURS.fullmatch(name)))
+    return found
+
+
+def _remove(stem: str) -> list[str]:
+    """Remove all files of a stem, unless somebody holds one of its locks."""
+    with _locked(stem) as free:
+        if not free:
+            return []
+        files = (stem, f"sem.{stem}_mutex", *(f"{stem}{suffix}" for suffix in _LOCKS))
+        return [file for file in files if _unlinked(f"{_FOLDER}/{file}")]
+
+
+@contextmanager
+def _locked(stem: str) -> Iterator[bool]:
+    """Hold the locks of a stem; the value says whether nobody else does."""
+    held: list[int] = []
+    try:
+        free = all(_lock(f"{_FOLDER}/{stem}{suffix}", held) for suffix in _LOCKS)
+        yield free and (bool(held) or not _came_since(stem, time.time() - _SETTLED))
+    finally:
+        for descriptor in held:
+            os.close(descriptor)
+
+
+def _lock(path: str, held: list[int]) -> bool:
+    """Take a lock; a file that is not there is held by nobody."""
+    try:
+        descriptor = os.open(path, os.O_RDONLY | os.O_CLOEXEC)
+    except FileNotFoundError:
+        return True
+    except OSError:
+        return False
+    held.append(descriptor)
+    try:
+        fcntl.flock(descriptor, fcntl.LOCK_EX | fcntl.LOCK_NB)
+    except OSError:
+        return False
+    return True
+
+
+def _unlinked(path: str) -> bool:
+    try:
+        os.unlink(path)  # noqa: PTH108 - as above
+    except OSError:
+        return False
+    return True

@@ -1,0 +1,170 @@
+"""What nodes that were killed leave in shared memory goes; what living ones use stays."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import pytest
+
+from orchestra.supervise import shared_memory
+from orchestra.supervise.environment import node_environment
+from orchestra.supervise.host import this_host
+from tests.supervise.plans import PROCESSES, launched, plan, process, wait_for
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from orchestra.plan.model import Process
+
+SHM = Path("/dev/shm")  # noqa: S108 - it is
+OURS, OTHER = "75", "76"
+PUBLISHER = (sys.executable, str(PROCESSES / "publisher.py"))
+TOPIC = "/topic,RELIABLE,VOLATILE,0"
+
+
+def files() -> set[str]:
+    return {path.name for path in SHM.iterdir() if "fastrtps_" in path.name}
+
+
+def node(name: str) -> Process:
+    return process(name, command=(*PUBLISHER, f"/{name},RELIABLE,VOLATILE,0"))
+
+
+@contextlib.contextmanager
+def stranger(domain: str, folder: Path) -> Iterator[set[str]]:
+    """A node of somebody else; the value are the files that it uses."""
+    caller = {**os.environ, "ROS_DOMAIN_ID": domain, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+    environment = node_environment(
+        caller, this_host(), {}, log_folder=str(folder), colour=False, marks=("no run", "")
+    )
+    with subprocess.Popen([*PUBLISHER, TOPIC], env=environment, stdout=subprocess.PIPE) as living:
+        try:
+            assert living.stdout
+            assert living.stdout.readline() == b"up\n"
+            yield used_by(living.pid)
+            assert living.poll() is None
+        finally:
+            living.send_signal(signal.SIGINT)
+
+
+def used_by(pid: int) -> set[str]:
+    """Return what a participant needs to be found: what it maps, and what it locks."""
+    maps = Path(f"/proc/{pid}/maps").read_text()
+    mapped = {line.rpartition("/")[2] for line in maps.splitlines() if "/shm/fastrtps_" in line}
+    links = (str(path.readlink()) for path in Path(f"/proc/{pid}/fd").iterdir() if path.is_symlink())
+    return mapped | {link.rpartition("/")[2] for link in links if "/shm/fastrtps_" in link}
+
+
+@pytest.mark.parametrize("target", ["nodes", "orc-supervisor", "orc-keeper"])
+def test_what_killed_nodes_left_is_removed(tmp_path: Path, target: str) -> None:
+    with launched(tmp_path, plan(node("a"), node("b")), environment={"ROS_DOMAIN_ID": OURS}) as run:
+        for name in ("a", "b"):
+            run.await_line(name, "up")
+        pids = [event.pid for name in ("a", "b") for event in run.of_kind("process_running", name)]
+        used = {file for pid in pids if pid for file in used_by(pid)}
+        assert sum(file.endswith("_el") for file in used) >= 4
+        for pid in pids:
+            assert pid
+            os.kill(pid, signal.SIGKILL if target == "nodes" else signal.SIGSTOP)
+        if target != "nodes":  # they cannot do anything but be killed
+            os.kill(run.own(target), signal.SIGKILL)
+        run.wait()
+        run.assert_gone(8.0)
+        assert not used & files()
+
+
+@pytest.mark.parametrize("domain", [OURS, OTHER])
+def test_a_living_participant_keeps_all_of_its_own(tmp_path: Path, domain: str) -> None:
+    with (
+        launched(tmp_path, plan(node("a")), environment={"ROS_DOMAIN_ID": OURS}) as run,
+        stranger(domain, tmp_path) as used,
+    ):
+        run.await_line("a", "up")
+        pid = run.of_kind("process_running", "a")[0].pid
+        assert pid
+        own = used_by(pid) - used
+        assert used <= files()
+        os.kill(pid, signal.SIGKILL)
+        assert run.wait() == 0
+        assert used <= files()
+        # What the living one has mapped of the dead one's stays too, as long as it lives.
+        assert {file for file in own if file.endswith("_el")}
+        if domain == OTHER:
+            assert not own & files()
+
+
+@pytest.fixture
+def made() -> Iterator[list[Path]]:
+    """Files that a test makes in shared memory."""
+    paths: list[Path] = []
+    yield paths
+    for path in paths:
+        path.unlink(missing_ok=True)
+
+
+def make(made: list[Path], name: str, age: float = 0.0) -> Path:
+    path = SHM / name
+    path.touch()
+    moment = time.time() - age
+    os.utime(path, (moment, moment))
+    made.append(path)
+    return path
+
+
+STEM = "fastrtps_00000000deadbeef"
+
+
+def test_only_what_came_during_the_run_is_removed(made: list[Path]) -> None:
+    old = make(made, STEM, age=100.0)
+    old_lock = make(made, f"{STEM}_el", age=100.0)
+    assert not {old.name, old_lock.name} & set(shared_memory.remove_leftovers(time.time() - 50.0))
+    assert {old.name, old_lock.name} <= set(shared_memory.remove_leftovers(time.time() - 150.0))
+    assert not old.exists()
+    assert not old_lock.exists()
+
+
+def test_what_has_no_lock_must_have_been_there_for_a_while(made: list[Path]) -> None:
+    begun = make(made, STEM)
+    assert begun.name not in shared_memory.remove_leftovers(time.time() - 50.0)
+    assert begun.exists()
+    make(made, STEM, age=5.0)
+    assert begun.name in shared_memory.remove_leftovers(time.time() - 50.0)
+
+
+def test_files_of_others_stay(made: list[Path]) -> None:
+    strange = [make(made, name, age=5.0) for name in ("fastrtps_", f"{STEM}_what", f"x{STEM}", "sem.other")]
+    shared_memory.remove_leftovers(time.time() - 50.0)
+    assert all(path.exists() for path in strange)
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can make files of others")
+def test_another_users_files_stay(made: list[Path]) -> None:
+    other = make(made, STEM, age=5.0)
+    os.chown(other, 65534, 65534)
+    assert other.name not in shared_memory.remove_leftovers(time.time() - 50.0)
+    assert other.exists()
+
+
+def test_a_run_that_ends_by_itself_looks_at_nothing(tmp_path: Path, made: list[Path]) -> None:
+    with launched(tmp_path, plan(process("a", "polite", "say=up", "linger"))) as run:
+        run.await_line("a", "up")
+        left = make(made, f"{STEM}_el")
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+        assert left.exists()
+
+
+def test_a_run_of_which_something_was_killed_looks(tmp_path: Path, made: list[Path]) -> None:
+    with launched(tmp_path, plan(process("a", "daemon", "say=up", "polite", "linger"))) as run:
+        run.await_line("a", "up")
+        left = make(made, f"{STEM}_el")
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+        wait_for(lambda: not left.exists(), "the file to be removed", 1.0)
