@@ -8,6 +8,7 @@ import time
 import traceback
 from typing import TYPE_CHECKING
 
+from orchestra.supervise import open_files
 from orchestra.supervise.conduct import conduct
 from orchestra.supervise.directory import state_folder
 from orchestra.supervise.outcome import BUG
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
 
 def guarded_run(beginnings: Beginnings) -> int:
     """Run and return the exit status. After a bug the keeper ends what is left."""
+    open_files.take_more()
     try:
         return conduct(beginnings)
     except Refused as refusal:

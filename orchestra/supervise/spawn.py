@@ -14,7 +14,7 @@ import termios
 from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
-from orchestra.supervise import kernel
+from orchestra.supervise import kernel, open_files
 from orchestra.supervise.preparing import reported
 from orchestra.supervise.terminal import our_size, set_size
 
@@ -105,6 +105,7 @@ def _before(spec: Spec) -> Callable[[], None]:
     def before() -> None:
         signal.signal(signal.SIGTERM, signal.SIG_DFL)
         kernel.die_with_parent(signal.SIGTERM, supervisor)
+        open_files.give_back()
         if spec.foremost:
             fcntl.ioctl(0, termios.TIOCSCTTY, 0)
         if spec.before_exec:

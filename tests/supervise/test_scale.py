@@ -27,6 +27,8 @@ _MANY = 200
 # Nobody is to be killed because the machine is slow.
 _PATIENT = Stop(timeout=60.0, kill_timeout=30.0)
 _WAVE, _WAVES = 40, 5
+_LIMIT = 100
+_LIMITED = ("/bin/sh", "-c", f'ulimit -S -n {_LIMIT}; exec "$@"', "sh")
 # The interpreter keeps some of what it has freed; a tenth of it for each process that has gone would show.
 _KEPT_AT_MOST = 1024 * 1024
 
@@ -86,6 +88,17 @@ def test_nothing_is_kept_of_what_has_gone(tmp_path: Path) -> None:
         assert run.wait(120.0) == 130
     assert {count for count, _ in held} == {held[0][0]}
     assert held[-1][1] - held[1][1] < _KEPT_AT_MOST, held
+
+
+def test_many_processes_need_no_higher_limit_of_open_files(tmp_path: Path) -> None:
+    """The soft limit is for programs, which still have it, and not for who has a handful of files for each of them."""
+    asking = process("asking", command=("/bin/sh", "-c", "ulimit -S -n"))
+    with launched(tmp_path, plan(asking, *sleepers(_LIMIT // 2)), through=_LIMITED) as run:
+        await_running(run, 1 + _LIMIT // 2)
+        assert not run.of_kind("process_failed")
+        run.await_line("asking", str(_LIMIT))
+        run.send(signal.SIGINT)
+        assert run.wait(120.0) == 130
 
 
 @pytest.mark.long
