@@ -16,7 +16,7 @@ from orchestra.supervise import life, proc
 from orchestra.supervise.health import Health
 from orchestra.supervise.message_rate import MessageRate
 from orchestra.supervise.readiness import run_beside
-from orchestra.supervise.threads import threads
+from orchestra.supervise.threads import threads, trees
 from orchestra.supervise.watchdog import Watchdog
 from orchestra.values import Stop
 
@@ -105,8 +105,8 @@ class Liveness:
         """There was no sign: tell whether the process hangs."""
         if not self._active:
             return False
-        pids = [pid for member in self._around.kin.members(self._process.id) for pid in _tree(member)]
-        if any((facts := proc.stat(pid)) and facts.state in _STOPPED for pid in pids):
+        pids = self._around.kin.members(self._process.id)
+        if any((facts := proc.stat(pid)) and facts.state in _STOPPED for pid in trees(pids)):
             if not self._told_of_stop:
                 self._told_of_stop = True
                 name = shown(self._process.id)
@@ -130,7 +130,3 @@ class Liveness:
         self._around.recorder.record(
             "process_hung", self._process.id, reason=reason, threads=[asdict(thread) for thread in found]
         )
-
-
-def _tree(pid: int) -> list[int]:
-    return [pid, *proc.branch(pid)]

@@ -6,6 +6,8 @@ import os
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from orchestra.supervise import proc
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
@@ -47,10 +49,15 @@ _STATES = {
 }
 
 
+def trees(pids: Iterable[int]) -> list[int]:
+    """Return some processes and all that is below them."""
+    return [*dict.fromkeys(member for pid in pids for member in (pid, *proc.branch(pid)))]
+
+
 def threads(pids: Iterable[int]) -> list[Thread]:
-    """Return the threads of some processes; of one that has gone there is none."""
+    """Return the threads of some processes, and of all below them; of one that has gone there is none."""
     found: list[Thread] = []
-    for pid in pids:
+    for pid in trees(pids):
         try:
             tids = sorted(map(int, os.listdir(f"/proc/{pid}/task")))  # noqa: PTH208 - as in `proc`
         except OSError:
