@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-import sys
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from orchestra.cli.boundary import Telling, guarded, show_problems
+from orchestra.cli import inputs
+from orchestra.cli.boundary import Telling, guarded
 from orchestra.cli.inputs import as_errors
 from orchestra.cli.run_options import run_options
 from orchestra.cli.starting import started
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import BinaryIO
 
+    from orchestra.errors import Problem
     from orchestra.plan.model import Plan
     from orchestra.supervise.serving import Answer
 
@@ -27,29 +28,33 @@ if TYPE_CHECKING:
 def hand_over(
     plan: Plan, options: Namespace, default_name: str, stream: BinaryIO, *, files: str | None = None
 ) -> None:
-    """Write the plan and how to run it to the supervisor's stream.
-
-    Raises `UsageError`, and `DescriptionError` where this machine cannot grant the limits of the plan.
+    """Write the plan and how to run it to the supervisor's stream. Raises `UsageError`.
 
     `files` is a folder that becomes part of the run directory.
     """
-    _check_limits(plan, options)
     stream.write(document.dumps(plan, replace(run_options(options, default_name), files=files)))
 
 
-def _check_limits(plan: Plan, options: Namespace) -> None:
-    """Show what stands against the limits of a plan; the supervisor would refuse the errors in plainer words."""
+def warn(plan: Plan, options: Namespace) -> None:
+    """Print the warnings of a plan that is to be run, those about its limits on this machine among them.
+
+    Raises `DescriptionError` where this machine cannot grant the limits; the supervisor would refuse them in plainer
+    words.
+    """
+    unfit = _unfit(plan)
+    problems = as_errors(unfit) if getattr(options, "strict", False) else unfit
+    everything = (*plan.problems, *problems)
+    if any(problem.severity is Severity.ERROR for problem in problems):
+        raise DescriptionError(everything)
+    inputs.warn(replace(plan, problems=everything), options)
+
+
+def _unfit(plan: Plan) -> tuple[Problem, ...]:
     if all(process.limits is None for process in plan.processes):
-        return
+        return ()
     from orchestra.supervise.confines import checked  # noqa: PLC0415 - few plans have limits
 
-    unfit = checked(plan, os.environ[RUN])
-    problems = as_errors(unfit) if getattr(options, "strict", False) else unfit
-    if any(problem.severity is Severity.ERROR for problem in problems):
-        raise DescriptionError(problems)
-    if problems:
-        telling = Telling.of("", options)
-        show_problems(problems, telling.problem_format, sys.stderr, command_line=telling.command_line)
+    return checked(plan, os.environ[RUN])
 
 
 def supervised(

@@ -71,11 +71,11 @@ def prepare(options: Namespace, stream: BinaryIO) -> int | Answer:
 
     Where code of the launch files decides about something in the run, what is returned asks it.
     """
-    from orchestra.cli.handover import hand_over  # noqa: PLC0415 - heavy, and only a run needs it
+    from orchestra.cli.handover import hand_over, warn  # noqa: PLC0415 - heavy, and only a run needs it
 
     with ExitStack() as lasting:
         launch = inputs.launch_from(options, lasting)
-        inputs.warn(launch.plan, options)
+        warn(launch.plan, options)
         name = Path(launch.plan.file).name.partition(".")[0]
         hand_over(launch.plan, options, name, stream, files=launch.files.keep(more=launch.deferred))
         if launch.deferred:

@@ -43,11 +43,11 @@ def prepare(options: Namespace, stream: BinaryIO) -> int:
         raise UsageError("a package and an executable are wanted")
     # Both are heavy, and `--help` does not need them.
     from orchestra import pipeline  # noqa: PLC0415
-    from orchestra.cli.handover import hand_over  # noqa: PLC0415
+    from orchestra.cli.handover import hand_over, warn  # noqa: PLC0415
 
     package, executable, *arguments = options.words
     given = pipeline.inputs_from((), environment=os.environ)
     plan = pipeline.plan_of_node(package, executable, arguments, given, prefix=options.prefix)
-    inputs.warn(plan, options)
+    warn(plan, options)
     hand_over(plan, options, executable, stream)
     return boundary.OK
