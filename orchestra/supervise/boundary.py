@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import sys
 import time
@@ -14,6 +15,7 @@ from orchestra.supervise.directory import state_folder
 from orchestra.supervise.outcome import BUG
 from orchestra.supervise.resolving import Refused
 from orchestra.supervise.standard_streams import say
+from orchestra.supervise.sweeping import sweep
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -22,7 +24,7 @@ if TYPE_CHECKING:
 
 
 def guarded_run(beginnings: Beginnings) -> int:
-    """Run and return the exit status. After a bug the keeper ends what is left."""
+    """Run and return the exit status. After a bug the keeper ends what is left, or we do where it was killed."""
     open_files.take_more()
     try:
         return conduct(beginnings)
@@ -34,7 +36,18 @@ def guarded_run(beginnings: Beginnings) -> int:
         say(
             f"this is a bug in Orchestra: {type(error).__name__}: {error}; please report it with {_report(error)}"
         )
+        if os.getppid() != beginnings.keeper:
+            sweep(os.getpid(), _pause)
         return BUG
+
+
+def _pause(seconds: float) -> bool:
+    """Let some time pass and collect our children; nobody is in a hurry."""
+    time.sleep(seconds)
+    with contextlib.suppress(ChildProcessError):
+        while os.waitpid(-1, os.WNOHANG)[0]:
+            pass
+    return False
 
 
 def _report(error: Exception) -> str:

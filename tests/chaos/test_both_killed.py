@@ -12,7 +12,16 @@ import sys
 from typing import TYPE_CHECKING
 
 from orchestra.supervise import proc
-from tests.supervise.plans import alive, launched, name_of, plan, process, ready_when, wait_for
+from tests.supervise.plans import (
+    PROCESSES,
+    alive,
+    launched,
+    name_of,
+    plan,
+    process,
+    ready_when,
+    wait_for,
+)
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -94,3 +103,14 @@ def test_a_resolver_ends_with_them(tmp_path: Path) -> None:
         assert name_of(run.own("orc-resolver")) == "orc-resolver"
         kill_both(run)
         run.assert_gone()
+
+
+def test_a_supervisor_that_fails_after_the_keeper_was_killed_ends_everything_itself(tmp_path: Path) -> None:
+    through = (sys.executable, str(PROCESSES / "failing.py"))
+    with launched(tmp_path, plan(FAMILY, STUBBORN), through=through) as run:
+        for name in ("family", "stubborn"):
+            run.await_line(name, "up")
+        before = run.everything()
+        os.kill(run.own("orc-keeper"), signal.SIGKILL)
+        wait_for(lambda: not any(map(alive, before)), "the end of everything")
+        assert "this is a bug in Orchestra: RuntimeError: a bug of the supervisor, at signal 15" in run.stderr
