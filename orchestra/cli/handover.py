@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from orchestra.cli import inputs
 from orchestra.cli.boundary import Telling, guarded
-from orchestra.cli.inputs import as_errors
 from orchestra.cli.run_options import run_options
 from orchestra.cli.starting import started
 from orchestra.errors import DescriptionError, Severity
@@ -42,7 +41,7 @@ def warn(plan: Plan, options: Namespace) -> None:
     words.
     """
     unfit = _unfit(plan)
-    problems = as_errors(unfit) if getattr(options, "strict", False) else unfit
+    problems = inputs.as_errors(unfit) if getattr(options, "strict", False) else unfit
     everything = (*plan.problems, *problems)
     if any(problem.severity is Severity.ERROR for problem in problems):
         raise DescriptionError(everything)

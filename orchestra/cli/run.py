@@ -6,7 +6,7 @@ import argparse
 import os
 from typing import TYPE_CHECKING
 
-from orchestra.cli import boundary, inputs, run_options
+from orchestra.cli import boundary, run_options
 from orchestra.cli.parser import CommandParser
 from orchestra.errors import UsageError
 
