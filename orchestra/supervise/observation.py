@@ -23,7 +23,7 @@ is left alone where it is in another state. With `again` the order may have been
 that died: a node that is where the transition leads is left alone.
 
 `{"forget": ID}` takes an order back: nothing is said to it any more. `{"ping": N}` is answered with `{"pong": N}`, by
-the thread that does the work. The observer ends when its standard input does.
+the thread that does the work; with `{"pong": 0}` it says that it is in the graph. It ends when its standard input does.
 """
 
 from __future__ import annotations

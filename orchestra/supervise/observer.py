@@ -43,6 +43,7 @@ class Observer:
         self._kin = kin
         self._heard, self._lost = ears
         self._partial = ""
+        self._here = False
         inner, outer = os.pipe()
         try:
             self._child: Child | None = spawn(spec, stdin=inner)
@@ -75,8 +76,10 @@ class Observer:
         self._outbox.send((json.dumps(message) + "\n").encode())
 
     def leave(self) -> None:
-        """Ask it to end; it is killed where it does not."""
-        if self._outbox.open:
+        """Ask it to end; it is killed where it does not, and at once where it has not come into the graph yet."""
+        if not self._here:
+            self.kill()
+        elif self._outbox.open:
             self._outbox.close()
             self._loop.call_later(_LEAVE_WITHIN, self.kill)
 
@@ -100,6 +103,7 @@ class Observer:
             if self.leaving:
                 return
             if message is not None:
+                self._here = True
                 self._heard(self, message)
         if len(self._partial) > _LONGEST:
             self._lose(f"said what nobody understands: {self._partial[:_SHOWN]!r}")

@@ -36,6 +36,10 @@ class Desk:
         """The time in seconds until something is to be looked at, None where nothing is."""
         return max(0.0, min(self._due.values()) - time.monotonic()) if self._due else None
 
+    def greet(self) -> None:
+        """Say, once, that we are in the graph."""
+        self._write({"pong": 0})
+
     def take(self, requests: SimpleQueue[dict[str, Any] | None]) -> None:
         """Take what has come, in its order; None is the end."""
         while not requests.empty():

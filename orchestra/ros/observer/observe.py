@@ -35,6 +35,7 @@ def observe(requests: int, answers: int) -> None:
 
 
 def _serve(requests: int, desk: Desk, executor: SingleThreadedExecutor) -> None:
+    desk.greet()
     threading.Thread(target=_read, args=(requests, desk, executor), daemon=True).start()
     while not desk.closed:
         executor.spin_once(timeout_sec=desk.pause)

@@ -27,6 +27,7 @@ from tests.supervise.plans import (
     when,
     when_ended,
 )
+from tests.supervise.test_operation import operated
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -274,3 +275,25 @@ def test_an_observer_that_is_killed_is_replaced_and_deactivates_the_node(tmp_pat
         run.send(signal.SIGINT)
         assert run.wait() == 130
         assert not run.everything()
+
+
+def test_an_operator_who_stops_or_restarts_a_node_has_it_deactivated_first(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each new run of it is brought to active again."""
+    for name, value in DOMAIN.items():
+        monkeypatch.setenv(name, value)
+    with operated(tmp_path, plan(node(lifecycle="active"))) as operator:
+        run = operator.run
+        for count, request in enumerate(("restart", "stop", "start"), 1):
+            if request != "start":
+                run.await_event("transition_done", "/managed", count=3 * count - 1)
+            assert operator.ask(f"{request} /managed") == {"/managed": None}
+            if request == "stop":
+                run.await_event("process_exited", "/managed")
+        run.await_event("transition_done", "/managed", count=8)
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+        states = [event.data["state"] for event in run.of_kind("transition_done")]
+        assert states == ["inactive", "active", "inactive"] * 3
+        assert not run.of_kind("transition_failed")

@@ -2,20 +2,28 @@
 
 from __future__ import annotations
 
-import json
 import os
 import signal
-import subprocess
 import sys
 from typing import TYPE_CHECKING
 
 import pytest
 
 from orchestra.plan.conditions import Alive
-from tests.supervise.plans import PROCESSES, after, finished, launched, plan, process, ready_when, wait_for
+from tests.ros.observer.conversation import Domain, graph_node, observing
+from tests.supervise.plans import (
+    PATIENCE,
+    PROCESSES,
+    after,
+    finished,
+    launched,
+    plan,
+    process,
+    ready_when,
+    wait_for,
+)
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from pathlib import Path
 
     from orchestra.plan.model import Process
@@ -71,51 +79,29 @@ def test_it_is_gone_after_the_last_wait(tmp_path: Path) -> None:
         assert run.popen.poll() is None
 
 
-@pytest.fixture
-def observer() -> Iterator[subprocess.Popen[str]]:
-    """An observer without a supervisor."""
-    with subprocess.Popen(
-        [sys.executable, "-m", "orchestra.ros.observer", str(os.getpid())],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-        bufsize=1,
-        env={**os.environ, **DOMAIN, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"},
-    ) as popen:
-        yield popen
-        popen.kill()
+def test_it_ends_with_its_input_whatever_is_awaited(tmp_path: Path) -> None:
+    with observing(Domain(30, tmp_path)) as observer:
+        observer.watch("a", "message", topic="/never")
+        observer.caught_up()
+        assert observer.popen.stdin
+        observer.popen.stdin.close()
+        assert observer.popen.wait(PATIENCE) == 0
 
 
-def test_it_ends_with_its_input(observer: subprocess.Popen[str]) -> None:
-    ask(observer, {"id": "a", "do": "watch", "fact": "message", "topic": "/never"})
-    assert observer.stdin
-    observer.stdin.close()
-    assert observer.wait(30) == 0
-
-
-def test_it_answers_each_wait_once_and_forgets_what_it_is_told_to(observer: subprocess.Popen[str]) -> None:
-    offered = ["/a,RELIABLE,VOLATILE,0", "/b,BEST_EFFORT,VOLATILE,0"]
-    environment = {**os.environ, **DOMAIN, "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
-    command = [sys.executable, str(PROCESSES / "publisher.py"), *offered]
-    ask(
-        observer,
-        {"id": "no", "do": "watch", "fact": "message", "topic": "/a"},
-        {"forget": "no"},
-        {"id": "a", "do": "watch", "fact": "message", "topic": "/a"},
-        {"id": "b", "do": "watch", "fact": "message", "topic": "/b"},
-    )
-    with subprocess.Popen(command, env=environment, stdout=subprocess.DEVNULL) as node:
-        assert observer.stdout
-        answers = [json.loads(observer.stdout.readline()) for _ in range(2)]
-        node.terminate()
-    assert sorted(answer["id"] for answer in answers) == ["a", "b"]
-    assert {answer["say"] for answer in answers} == {"done"}
-
-
-def ask(observer: subprocess.Popen[str], *requests: dict[str, str]) -> None:
-    assert observer.stdin
-    for request in requests:
-        observer.stdin.write(json.dumps(request) + "\n")
+def test_it_answers_each_wait_once_and_forgets_what_it_is_told_to(tmp_path: Path) -> None:
+    domain = Domain(30, tmp_path)
+    with observing(domain) as observer:
+        observer.watch("no", "message", topic="/a")
+        observer.forget("no")
+        observer.watch("a", "message", topic="/a")
+        observer.watch("b", "message", topic="/b")
+        with graph_node(domain, "/talker") as talker:
+            talker.do("topic /a", "topic /b")
+            for name in ("a", "b"):
+                observer.said(name, "done")
+            observer.watch("more", "message", topic="/a")
+            observer.said("more", "done")
+        assert [len(observer.heard(name)) for name in ("no", "a", "b")] == [0, 1, 1]
 
 
 def test_files_in_the_working_directory_are_not_taken_for_modules(tmp_path: Path) -> None:
