@@ -104,12 +104,13 @@ def test_the_end_of_the_wait_is_the_end_of_its_commands(tmp_path: Path) -> None:
 
 def test_a_process_that_ends_while_it_is_awaited_is_awaited_anew_with_its_next_start(tmp_path: Path) -> None:
     """Its first run has one of two, the second run the other: both have to come about in one."""
-    once = f"test -e {tmp_path}/again || (touch {tmp_path}/again; echo up; exit 1) && exec sleep 600"
+    once = "test -e again && touch second && exec sleep 600; touch again; echo up; exit 1"
     server = process(
         "server",
         command=("sh", "-c", once),
+        cwd=str(tmp_path),
         restart=Restart("on-failure"),
-        ready=ready(log="up", file=str(tmp_path / "again"), timeout=1.5),
+        ready=ready(log="up", file="second", timeout=1.5),
     )
     run = finished(tmp_path, plan(server))
     assert run.popen.returncode == 1
