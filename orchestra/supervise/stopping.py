@@ -90,6 +90,7 @@ class Stopping:
     def interrupted(self, number: int) -> None:
         """Take note of one more stop signal: Ctrl-C twice means now, three times at once."""
         if number != signal.SIGINT:
+            self._cut_short()
             return
         self._interrupts += 1
         name = signal_name(number)
@@ -101,6 +102,15 @@ class Stopping:
             self._escalate(life.TERMINATE, f"{name} again: SIGTERM to everything")
         elif self._interrupts > _TWICE:
             self._escalate(life.KILL, f"{name} again: SIGKILL to everything")
+
+    def _cut_short(self) -> None:
+        """Take no longer than usual from now on where the keeper, who would have waited, is dead."""
+        remaining = self.remaining
+        if remaining is None or remaining <= order.DEADLINE:
+            return
+        if not self._around.more_time(remaining):
+            self._deadline_after -= remaining - order.DEADLINE
+            self._around.loop.call_later(order.DEADLINE, self._deadline)
 
     def _stop_level(self, level: int) -> None:
         for unit in self._units.values():

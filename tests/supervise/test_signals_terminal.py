@@ -188,8 +188,10 @@ def test_a_closed_terminal_while_the_resolver_works(tmp_path: Path) -> None:
         signal.pthread_sigmask(signal.SIG_SETMASK, ())
         os.close(os.open(os.ttyname(terminal.theirs), os.O_RDWR))
 
-    streams = dict.fromkeys(("stdin", "stdout", "stderr"), terminal.theirs)
-    with launched(tmp_path, ("wait",), preexec_fn=take_terminal, **streams) as run:
+    theirs = terminal.theirs
+    with launched(
+        tmp_path, ("wait",), preexec_fn=take_terminal, stdin=theirs, stdout=theirs, stderr=theirs
+    ) as run:
         os.close(terminal.theirs)
         wait_for(lambda: b"resolving" in terminal.read(), "the resolver")
         os.close(terminal.ours)
