@@ -55,7 +55,8 @@ def _verdict(facts: Facts) -> tuple[int, str]:
         return UNSTOPPABLE, "could not be stopped: " + ", ".join(facts.unstoppable)
     if facts.required:
         name, ending = facts.required
-        return ending.status, f"required process {name} failed ({ending})"
+        # One that hung, or should not have ended with 0, has failed even so.
+        return ending.status or FAILED, f"required process {name} failed ({ending})"
     if facts.signal is not None:
         return _SIGNALLED + facts.signal, f"stopped by {signal_name(facts.signal)}"
     if facts.failure:

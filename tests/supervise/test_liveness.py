@@ -210,6 +210,15 @@ def test_a_command_that_takes_too_long_has_failed(tmp_path: Path) -> None:
     assert event.data["reason"] == "its command failed: it took longer than 0.2 s"
 
 
+def test_a_required_process_that_hung_has_failed_whatever_its_exit_code(tmp_path: Path) -> None:
+    node = process(
+        "node", "polite=0", "say=up", "linger", required=True, ready=ready(log="up"), alive=Alive(notify=0.2)
+    )
+    run = finished(tmp_path, plan(node))
+    assert run.popen.returncode == 1
+    assert "required process node failed (it hung, no WATCHDOG=1 for 0.2 s: exit code 0)" in text(run)
+
+
 def test_a_process_that_hangs_may_get_sigabrt_first(tmp_path: Path) -> None:
     """A Python program then writes where it is, as PYTHONFAULTHANDLER says."""
     script = "import os, time\nos.write(1, b'up\\n')\ndef stuck():\n    time.sleep(600)\nstuck()"
