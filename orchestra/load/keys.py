@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Protocol
 from orchestra.description.actions import ACTIONS
 from orchestra.errors import Code
 from orchestra.load.elements import emptied, noun
+from orchestra.load.pairs import written_item
 from orchestra.load.words import ELSEWHERE
 from orchestra.nearest import is_slip, nearest
 
@@ -88,14 +89,16 @@ def known_keys(known: frozenset[str], mapping: Keyed, report: Report) -> Keyed:
     read = emptied(mapping)
     read.lossy, read.meant = mapping.lossy, set(mapping.meant)
     free = known - {spelled(key) for key in mapping}
+    pair = written_item(known, mapping)
     for key, value in mapping.items():
         at, name = mapping.keys_at[key], spelled(key)
         if name not in known:
             near, slip = key_meant(key, free)
-            report(Code.UNKNOWN_KEY, f"unknown {noun(mapping, key)}", at, suggestion=near)
+            notes = (f"it is written {pair[1]}",) if pair is not None and near is None else ()
+            report(Code.UNKNOWN_KEY, f"unknown {noun(mapping, key)}", at, suggestion=near, notes=notes)
             if near is None or not slip:
                 read.lossy = True
-                read.meant |= {near} if near is not None else set()
+                read.meant |= {near} if near is not None else set(pair[0]) if pair is not None else set()
                 continue
             name, free = near, free - {near}
         if name in read:

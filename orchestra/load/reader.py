@@ -12,6 +12,7 @@ from orchestra.errors import Code, Problems
 from orchestra.load.elements import noun
 from orchestra.load.grammar import parse_template, unescaped
 from orchestra.load.keys import known_keys
+from orchestra.load.pairs import written_list
 from orchestra.location import Location, Span
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ _WANTED = {
     "list_type": "a list",
     "tuple_type": "a list",
 }
+_LISTS = ("list_type", "tuple_type")
 
 
 @dataclass(slots=True)
@@ -101,7 +103,9 @@ class Reader:
         else:
             message = error["msg"]
         suggestion = error.get("ctx", {}).get("suggestion")
-        self.error(Code.WRONG_TYPE, message, _at(mapping, place), suggestion=suggestion)
+        instead = written_list(str(place[-1]), error["input"]) if kind in _LISTS else None
+        notes = () if instead is None else (f"it is written {instead}",)
+        self.error(Code.WRONG_TYPE, message, _at(mapping, place), suggestion=suggestion, notes=notes)
 
 
 def _at(mapping: Keyed, place: tuple[int | str, ...]) -> Span:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.description.conditions import STATES
 from orchestra.description.ranges import COUNT, INTERVAL, RATE, SOME_SECONDS
@@ -31,6 +31,10 @@ if TYPE_CHECKING:
     from orchestra.description.conditions import Alive, ParameterFact, Ready, StateFact, TransformFact
     from orchestra.description.text import Template
     from orchestra.resolve.resolution import Resolution
+
+
+# A backslash that takes the meaning from nothing.
+_SINGLE: Final = re.compile(r"(?<!\\)((?:\\\\)*)\\(?![\\$]|$)")
 
 
 def readiness(written: Ready | None, run: Resolution) -> ResolvedReady | Poison | None:
@@ -99,7 +103,19 @@ def _pattern(written: Template | None, run: Resolution) -> str | Poison | None:
         message = f"this is no regular expression: {error}"
         run.problems.error(Code.BAD_VALUE, message, value.location, notes=(note,))
         return POISON
+    _warn_of_backslashes(written, run)
     return value.text
+
+
+def _warn_of_backslashes(written: Template | None, run: Resolution) -> None:
+    """Tell that backslashes which a regular expression needs are taken away, as from any text with substitutions."""
+    lost = None if written is None or written.constant is None else _SINGLE.search(written.raw)
+    if written is None or lost is None:
+        return
+    doubled = _SINGLE.sub(r"\1\\\\", written.raw)
+    message = f"the backslash before '{written.raw[lost.end()]}' is taken away: it has to stand twice"
+    notes = (f"without quotes, or in single ones: {doubled}",)
+    run.problems.warning(Code.SURPRISING_SCALAR, message, run.at(written.span), notes=notes)
 
 
 def _path(text: str) -> str:

@@ -175,6 +175,13 @@ _process = {
     ),
     "success_exit_codes": st.lists(st.integers(0, 9), min_size=1, max_size=3),
 }
+
+
+def _with_one_policy(keys: dict[str, Any]) -> dict[str, Any]:
+    """Return the keys without upstream's where `restart` is among them: in Python these have values of no effect."""
+    return {key: value for key, value in keys.items() if "restart" not in keys or "respawn" not in key}
+
+
 _component = st.fixed_dictionaries(
     {"pkg": st.just("p"), "plugin": st.just("P"), "name": _names},
     optional={
@@ -189,10 +196,10 @@ _rich = st.one_of(
     st.fixed_dictionaries(
         {"exec": st.just("prog"), "param": _params},
         optional={**_process, "remap": _rules, "name": _names, "lifecycle": st.just("active")},
-    ).map(lambda keys: {"node": keys}),
+    ).map(lambda keys: {"node": _with_one_policy(keys)}),
     st.fixed_dictionaries(
         {"cmd": st.sampled_from(["prog 'a b' c", "prog x$(var a 'y z')"])}, optional=_process
-    ).map(lambda keys: {"executable": keys}),
+    ).map(lambda keys: {"executable": _with_one_policy(keys)}),
     st.fixed_dictionaries({"name": _names, "value": _scalars | _lists}).map(
         lambda keys: {"set_parameter": keys}
     ),
@@ -234,7 +241,7 @@ _rich = st.one_of(
     st.fixed_dictionaries(
         {"exec": st.just("c"), "name": _names, "namespace": st.sampled_from(["", "n", "/m"])},
         optional={**_process, "composable_node": st.lists(_component, max_size=2)},
-    ).map(lambda keys: {"node_container": keys}),
+    ).map(lambda keys: {"node_container": _with_one_policy(keys)}),
     st.fixed_dictionaries(
         {"exec": st.just("l"), "name": _names, "namespace": st.just("")},
         optional={"autostart": st.booleans()},

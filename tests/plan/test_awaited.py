@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.errors import Code
+from orchestra.errors import Code, Severity
 from orchestra.plan.conditions import Alive, ParameterFact, Ready, StateFact, TransformFact
 from orchestra.values import Limits, Restart
 from tests.resolve.launching import outcome
@@ -392,3 +392,22 @@ def test_a_pattern_that_is_none_is_shown_as_plain_text(tmp_path: Path) -> None:
     ready = outcome(tmp_path, again).process("a").ready
     assert ready is not None
     assert ready.log == r"\[ERROR\] \(up"
+
+
+@pytest.mark.parametrize(
+    ("written", "meant"),
+    [
+        (r"'\[INFO\] up \d+'", r"\\[INFO\\] up \\d+"),
+        (r'"\\.\\\\w"', r"\\.\\w"),
+        (r"'\\\d'", r"\\\\d"),
+        (r"'\\[x\\] \$(now)'", None),
+        (r"'$(env X a)\d'", None),
+        ("up", None),
+    ],
+)
+def test_a_backslash_that_is_lost_is_a_warning(tmp_path: Path, written: str, meant: str | None) -> None:
+    text = f"launch:\n- executable: {{cmd: a, ready: {{log: {written}}}}}"
+    problems = outcome(tmp_path, text, environment={"PATH": "/bin"}).problems
+    found = [(problem.code, problem.severity, problem.notes) for problem in problems]
+    note = (f"without quotes, or in single ones: {meant}",)
+    assert found == ([] if meant is None else [(Code.SURPRISING_SCALAR, Severity.WARNING, note)])

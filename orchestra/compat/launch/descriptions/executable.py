@@ -159,7 +159,16 @@ def _normalized_pairs(items: Mapping[Sub, Sub] | None) -> _Pairs | None:
         return None
     if not hasattr(items, "items"):
         raise TypeError(f"an environment is a dict of names and values, this is {told(items)}")
-    return [(normalized(name), normalized(value)) for name, value in items.items()]
+    return [(normalized(name), _value_of(name, value)) for name, value in items.items()]
+
+
+def _value_of(name: Sub, value: Sub) -> _Subs:
+    """Return the value of a variable. Raises `TypeError` with the name of the variable for what is no text."""
+    try:
+        return normalized(value)
+    except TypeError as error:
+        named = f"'{name}'" if isinstance(name, str) else "a variable"
+        raise TypeError(f"the value of {named} in an environment: {error}") from None
 
 
 def _performed(subs: _Subs, context: LaunchContext) -> str:

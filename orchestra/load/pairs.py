@@ -1,0 +1,57 @@
+"""Mappings from names to values, where a list that has a mapping for each is wanted: how that is written."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.description.source import Keyed, Listed, Written, shortened
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+_LONGEST: Final = 100
+# The keys of a pair, and the lists that are made of such pairs.
+_NAMED: Final = ("name", "value")
+_RULE: Final = ("from", "to")
+_LISTS: Final = {
+    **dict.fromkeys(("arg", "env", "env_only", "extra_arg", "keep", "let", "param"), _NAMED),
+    "remap": _RULE,
+}
+
+
+def written_list(key: str, content: Any) -> str | None:  # noqa: ANN401 - a tree
+    """Return how what stands behind a key is written as a list; None where it is no mapping to make one of."""
+    if key not in _LISTS or not isinstance(content, Keyed) or not content:
+        return None
+    return shortened(f"{key}: [{_items(content, _LISTS[key])}]", _LONGEST)
+
+
+def written_item(known: Collection[str], content: Keyed) -> tuple[tuple[str, str], str] | None:
+    """Return the keys that an item lacks which has a name as its only key, and how it is written.
+
+    `known` are the keys that it may have. None where it is something else.
+    """
+    if len(content) != 1:
+        return None
+    pair = next((pair for pair in (_NAMED, _RULE) if known >= set(pair)), None)
+    return None if pair is None else (pair, shortened(_items(content, pair), _LONGEST))
+
+
+def _items(content: Keyed, pair: tuple[str, str]) -> str:
+    return ", ".join(_item(name, value, pair) for name, value in content.items())
+
+
+def _item(name: str, value: Any, pair: tuple[str, str]) -> str:  # noqa: ANN401 - a tree
+    if isinstance(value, Keyed) and pair == _NAMED:
+        return f"{{name: {name}, param: [{_items(value, pair)}]}}"
+    return f"{{{pair[0]}: {name}, {pair[1]}: {_value(value)}}}"
+
+
+def _value(value: Any) -> str:  # noqa: ANN401 - a tree
+    if isinstance(value, Listed):
+        return f"[{', '.join(map(_value, value))}]"
+    if not isinstance(value, Written):
+        return "..."
+    if value.quoted or any(character in value.text for character in ",:{}[]#"):
+        return "'" + value.text.replace("'", "''") + "'"
+    return value.text

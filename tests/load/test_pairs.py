@@ -1,0 +1,72 @@
+"""Mappings from names to values, where the language has lists: what is told shows how they are written."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from orchestra.errors import Code
+from tests.resolve.launching import outcome
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+LISTS = [
+    ("param: {rate: 2.0}", "param: [{name: rate, value: 2.0}]"),
+    ("param: {rate: 2.0, id: 'a'}", "param: [{name: rate, value: 2.0}, {name: id, value: 'a'}]"),
+    (
+        "param: {limits: {max: 3, names: [a, 'b, c']}}",
+        "param: [{name: limits, param: [{name: max, value: 3}, {name: names, value: [a, 'b, c']}]}]",
+    ),
+    ("param: {words: it's so}", "param: [{name: words, value: it's so}]"),
+    ("param: {words: 'it''s: so'}", "param: [{name: words, value: 'it''s: so'}]"),
+    ("remap: {scan: /scan}", "remap: [{from: scan, to: /scan}]"),
+    ("env: {LEVEL: high}", "env: [{name: LEVEL, value: high}]"),
+    ("remap: {a: {b: c}}", "remap: [{from: a, to: ...}]"),
+]
+
+
+@pytest.mark.parametrize(("written", "meant"), LISTS)
+def test_a_mapping_in_the_place_of_a_list_is_shown_as_the_list(
+    tmp_path: Path, written: str, meant: str
+) -> None:
+    (problem,) = outcome(tmp_path, f"launch:\n- node: {{exec: a, name: n, {written}}}").problems
+    assert (problem.code, problem.message) == (Code.WRONG_TYPE, "expected a list, found a mapping")
+    assert problem.notes == (f"it is written {meant}",)
+
+
+@pytest.mark.parametrize(("written", "meant"), LISTS[:1] + LISTS[5:7])
+def test_what_is_shown_is_taken(tmp_path: Path, written: str, meant: str) -> None:
+    assert written != meant
+    assert not len(outcome(tmp_path, f"launch:\n- node: {{exec: a, name: n, {meant}}}").problems)
+
+
+@pytest.mark.parametrize(
+    ("action", "notes", "suggestion"),
+    [
+        ("node: {exec: a, param: [{rate: 2.0}]}", ("it is written {name: rate, value: 2.0}",), None),
+        ("node: {exec: a, remap: [{scan: /scan}]}", ("it is written {from: scan, to: /scan}",), None),
+        ("let: {world: maze}", ("it is written {name: world, value: maze}",), None),
+        (
+            "executable: {cmd: a, ready: {parameter: {rate: 5}}}",
+            ("it is written {name: rate, value: 5}",),
+            None,
+        ),
+        ("unset_env: {x: y}", (), None),
+    ],
+)
+def test_a_name_in_the_place_of_a_key_is_told_once(
+    tmp_path: Path, action: str, notes: tuple[str, ...], suggestion: str | None
+) -> None:
+    first, *others = outcome(tmp_path, f"launch:\n- {action}", environment={"PATH": "/bin"}).problems
+    assert (first.code, first.notes, first.suggestion) == (Code.UNKNOWN_KEY, notes, suggestion)
+    assert len(others) == (1 if "unset_env" in action else 0)  # whose name is missing
+
+
+def test_a_slip_is_told_as_one(tmp_path: Path) -> None:
+    problems = outcome(tmp_path, "launch:\n- let: {nmae: x}").problems.ordered
+    assert [(found.code, found.suggestion, found.notes) for found in problems] == [
+        (Code.MISSING_KEY, None, ()),
+        (Code.UNKNOWN_KEY, "name", ()),
+    ]
