@@ -1,6 +1,7 @@
 """The environment of a node: the caller's, what the wheels and the run need, what the description says, the marks.
 
-Later entries win, so a description can overrule everything but the marks.
+Later entries win, so a description can overrule everything but the marks. What a service manager says to us is for us
+alone (`summons`).
 
 PATH gets the interpreter's folder in front only where that is a virtual environment that is not on it: a script with
 `#!/usr/bin/env python3` then finds the interpreter that has rclpy, as if the environment had been activated, and
@@ -19,6 +20,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from orchestra.supervise.marks import PROCESS, RUN
+from orchestra.supervise.summons import PERSONAL
 from orchestra.wheels import DONE, LIBRARY_PATH
 
 if TYPE_CHECKING:
@@ -57,6 +59,7 @@ def node_environment(
 ) -> dict[str, str]:
     """Return the environment of a process; `marks` are the ids of the run and of the process."""
     if inherit:
+        caller = {name: value for name, value in caller.items() if name not in PERSONAL}
         environment = {**caller, **_for_run(caller, log_folder, colour=colour), **_for_wheels(caller, host)}
     else:
         environment = {**_for_wheels({"PATH": host.path or ""}, host), "ROS_LOG_DIR": log_folder}

@@ -18,6 +18,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from orchestra.supervise.environment import Host, node_environment
 from orchestra.supervise.life import Phase, State
 from orchestra.supervise.loop import Loop
 from orchestra.supervise.service_manager import ServiceManager, settled, status
@@ -290,6 +291,16 @@ def test_what_it_wants_stands_in_the_environment(
     assert (summons.address, summons.period) == wanted
     assert ours == {"HOME": "/root"}
     assert {*environment} <= {*PERSONAL}
+
+
+def test_processes_get_nothing_of_it_but_what_their_description_says() -> None:
+    caller = {**dict.fromkeys(PERSONAL, "/of/ours"), "HOME": "/root"}
+    host = Host("/usr", None, (), ament=False)
+    description = {"NOTIFY_SOCKET": "/of/theirs"}
+    got = node_environment(caller, host, description, log_folder="/log", colour=False, marks=("run", "a"))
+    assert got["NOTIFY_SOCKET"] == "/of/theirs"
+    assert {*got} & {*PERSONAL} == {"NOTIFY_SOCKET"}
+    assert got["HOME"] == "/root"
 
 
 @dataclass
