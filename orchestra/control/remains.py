@@ -17,7 +17,7 @@ from orchestra.control import door
 from orchestra.control.place import ENDING, folders
 from orchestra.logs.names import shown
 from orchestra.supervise import identity, proc
-from orchestra.supervise.marks import PROCESS, RUN
+from orchestra.supervise.marks import PROCESS, RUN, run_of
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator
@@ -46,7 +46,7 @@ class Remnant:
 
 
 def remnants(runs: Iterable[str]) -> list[Remnant]:
-    """Return the living processes with the marks of these runs, and all that is below them.
+    """Return the living processes with the marks of these runs, or their number, and all that is below them.
 
     Neither this process nor what it was started by is among them: a shell that a run left may well be where it is asked
     for what is left.
@@ -56,6 +56,8 @@ def remnants(runs: Iterable[str]) -> list[Remnant]:
     spared = _ourselves()
     for pid in sorted(set(proc.pids()) - spared):
         run, process = proc.marks(pid, (RUN, PROCESS))
+        number = None if run in marks else proc.lock_limit(pid)
+        run = run if number is None else run_of(number, marks)
         if run in marks and (remnant := _remnant(pid, str(run), process)):
             found[pid] = remnant
     for remnant in [*found.values()]:

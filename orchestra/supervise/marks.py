@@ -7,6 +7,10 @@ limit on file locks passes through all of that (getrlimit(2), execve(2)) and has
 
 from __future__ import annotations
 
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
 RUN = "ORCHESTRA_RUN"
 PROCESS = "ORCHESTRA_PROCESS"
 
@@ -30,6 +34,10 @@ def number_of(run: str, process: int = 0) -> int | None:
     return (microseconds % (1 << _RUN_BITS)) << _PROCESS_BITS | process % (1 << _PROCESS_BITS)
 
 
-def same_run(one: int, other: int) -> bool:
-    """Tell whether two numbers are of the same run."""
-    return one >> _PROCESS_BITS == other >> _PROCESS_BITS
+def run_of(number: int, runs: Iterable[str]) -> str | None:
+    """Return which of some runs a number is of."""
+    for run in runs:
+        first = number_of(run)
+        if first is not None and first >> _PROCESS_BITS == number >> _PROCESS_BITS:
+            return run
+    return None
