@@ -6,6 +6,7 @@ import contextlib
 import os
 import signal
 import sys
+import termios
 from typing import TYPE_CHECKING
 
 import pytest
@@ -197,3 +198,22 @@ def test_a_closed_terminal_while_the_resolver_works(tmp_path: Path) -> None:
         os.close(terminal.ours)
         assert run.wait() == 129
         run.assert_gone()
+
+
+SIZE = 'while :; do new=$(stty size); [ "$new" = "$old" ] || echo "$new"; old=$new; sleep 0.05; done'
+
+
+@pytest.mark.parametrize("late", [False, True], ids=["at once", "while suspended"])
+def test_a_change_of_size_reaches_the_terminals_of_programs(tmp_path: Path, *, late: bool) -> None:
+    measuring = process("a", command=("/bin/sh", "-c", SIZE), emulate_tty=True)
+    with in_terminal(tmp_path, measuring) as (run, terminal):
+        termios.tcsetwinsize(terminal.ours, (33, 111))
+        run.await_line("a", "33 111")
+        if late:
+            run.send(signal.SIGSTOP)
+        termios.tcsetwinsize(terminal.ours, (50, 200))
+        if late:
+            run.send(signal.SIGCONT)
+        run.await_line("a", "50 200")
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
