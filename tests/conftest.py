@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import shutil
+import tempfile
 import time
 import uuid
 from pathlib import Path
@@ -22,6 +24,12 @@ _PATIENCE = 6.0
 
 def pytest_configure() -> None:
     os.environ[_SESSION] = uuid.uuid4().hex
+    # The control sockets of this session's runs, among which no other's are, nor those of the user.
+    os.environ["XDG_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="orchestra-tests-")
+
+
+def pytest_unconfigure() -> None:
+    shutil.rmtree(os.environ["XDG_RUNTIME_DIR"], ignore_errors=True)
 
 
 @pytest.fixture(scope="session", autouse=True)
