@@ -34,8 +34,8 @@ def sweep(root: int, pause: Callable[[float], bool]) -> list[int]:
     what the kernel itself cannot end is left.
     """
     for number, seconds in _POLITE:
-        if _ended_politely(root, number, seconds, pause):
-            return []
+        if _asked(root, number, seconds, pause):
+            break
     deadline = time.monotonic() + _KILL
     while left := proc.descendants(root):
         if time.monotonic() >= deadline:
@@ -45,14 +45,17 @@ def sweep(root: int, pause: Callable[[float], bool]) -> list[int]:
     return []
 
 
-def _ended_politely(root: int, number: int, seconds: float, pause: Callable[[float], bool]) -> bool:
-    """Ask each descendant once, and wait until all have ended or somebody is in a hurry; tell whether they have."""
+def _asked(root: int, number: int, seconds: float, pause: Callable[[float], bool]) -> bool:
+    """Ask each descendant once, and wait for their end; tell whether there is nothing more to wait for.
+
+    That is when all have ended, or somebody is in a hurry.
+    """
     deadline = time.monotonic() + seconds
     told: set[int] = set()
     hurry = pause(0.0)
     while left := proc.descendants(root):
         if hurry or time.monotonic() >= deadline:
-            return False
+            return hurry
         _tell(set(left) - told, number)
         told.update(left)
         hurry = pause(_LOOK_AGAIN)
