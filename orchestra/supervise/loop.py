@@ -11,6 +11,9 @@ from typing import TypeAlias
 
 Callback: TypeAlias = Callable[[], object]
 
+# The kernel takes no longer time than 2**31 ms (epoll_wait(2)): whoever waits longer looks at the clock once a day.
+_LONGEST_WAIT = 86400.0
+
 
 class Timer:
     """A call that is due at a time; `cancel` takes it back."""
@@ -98,7 +101,9 @@ class Loop:
     def _until_next_timer(self) -> float | None:
         while self._timers and self._timers[0][2].cancelled:
             heapq.heappop(self._timers)
-        return max(0.0, self._timers[0][0] - self.clock()) if self._timers else None
+        if not self._timers:
+            return None
+        return min(max(0.0, self._timers[0][0] - self.clock()), _LONGEST_WAIT)
 
     def _fire(self, now: float) -> None:
         due: list[Timer] = []

@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 # systemd reads no longer messages either (NOTIFY_BUFFER_MAX).
 _LONGEST = 4096
 _MOST_VALUE = 512
+_LONGEST_TIME = 2**63  # in microseconds; whoever gives more means for ever
+_KEPT = frozenset({"STATUS", "WATCHDOG_USEC"})
 # All descriptors that can come with a message (SCM_MAX_FD of the kernel), so that none stays open unnoticed.
 _MOST_DESCRIPTORS = 253
 _CREDENTIALS = struct.Struct("iII")  # pid, uid, gid (unix(7))
@@ -48,6 +50,11 @@ class Notices:
         self._socket: socket.socket | None = None
         self._pause: Timer | None = None
         self._complained = False
+        self._latest: dict[str, str] = {}
+
+    def latest(self, variable: str) -> str | None:
+        """Return what the process has said last in this run, of its status and of what counts later too."""
+        return self._latest.get(variable)
 
     def on(self, variable: str, heard: Callable[[str], None], owner: str = "") -> None:
         """Have the values of a variable heard; a later one of the same owner takes its place."""
@@ -59,6 +66,7 @@ class Notices:
         Raises `OSError` where there is none to be had.
         """
         self.end()
+        self._latest.clear()
         ready, alive = self._process.ready, self._process.alive
         watchdog = alive.notify if alive else None
         if watchdog is None and not (ready and ready.notify):
@@ -99,10 +107,7 @@ class Notices:
     def _read_batch(self) -> bool:
         """Read some messages; tell whether there may be more."""
         known: dict[int | None, bool] = {}  # the kernel gives a pid to nobody else as fast as that
-        for _ in range(_BATCH):
-            if self._socket is None or not self._read_one(self._socket, known):
-                return False
-        return True
+        return all(self._socket and self._read_one(self._socket, known) for _ in range(_BATCH))
 
     def _read_one(self, opened: socket.socket, known: dict[int | None, bool]) -> bool:
         """Read a message; tell whether there was one."""
@@ -133,6 +138,8 @@ class Notices:
 
     def _hear(self, values: Mapping[str, str]) -> None:
         for name, value in values.items():
+            if name in _KEPT:
+                self._latest[name] = value
             for (variable, _), heard in [*self._heard.items()]:
                 if variable == name:
                     heard(value)
@@ -146,6 +153,13 @@ def parse(message: bytes) -> dict[str, str]:
         if equals and name:
             assignments[name] = "".join(filter(str.isprintable, value[:_MOST_VALUE]))
     return assignments
+
+
+def seconds(microseconds: str | None) -> float | None:
+    """Return a time that a message gives in microseconds; None where it is none, or 0."""
+    if microseconds is None or not microseconds.isascii() or not microseconds.isdigit():
+        return None
+    return min(int(microseconds), _LONGEST_TIME) / 1e6 or None
 
 
 def _bound(name: str) -> socket.socket:

@@ -9,6 +9,7 @@ from orchestra.logs.names import shown
 from orchestra.probes.protocol import Site
 from orchestra.probes.table import probes_for
 from orchestra.supervise import life
+from orchestra.supervise.notification import seconds
 from orchestra.supervise.spec import Spec
 
 if TYPE_CHECKING:
@@ -98,10 +99,9 @@ class Readiness:
 
     def _extend(self, value: str) -> None:
         """The process wants so many microseconds from now on, at least (sd_notify(3))."""
-        if self._waiting and self._timer and value.isascii() and value.isdigit():
-            wanted = int(value) / 1e6
-            if wanted > self._timer.due - self._around.loop.clock():
-                self._set_timer(wanted)
+        wanted = seconds(value)
+        if self._waiting and self._timer and wanted and wanted > self._timer.due - self._around.loop.clock():
+            self._set_timer(wanted)
 
     def _site(self, key: str) -> Site:
         return Site(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.supervise.deadline import Deadline
+from orchestra.supervise.notification import seconds
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -26,6 +27,7 @@ class Watchdog:
         self, loop: Loop, notices: Notices, period: float, farewell: float, silent: Callable[[str], bool]
     ) -> None:
         self._asked = self._period = period
+        self._notices = notices
         self._farewell = farewell
         self._silent = silent
         self._active = False
@@ -41,7 +43,7 @@ class Watchdog:
     def begin(self, *, armed: bool) -> None:
         """Expect it from now on; where it is not armed, from the first sign on."""
         self._active = True
-        self._period = self._asked
+        self._period = seconds(self._notices.latest("WATCHDOG_USEC")) or self._asked
         if armed:
             self._signs.begin(self._period)
 
@@ -62,10 +64,11 @@ class Watchdog:
             self._signs.begin(self._period)
 
     def _change(self, value: str) -> None:
-        if self._active and value.isascii() and value.isdigit() and int(value) > 0:
-            self._period = int(value) / 1e6
+        period = seconds(value)
+        if self._active and period:
+            self._period = period
             if self._signs.runs:
-                self._signs.begin(self._period)
+                self._signs.begin(period)
 
     def _leave(self, value: str) -> None:
         if self._active and value == "1" and not self._end.runs:

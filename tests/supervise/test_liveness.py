@@ -155,7 +155,7 @@ def _comm(pid: int) -> str:
 def test_what_a_process_says_of_its_own_watchdog(
     tmp_path: Path, words: tuple[str, ...], alive: Alive, reason: str
 ) -> None:
-    """What it says before it is ready is not heard."""
+    """What it says of that before it is ready is not heard."""
     stop = Stop(timeout=0.3, kill_timeout=0.2)
     node = notifier(
         "node",
@@ -173,6 +173,25 @@ def test_what_a_process_says_of_its_own_watchdog(
         assert hung(run, "node") == reason
         run.wait()
     assert run.of_kind("process_failed", "node")
+
+
+def test_a_period_that_is_said_before_counts_in_this_run_only(tmp_path: Path) -> None:
+    """The first run wants to be watched closely and says so early, the second one does not."""
+    script = (
+        'test -e again || close=tell=WATCHDOG_USEC=300000; touch again; exec "$@" $close tell=READY=1 linger'
+    )
+    words = (sys.executable, "-S", "-E", str(PROCESSES / "notifier.py"))
+    node = process(
+        "node",
+        command=("sh", "-c", script, "sh", *words),
+        cwd=str(tmp_path),
+        restart=Restart("on-failure", budget=1),
+        ready=ready(notify=True),
+        alive=Alive(notify=0.4),
+    )
+    run = finished(tmp_path, plan(node))
+    reasons = [event.data["reason"] for event in run.of_kind("process_hung", "node")]
+    assert reasons == ["no WATCHDOG=1 for 0.3 s", "no WATCHDOG=1 for 0.4 s"]
 
 
 def test_a_process_that_says_that_it_stops_and_ends_has_not_hung(tmp_path: Path) -> None:

@@ -75,3 +75,22 @@ def test_a_descriptor_forgotten_in_the_same_round_is_not_called() -> None:
     loop.close()
     for descriptor in (*pipes[0], *pipes[1]):
         os.close(descriptor)
+
+
+def test_a_timer_may_be_further_away_than_the_kernel_can_wait() -> None:
+    clock = Clock()
+    loop = Loop(clock)
+    fired: list[str] = []
+    loop.call_later(1e12, lambda: fired.append("late"))
+    readable, writable = os.pipe()
+    os.write(writable, b"x")
+    loop.on_readable(readable, lambda: fired.append("readable"))
+    loop.run_once()
+    assert fired == ["readable"]
+    clock.now += 1e12
+    loop.forget(readable)
+    loop.run_once()
+    assert fired == ["readable", "late"]
+    os.close(readable)
+    os.close(writable)
+    loop.close()

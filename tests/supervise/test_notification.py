@@ -13,7 +13,7 @@ import pytest
 
 from orchestra.plan.conditions import Alive
 from orchestra.supervise import proc
-from orchestra.supervise.notification import parse
+from orchestra.supervise.notification import parse, seconds
 from tests.supervise.plans import PROCESSES, after, finished, launched, plan, process
 from tests.supervise.test_readiness import client, ready, text
 
@@ -207,3 +207,29 @@ def test_a_socket_is_gone_with_its_run(tmp_path: Path) -> None:
 )
 def test_messages_are_lines_of_assignments(message: bytes, wanted: dict[str, str]) -> None:
     assert parse(message) == wanted
+
+
+@pytest.mark.parametrize(
+    ("text", "wanted"),
+    [
+        ("1500000", 1.5),
+        ("0", None),
+        ("", None),
+        (None, None),
+        ("-1", None),
+        ("1.5", None),
+        ("\u0661", None),
+        ("soon", None),
+        ("9" * 512, 2**63 / 1e6),
+    ],
+)
+def test_times_are_in_microseconds(text: str | None, wanted: float | None) -> None:
+    assert seconds(text) == wanted
+
+
+def test_the_longest_of_times_can_be_waited_for(tmp_path: Path) -> None:
+    """It is longer than the kernel can be asked to wait at once."""
+    words = ("tell=EXTEND_TIMEOUT_USEC=18446744073709551615", "barrier", "tell=READY=1", "linger")
+    server = notifier("server", *words, ready=ready(notify=True, timeout=30.0))
+    run = finished(tmp_path, plan(server, client()))
+    assert run.popen.returncode == 0
