@@ -44,12 +44,13 @@ class Run:
         self.observers.order(name, order, environment, self.heard.append)
 
     def until(self, condition: Callable[[], Any]) -> None:
+        """Let the loop run until a condition holds; what observers write to files wakes nobody up."""
         deadline = time.monotonic() + PATIENCE
-        waker = self.loop.call_later(PATIENCE, lambda: None)
         while not condition():
             assert time.monotonic() < deadline, (self.heard, self.told)
+            tick = self.loop.call_later(0.02, lambda: None)
             self.loop.run_once()
-        waker.cancel()
+            tick.cancel()
 
     def words(self) -> list[tuple[str, str]]:
         return [(message["id"], message["say"]) for message in self.heard]

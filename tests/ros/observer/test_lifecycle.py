@@ -176,13 +176,12 @@ def test_an_order_for_a_node_that_will_not_come_fails(tmp_path: Path) -> None:
     assert "it is over" in run.stderr
 
 
-@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
-def test_a_node_is_deactivated_before_it_is_ended(tmp_path: Path, number: int) -> None:
+def test_a_node_is_deactivated_before_it_is_ended(tmp_path: Path) -> None:
     """The observer has stayed for it, alone, and is gone at the end."""
     with launched(tmp_path, plan(node(lifecycle="active")), environment=DOMAIN) as run:
         run.await_event("transition_done", "/managed", count=2)
-        run.send(number)
-        assert run.wait() == 128 + number
+        run.send(signal.SIGTERM)
+        assert run.wait() == 143
         assert run.log("managed").splitlines() == ["up", "configure", "activate", "deactivate"]
         (left,) = run.of_kind("transition_done", "/managed")[2:]
         assert left.data == {"transition": "deactivate", "state": "inactive"}
@@ -212,28 +211,25 @@ def test_levels_are_deactivated_one_after_the_other(tmp_path: Path) -> None:
         ]
 
 
-@pytest.mark.parametrize(
-    ("manner", "reason"),
-    [
-        ("fail", "the node refused it, or failed, and is still active"),
-        ("error", "it failed; the node was active and is "),
-        ("die", "it ended before"),
-        ("hang", "it ended before"),
-    ],
-)
-def test_a_node_that_does_not_deactivate_is_ended_all_the_same(
-    tmp_path: Path, manner: str, reason: str
-) -> None:
-    bad = node(f"{manner}=deactivate", lifecycle="active")
-    with launched(tmp_path, plan(bad), environment=DOMAIN) as run:
-        run.await_event("transition_done", "/managed", count=2)
+def test_nodes_that_do_not_deactivate_are_ended_all_the_same(tmp_path: Path) -> None:
+    reasons = {
+        "fail": "the node refused it, or failed, and is still active",
+        "error": "it failed; the node was active and is ",
+        "die": "it ended before",
+        "hang": "it ended before",
+    }
+    nodes = [node(f"{manner}=deactivate", name=manner, lifecycle="active") for manner in reasons]
+    with launched(tmp_path, plan(*nodes), environment=DOMAIN) as run:
+        for manner in reasons:
+            run.await_event("transition_done", f"/{manner}", count=2)
         run.send(signal.SIGINT)
         assert run.wait() == 130
-        assert run.log("managed").splitlines()[-1] == "deactivate"
-        (event,) = run.of_kind("transition_failed")
-        assert event.data["transition"] == "deactivate"
-        assert event.data["reason"].startswith(reason)
-        assert f"managed did not deactivate: {reason}" in run.stderr
+        for manner, reason in reasons.items():
+            assert run.log(manner).splitlines()[-1] == "deactivate"
+            (event,) = run.of_kind("transition_failed", f"/{manner}")
+            assert event.data["transition"] == "deactivate"
+            assert event.data["reason"].startswith(reason)
+            assert f"{manner} did not deactivate: {reason}" in run.stderr
         assert not run.everything()
 
 

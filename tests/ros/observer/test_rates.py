@@ -50,24 +50,20 @@ def await_rate(observer: Conversation, name: str, least: float, most: float) -> 
     wait_for(found, f"a rate of {least} to {most}; {observer.heard(name)[-5:]}")
 
 
-@pytest.mark.parametrize("durability", ["VOLATILE", "TRANSIENT_LOCAL"])
-def test_the_rate_follows_the_publishers_as_they_come_and_go(
-    observer: Conversation, domain: Domain, durability: str
-) -> None:
+def test_the_rate_follows_the_publishers_as_they_come_and_go(observer: Conversation, domain: Domain) -> None:
     """Of one kind, then of both kinds of reliability together; what is latched is no sign of life."""
-    topic = f"/{durability.lower()}"
-    observer.ask(topic, "rate", topic=topic, window=WINDOW)
-    await_rate(observer, topic, 0, 0)
-    with publishing(domain, f"{topic},RELIABLE,{durability},0"):
-        await_rate(observer, topic, 7, 13)
-        with publishing(domain, f"{topic},BEST_EFFORT,{durability},0"):
-            await_rate(observer, topic, 17, 23)
-        await_rate(observer, topic, 7, 13)
-    with publishing(domain, f"{topic},RELIABLE,TRANSIENT_LOCAL,1"):
-        await_rate(observer, topic, 0, 0)
-    observer.forget(topic)
+    observer.ask("rate", "rate", topic="/chat", window=WINDOW)
+    await_rate(observer, "rate", 0, 0)
+    with publishing(domain, "/chat,RELIABLE,TRANSIENT_LOCAL,0"):
+        await_rate(observer, "rate", 7, 13)
+        with publishing(domain, "/chat,BEST_EFFORT,VOLATILE,0"):
+            await_rate(observer, "rate", 17, 23)
+        await_rate(observer, "rate", 7, 13)
+    with publishing(domain, "/chat,RELIABLE,TRANSIENT_LOCAL,1"):
+        await_rate(observer, "rate", 0, 0)
+    observer.forget("rate")
     observer.caught_up()
-    told = len(observer.heard(topic))
+    told = len(observer.heard("rate"))
     observer.ask("later", "rate", topic="/nobody", window=WINDOW)
     await_rate(observer, "later", 0, 0)
-    assert len(observer.heard(topic)) == told
+    assert len(observer.heard("rate")) == told
