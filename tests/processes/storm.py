@@ -42,7 +42,7 @@ for number in (signal.SIGINT, signal.SIGTERM):
     signal.signal(number, signal.SIG_IGN)
 # Nobody waits for those who end; the kernel shall not keep them.
 signal.signal(signal.SIGCHLD, signal.SIG_IGN)
-kind, _, count = sys.argv[1].partition("=")
+kind, count = sys.argv[1].split("=")
 for _ in range(int(count)):
     if os.fork() == 0:
         os.setsid()
