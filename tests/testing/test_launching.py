@@ -148,10 +148,13 @@ def test_an_expected_failure_is_none(launch: Launch) -> None:
 
 
 def test_what_outlives_the_run_is_found_and_ended(tmp_path: Path) -> None:
-    """The run's own processes are stopped and then killed all at once, so that nobody cleans up."""
+    """The run's own processes are stopped and then killed all at once, so that nobody cleans up.
+
+    A program is told by the kernel that its supervisor has been killed; one that ignores that stays.
+    """
     with ExitStack() as stack:
         run = stack.enter_context(
-            launched(_description({"name": "stays", "cmd": "sleep 300"}), home=tmp_path)
+            launched(_description({"name": "stays", "cmd": "env --ignore-signal=TERM sleep 300"}), home=tmp_path)
         )
         run.wait_ready()
         (left,) = [survivor for survivor in run.survivors() if survivor.process == "stays"]
