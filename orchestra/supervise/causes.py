@@ -44,7 +44,7 @@ _CODES = {
     128: "the program called exit with a value that is none",
     255: "the program reports a failure with -1; ssh does so where the connection fails",
 }
-_SIGNALS = {
+_SIGNALS: dict[int, str] = {
     signal.SIGSEGV: "an access to memory that is not the program's: a null or dangling pointer, an index out of range, "
     "a stack that is full",
     signal.SIGBUS: "an access to memory that is not there: a mapped file that was cut, /dev/shm full, wrong alignment",

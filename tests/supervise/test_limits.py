@@ -99,7 +99,7 @@ def test_limits_of_resources(tmp_path: Path) -> None:
         "for name in ('NOFILE', 'CORE', 'MEMLOCK'):\n"
         "    print(resource.getrlimit(getattr(resource, f'RLIMIT_{name}')))\n"
     )
-    wanted = {"nofile": (64, 128), "core": (0, 0), "memlock": (4096, 8192)}
+    wanted: dict[str, tuple[int, ...]] = {"nofile": (64, 128), "core": (0, 0), "memlock": (4096, 8192)}
     run = finished(tmp_path, plan(program("a", shows, Limits(rlimits=wanted))))
     assert run.log("a") == "(64, 128)\n(0, 0)\n(4096, 8192)\n"
 
