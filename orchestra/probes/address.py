@@ -49,7 +49,7 @@ def known(goal: Target) -> list[Address] | None:
         return [(socket.AF_INET, ("127.0.0.1", goal.port)), (socket.AF_INET6, ("::1", goal.port))]
     try:
         found = socket.getaddrinfo(goal.host, goal.port, type=socket.SOCK_STREAM, flags=socket.AI_NUMERICHOST)
-    except (OSError, UnicodeError):
+    except (OSError, ValueError):  # a name, or what cannot even be one
         return None
     return [(family, address) for family, _, _, _, address in found]
 

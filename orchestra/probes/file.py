@@ -7,10 +7,12 @@ program, behind them a process of its own asks.
 from __future__ import annotations
 
 import os
+import re
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from orchestra.probes.conversation import reason
 from orchestra.probes.repeated import Repeated
 
 if TYPE_CHECKING:
@@ -22,6 +24,8 @@ _WITHIN = 5.0
 _ABSENT = "it does not exist"
 # By the beginning of their type in /proc/self/mountinfo (proc_pid_mountinfo(5)).
 _REMOTE = ("nfs", "cifs", "smb", "fuse", "ceph", "9p", "afs", "autofs", "gfs", "lustre", "ncp", "vboxsf")
+# How that file writes a space, a tab, a new line and a backslash.
+_ESCAPED = re.compile(r"\\([0-7]{3})")
 _ASK = "import os, sys; sys.exit(0 if os.path.exists(sys.argv[1]) else 'it does not exist')"
 
 
@@ -29,7 +33,11 @@ def file_probe(path: str, interval: float) -> Repeated:
     """Return the condition that there is something by this path, from the working directory of the process."""
 
     def attempt(site: Site, told: Callable[[str | None], None]) -> Cancel | None:
-        place = os.path.abspath(Path(site.folder or ".", path))  # noqa: PTH100 - must not touch the disk
+        try:
+            place = os.path.abspath(Path(site.folder or ".", path))  # noqa: PTH100 - must not touch the disk
+        except OSError as error:  # our own working directory is gone
+            told(reason(error))
+            return None
         if remote(place, _mounts()):
             ask = (sys.executable, "-I", "-S", "-c", _ASK, place)
             return site.run(ask, _WITHIN, lambda result: told(result.fault))
@@ -42,12 +50,12 @@ def file_probe(path: str, interval: float) -> Repeated:
 def remote(path: str, mounts: str) -> bool:
     """Tell whether a path lies on a file system that may not answer; `mounts` is as in /proc/self/mountinfo."""
     best, kind = "", ""
-    for line in mounts.splitlines():
+    for line in mounts.rstrip("\n").split("\n") if mounts else ():
         before, _, after = line.partition(" - ")
-        point = before.split()[4].encode().decode("unicode_escape")
+        point = _ESCAPED.sub(lambda found: chr(int(found[1], 8)), before.split(" ")[4])
         inside = path == point or path.startswith(point.rstrip("/") + "/")
         if inside and len(point) >= len(best):
-            best, kind = point, after.split()[0]
+            best, kind = point, after.split(" ")[0]
     return kind.startswith(_REMOTE)
 
 

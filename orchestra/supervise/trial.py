@@ -133,10 +133,13 @@ class Trials:
         try:
             trial = Trial(self._loop, self._kin, spec, limit, told, self._running.discard)
         except OSError as error:
-            result = Result(str(unstartable(error)))
-            return self._loop.call_later(0.0, lambda: told(result))
-        self._running.add(trial)
-        return trial
+            fault = str(unstartable(error))
+        except ValueError as error:  # a word that cannot be one, for a byte that is 0
+            fault = f"could not be started: {error}"
+        else:
+            self._running.add(trial)
+            return trial
+        return self._loop.call_later(0.0, lambda: told(Result(fault)))
 
 
 def _lines(written: bytes) -> list[str]:

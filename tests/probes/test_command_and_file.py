@@ -44,6 +44,7 @@ def test_it_is_tried_until_it_succeeds(tmp_path: Path) -> None:
         (("sh", "-c", "echo out; echo 'no  database\x1b[0m' >&2; exit 3"), "exit code 3: no  database[0m"),
         (("sh", "-c", "echo only; exit 3"), "exit code 3: only"),
         (("sh", "-c", "kill -TERM $$"), "SIGTERM"),
+        (("echo", "\0"), "could not be started: embedded null byte"),
         (
             ("there-is-no-such-program",),
             "could not be started: no such file or directory: there-is-no-such-program",
@@ -132,11 +133,23 @@ def test_where_a_server_may_not_answer_a_program_asks(
         here.holds(probe)
 
 
+def test_a_working_directory_that_is_gone_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    with place() as here:
+        probe = file_probe("it", 0.02)
+        here.begin(probe)
+        here.fails(probe, "the file it (no such file or directory)")
+
+
 _MOUNTS = """\
 22 1 8:1 / / rw,relatime shared:1 - ext4 /dev/sda1 rw
 31 22 0:29 / /home rw - nfs4 server:/home rw
 32 31 8:2 / /home/of\\040me/local rw - ext4 /dev/sdb rw
 33 22 0:30 / /homes rw - tmpfs tmpfs rw
+36 22 0:32 / /o\udcff\u2028ä rw - nfs4 server:/odd rw
 34 22 0:31 / /fast rw - autofs systemd-1 rw
 35 34 8:3 / /fast rw - xfs /dev/sdc rw
 """
@@ -152,6 +165,7 @@ _MOUNTS = """\
         ("/home/of me/local/file", False),
         ("/home/of me/file", True),
         ("/fast/file", False),
+        ("/o\udcff\u2028ä/file", True),
     ],
 )
 def test_which_file_systems_have_a_server(path: str, wanted: bool) -> None:

@@ -60,6 +60,7 @@ def test_only_names_need_a_lookup() -> None:
     assert [found[1][0] for found in known(Target("localhost", 80)) or ()] == ["127.0.0.1", "::1"]
     assert known(Target("robot.local", 80)) is None
     assert known(Target("x" * 70 + ".local", 80)) is None
+    assert known(Target("a\0b", 80)) is None
 
 
 @pytest.mark.parametrize(
