@@ -136,6 +136,9 @@ class Lookout:
         if not self._open:
             return
         reason = f"the observer, which looks into the ROS graph, {why}"
+        if observer.hopeless:
+            self._fail([*self._open], f"{reason} before it had begun")
+            return
         now, before = self._loop.clock(), self._replaced_at
         self._replaced_at = now
         if before is not None and now < before + self._patience.lasting:

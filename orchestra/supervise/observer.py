@@ -34,7 +34,10 @@ _SHOWN = 80
 
 
 class Observer:
-    """A running observer. `lost` is called once, where it ends, or is of no use, without having been asked to leave."""
+    """A running observer. `lost` is called once, where it ends, or is of no use, without having been asked to leave.
+
+    It is `hopeless` where it ended by itself before it came into the graph: the next one would not come either.
+    """
 
     def __init__(
         self, loop: Loop, kin: Kin, spec: Spec, said: Callable[[str], None], ears: tuple[Heard, Lost]
@@ -44,6 +47,7 @@ class Observer:
         self._heard, self._lost = ears
         self._partial = ""
         self._here = False
+        self.hopeless = False
         inner, outer = os.pipe()
         try:
             self._child: Child | None = spawn(spec, stdin=inner)
@@ -119,4 +123,6 @@ class Observer:
         self._kin.remove(child.pid)
         child.reap()
         self._child = None
+        code, _signal = ended
+        self.hopeless = code is not None and not self._here
         self._lose(f"ended ({Ending(*ended)})")

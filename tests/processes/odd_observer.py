@@ -4,6 +4,7 @@ The first one started in FOLDER has the first manner, and so on; the last manner
 orders that it gets to FOLDER/N.
 
 good        does everything at once
+broken      ends at once
 mute        answers nothing, nor whether it is there
 hang        answers one ping, then nothing
 ask         says that it is asking, then nothing
@@ -56,6 +57,10 @@ def main() -> None:
     number = len(list(folder.iterdir()))
     manner = manners[min(number, len(manners) - 1)]
     with (folder / str(number)).open("w", buffering=1) as orders:
+        if manner == "broken":
+            sys.exit("no such module")
+        if manner != "mute":
+            say({"pong": 0})
         for line in sys.stdin:
             orders.write(line)
             message = json.loads(line)

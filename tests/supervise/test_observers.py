@@ -100,6 +100,18 @@ def test_where_the_next_one_is_lost_too_the_orders_fail(run: Run) -> None:
     assert run.started == 2
 
 
+@pytest.mark.parametrize("run", ["broken"], indirect=True)
+def test_one_that_cannot_begin_is_not_started_again(run: Run) -> None:
+    """What it said comes first."""
+    run.order("a", WATCH)
+    run.until(lambda: run.heard)
+    assert run.told == ["no such module\n"]
+    assert run.heard[0]["reason"] == (
+        "the observer, which looks into the ROS graph, ended (exit code 1) before it had begun"
+    )
+    assert run.started == 1
+
+
 @pytest.mark.parametrize("run", [("die", QUICK._replace(lasting=0.0))], indirect=True)
 def test_one_that_is_lost_after_a_long_time_is_replaced_again(run: Run) -> None:
     run.order("a", WATCH)

@@ -39,16 +39,16 @@ class Offer(NamedTuple):
 
 
 class Offered:
-    """Subscriptions to one topic; `heard` gets each message, as bytes where it is `raw`."""
+    """Subscriptions to one topic; `heard` gets each message, as bytes where it is of no one type that is asked for."""
 
     def __init__(
-        self, node: Node, topic: str, heard: Callable[[Any], None], *, depth: int, raw: bool
+        self, node: Node, topic: str, heard: Callable[[Any], None], *, depth: int, only: str | None = None
     ) -> None:
         self._node = node
         self._topic = topic
         self._heard = heard
         self._depth = depth
-        self._raw = raw
+        self._only = only
         self._subscriptions: dict[Offer, Subscription] = {}
 
     def look(self) -> None:
@@ -56,13 +56,13 @@ class Offered:
         for publisher in self._node.get_publishers_info_by_topic(self._topic):
             profile = publisher.qos_profile
             offer = Offer(publisher.topic_type, profile.reliability, profile.durability)
-            if offer not in self._subscriptions:
+            if offer not in self._subscriptions and self._only in (None, offer.type):
                 self._subscriptions[offer] = self._node.create_subscription(
                     message_class(offer.type, self._topic),
                     self._topic,
                     self._heard,
                     offer.profile(self._depth),
-                    raw=self._raw,
+                    raw=self._only is None,
                 )
 
     def close(self) -> None:

@@ -117,8 +117,8 @@ def test_a_state_of_a_lifecycle_node_is_seen_and_one_that_lasts_for_a_moment_too
 
 
 def test_transforms_make_a_chain_in_either_direction(observer: Conversation, node: Node) -> None:
-    """Static ones are latched: this one is published before anybody listens."""
-    node.do("tf_static base laser", "tf /map odom")
+    """Static ones are latched: this one is published before anybody listens. What is no transform is passed over."""
+    node.do("tf_static base laser", "topic /tf", "tf /map odom")
     observer.watch("one", "tf", parent="map", child="odom")
     observer.said("one", "done")
     observer.watch("chain", "tf", parent="map", child="laser")

@@ -18,7 +18,7 @@ class FirstMessage:
 
     def __init__(self, node: Node, request: Request, say: Say) -> None:
         self._say = say
-        self._subscriptions = Offered(node, request["topic"], self._came, depth=1, raw=True)
+        self._subscriptions = Offered(node, request["topic"], self._came, depth=1)
         self.every: float | None = OFTEN
 
     def look(self) -> None:

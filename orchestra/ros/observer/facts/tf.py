@@ -20,6 +20,7 @@ if TYPE_CHECKING:
 
 # tf2_ros::DynamicListenerQoS and StaticListenerQoS ask for 100.
 _DEPTH = 100
+_TYPE = "tf2_msgs/msg/TFMessage"
 
 
 class TransformThere:
@@ -30,7 +31,7 @@ class TransformThere:
         self._wanted = (_bare(request["parent"]), _bare(request["child"]))
         self._parents: dict[str, str] = {}
         self._subscriptions = [
-            Offered(node, topic, self._heard, depth=_DEPTH, raw=False) for topic in ("/tf", "/tf_static")
+            Offered(node, topic, self._heard, depth=_DEPTH, only=_TYPE) for topic in ("/tf", "/tf_static")
         ]
         self.every: float | None = OFTEN
 
