@@ -6,6 +6,7 @@ an ignored signal nor a mask (execve(2) resets handlers). Every other descriptor
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import os
 import signal
@@ -66,6 +67,11 @@ def spawn(spec: Spec, stdin: int | None = None) -> Child:
 
     Raises `OSError` where that is impossible; `filename` then names what is missing, or what asks for it.
     """
+    if any(
+        "\0" in word
+        for word in (*spec.command, *spec.environment, *spec.environment.values(), spec.cwd or "")
+    ):
+        raise OSError(errno.EINVAL, "a word of it has a byte that is 0")  # none can (execve(2))
     with ExitStack() as ours, ExitStack() as theirs, reported(_before(spec)) as prepare:
         outputs, inner = _outputs(spec, ours, theirs)
         process = subprocess.Popen(  # noqa: S603 - running what the plan says is the purpose

@@ -133,13 +133,10 @@ class Trials:
         try:
             trial = Trial(self._loop, self._kin, spec, limit, told, self._running.discard)
         except OSError as error:
-            fault = str(unstartable(error))
-        except ValueError as error:  # a word that cannot be one, for a byte that is 0
-            fault = f"could not be started: {error}"
-        else:
-            self._running.add(trial)
-            return trial
-        return self._loop.call_later(0.0, lambda: told(Result(fault)))
+            result = Result(str(unstartable(error)))
+            return self._loop.call_later(0.0, lambda: told(result))
+        self._running.add(trial)
+        return trial
 
 
 def _lines(written: bytes) -> list[str]:

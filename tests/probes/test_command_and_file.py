@@ -44,7 +44,7 @@ def test_it_is_tried_until_it_succeeds(tmp_path: Path) -> None:
         (("sh", "-c", "echo out; echo 'no  database\x1b[0m' >&2; exit 3"), "exit code 3: no  database[0m"),
         (("sh", "-c", "echo only; exit 3"), "exit code 3: only"),
         (("sh", "-c", "kill -TERM $$"), "SIGTERM"),
-        (("echo", "\0"), "could not be started: embedded null byte"),
+        (("echo", "\0"), "could not be started: a word of it has a byte that is 0"),
         (
             ("there-is-no-such-program",),
             "could not be started: no such file or directory: there-is-no-such-program",

@@ -173,6 +173,14 @@ def test_a_process_may_be_ready_by_http(tmp_path: Path) -> None:
     assert f"waiting for server: http://localhost:{number}/" in run.stderr
 
 
+def test_a_word_that_no_program_can_be_given_is_a_failure_to_start(tmp_path: Path) -> None:
+    run = finished(tmp_path, plan(process("a", "say=\0"), process("b", environment={"A": "\0"})))
+    assert run.popen.returncode == 0
+    for name in ("a", "b"):
+        assert run.kinds(name)[-1] == "process_failed"
+        assert f"{name} could not be started: a word of it has a byte that is 0" in run.stderr
+
+
 @pytest.mark.parametrize("conditions", [{"tcp": "nonsense"}, {"http": "nonsense"}, {"file": "\0"}])
 def test_what_can_never_come_about_is_a_timeout_with_a_reason(
     tmp_path: Path, conditions: dict[str, str]
