@@ -84,10 +84,12 @@ class Journal:
         """Write a piece of a process's output; without `shown`, to the files alone."""
         if not text:
             return
-        self._files[process].write(text)
         now, source = self._wall(), (process, stream)
-        self._write_all(source, names.shown(process), text, now)
-        self._records.write(self._narrations[process].add(stream, text, now))
+        told = self._narrations[process].add(stream, text, now)
+        with self._writer.together():
+            self._files[process].write(text)
+            self._write_all(source, names.shown(process), text, now)
+            self._records.write(told)
         if shown and stream in self._shown[process]:
             self._sheets.output.write(source, self._colours[process], text)
 
