@@ -116,21 +116,25 @@ def test_a_state_of_a_lifecycle_node_is_seen_and_one_that_lasts_for_a_moment_too
         managed.kill()
 
 
-def test_transforms_make_a_chain_in_either_direction(observer: Conversation, node: Node) -> None:
+def test_transforms_make_a_chain_in_either_direction(
+    observer: Conversation, node: Node, domain: Domain
+) -> None:
     """Static ones are latched: this one is published before anybody listens. What is no transform is passed over."""
-    node.do("tf_static base laser", "topic /tf", "tf /map odom")
-    observer.watch("one", "tf", parent="map", child="odom")
-    observer.said("one", "done")
-    observer.watch("chain", "tf", parent="map", child="laser")
-    observer.watch("upwards", "tf", parent="laser", child="/map")
-    observer.watch("nowhere", "tf", parent="map", child="moon")
-    observer.watch("static", "tf", parent="base", child="laser")
-    observer.said("static", "done")
-    assert observer.heard("chain") == []
-    node.do("tf odom base")
-    observer.said("chain", "done")
-    observer.said("upwards", "done")
-    assert observer.heard("nowhere") == []
+    with graph_node(domain, "/wrong") as wrong:
+        wrong.do("topic /tf")
+        node.do("tf_static base laser", "tf /map odom")
+        observer.watch("one", "tf", parent="map", child="odom")
+        observer.said("one", "done")
+        observer.watch("chain", "tf", parent="map", child="laser")
+        observer.watch("upwards", "tf", parent="laser", child="/map")
+        observer.watch("nowhere", "tf", parent="map", child="moon")
+        observer.watch("static", "tf", parent="base", child="laser")
+        observer.said("static", "done")
+        assert observer.heard("chain") == []
+        node.do("tf odom base")
+        observer.said("chain", "done")
+        observer.said("upwards", "done")
+        assert observer.heard("nowhere") == []
 
 
 @pytest.mark.parametrize(
