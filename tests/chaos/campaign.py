@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from orchestra import events
 from tests.chaos import cases, inventing
 from tests.chaos.cases import Case
 from tests.chaos.judging import judge
@@ -28,6 +29,7 @@ if TYPE_CHECKING:
 _ROOT = Path(__file__).parents[2]
 # One that does not come back within this time hangs itself, with what it plays; in seconds.
 _PATIENCE = 3 * HANG
+_LAST_EVENTS = 30
 _BURN = (
     "import os, sys, threading\n"
     "threading.Thread(target=lambda: (sys.stdin.read(), os._exit(0))).start()\n"
@@ -90,7 +92,8 @@ def _play(case: Case) -> int:
         shutil.rmtree(folder, ignore_errors=True)
     broken = judge(case, seen)
     if broken:
-        sys.stderr.write(f"---- {case.seed}: what was told\n{_of_interest(seen.screen)}\n")
+        happened = "\n".join(events.dumps(event) for event in seen.events[-_LAST_EVENTS:])
+        sys.stderr.write(f"---- {case.seed}: what was told\n{_of_interest(seen.screen)}\n{happened}\n")
     sys.stdout.write(json.dumps({"broken": broken, "status": seen.status, "lasted": seen.lasted}))
     return 0
 

@@ -21,7 +21,7 @@ _BUGS = (r"(?m)^Traceback \(most recent", "this is a bug in Orchestra")
 
 def judge(case: Case, seen: Observation) -> list[str]:
     """Return every promise that was broken."""
-    return [*_left(seen), *_ended(case, seen), *_told(case, seen), *_logged(case, seen)]
+    return [*_left(case, seen), *_ended(case, seen), *_told(case, seen), *_logged(case, seen)]
 
 
 def _left(seen: Observation) -> Iterator[str]:
@@ -32,7 +32,7 @@ def _left(seen: Observation) -> Iterator[str]:
         ("file", remains.litter),
     ):
         if names:
-            yield f"left behind, {kind}: {len(names)}, such as {names[0]}"
+            yield f"left behind, {kind}: {len(names)}, {', '.join(names[:4])}"
 
 
 def _ended(case: Case, seen: Observation) -> Iterator[str]:
