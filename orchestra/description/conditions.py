@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, Final
 
-from pydantic import Field, PlainValidator, WithJsonSchema
+from pydantic import Field, PlainValidator
 
 from orchestra.description.entity import Entity
-from orchestra.description.fields import AnyValue, Argv, Flag, Seconds, Text, word
+from orchestra.description.fields import AnyValue, Argv, Flag, Seconds, Text, word, worded
 from orchestra.description.ranges import COUNT, INTERVAL, RATE, SOME_SECONDS
 from orchestra.description.short import Short
 from orchestra.description.text import Template
@@ -30,7 +30,7 @@ class StateFact(Entity):
     """The state of a lifecycle node."""
 
     node: Text | None = Field(default=None, description="The node; its own where absent.")
-    state: Annotated[Template, PlainValidator(word(*STATES)), WithJsonSchema({"enum": list(STATES)})] = Field(
+    state: Annotated[Template, PlainValidator(word(*STATES)), worded(*STATES)] = Field(
         description="The state that it is in."
     )
 

@@ -176,6 +176,11 @@ Argv: TypeAlias = Annotated[
 ]
 
 
+def worded(*words: str) -> WithJsonSchema:
+    """Return what an editor is told of a field for one of a few words."""
+    return WithJsonSchema({"anyOf": [{"enum": list(words)}, _SUBSTITUTION]})
+
+
 def word(*words: str) -> Callable[[object, ValidationInfo], Template]:
     """Return a validator for one of a few words."""
     wanted = f"one of {', '.join(words)}" if len(words) > 1 else f"'{words[0]}'"

@@ -7,7 +7,7 @@ from typing import Annotated, TypeAlias
 from pydantic import Field, PlainValidator, WithJsonSchema
 
 from orchestra.description.entity import Entity
-from orchestra.description.fields import Flag, Text, text_or_list, word
+from orchestra.description.fields import Flag, Text, text_or_list, word, worded
 from orchestra.description.ranges import NICE, PRIORITY
 from orchestra.description.text import Template
 
@@ -79,10 +79,9 @@ class Limits(Entity):
     nice: Annotated[Template, NICE] | None = Field(
         default=None, description="Nice value, from -20 (first) to 19 (last)."
     )
-    scheduler: (
-        Annotated[Template, PlainValidator(word(*SCHEDULERS)), WithJsonSchema({"enum": list(SCHEDULERS)})]
-        | None
-    ) = Field(default=None, description="Scheduling policy; `fifo` and `rr` are the real-time ones.")
+    scheduler: Annotated[Template, PlainValidator(word(*SCHEDULERS)), worded(*SCHEDULERS)] | None = Field(
+        default=None, description="Scheduling policy; `fifo` and `rr` are the real-time ones."
+    )
     priority: Annotated[Template, PRIORITY] | None = Field(
         default=None, description="Real-time priority from 1 to 99, for `fifo` and `rr`."
     )

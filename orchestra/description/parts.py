@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated, TypeAlias
 
-from pydantic import Field, PlainValidator, WithJsonSchema
+from pydantic import Field, PlainValidator
 
 from orchestra.description.entity import Entity
-from orchestra.description.fields import AnyValue, Flag, Seconds, Text, word
+from orchestra.description.fields import AnyValue, Flag, Seconds, Text, word, worded
 from orchestra.description.ranges import BUDGET, GROWTH, SHARE
 from orchestra.description.text import Template
 
@@ -25,9 +25,7 @@ VALUE_TYPES = (
     "yaml",
 )
 
-TypeWord: TypeAlias = Annotated[
-    Template, PlainValidator(word(*VALUE_TYPES)), WithJsonSchema({"enum": list(VALUE_TYPES)})
-]
+TypeWord: TypeAlias = Annotated[Template, PlainValidator(word(*VALUE_TYPES)), worded(*VALUE_TYPES)]
 
 
 class Pair(Entity):
@@ -82,10 +80,9 @@ class DependsOn(Entity):
     )
     process: Text | None = Field(default=None, description="A process, by its name.")
     label: Text | None = Field(default=None, description="Every process of the include with this label.")
-    condition: (
-        Annotated[Template, PlainValidator(word(*CONDITIONS)), WithJsonSchema({"enum": list(CONDITIONS)})]
-        | None
-    ) = Field(default=None, description="What is waited for; `started` where nothing is said.")
+    condition: Annotated[Template, PlainValidator(word(*CONDITIONS)), worded(*CONDITIONS)] | None = Field(
+        default=None, description="What is waited for; `started` where nothing is said."
+    )
     timeout: Seconds | None = Field(default=None, description="How long to wait, in seconds.")
     required: Flag | None = Field(
         default=None,
@@ -101,7 +98,7 @@ class DependsOn(Entity):
 class Restart(Entity):
     """When an ended process is started again."""
 
-    policy: Annotated[Template, PlainValidator(word(*POLICIES)), WithJsonSchema({"enum": list(POLICIES)})]
+    policy: Annotated[Template, PlainValidator(word(*POLICIES)), worded(*POLICIES)]
     delay: Seconds | None = Field(default=None, description="Least delay before a new start, in seconds.")
     max_delay: Seconds | None = Field(
         default=None, description="What the growing delay stops at, in seconds."

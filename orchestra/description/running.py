@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import Field, PlainValidator, WithJsonSchema
+from pydantic import Field, PlainValidator
 
 from orchestra.description.conditions import Alive, Ready
 from orchestra.description.entity import Action
-from orchestra.description.fields import Argv, Flag, Integer, Seconds, Text, word
+from orchestra.description.fields import Argv, Flag, Integer, Seconds, Text, word, worded
 from orchestra.description.limits import Limits
 from orchestra.description.outputs import Output
 from orchestra.description.parts import DependsOn, Pair, Restart, Stop
@@ -35,9 +35,9 @@ class Running(Action):
     output: Output | None = Field(
         default=None, description="Where its output goes; `both` (screen and log) where absent."
     )
-    on_exit: (
-        Annotated[Template, PlainValidator(word(*ON_EXIT)), WithJsonSchema({"enum": list(ON_EXIT)})] | None
-    ) = Field(default=None, description="End the run when the process ends.")
+    on_exit: Annotated[Template, PlainValidator(word(*ON_EXIT)), worded(*ON_EXIT)] | None = Field(
+        default=None, description="End the run when the process ends."
+    )
     respawn: Flag | None = Field(default=None, description="Start it again whenever it ends.")
     respawn_delay: Seconds | None = Field(
         default=None, description="Least delay before a respawn, in seconds."

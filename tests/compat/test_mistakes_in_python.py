@@ -281,6 +281,10 @@ _VALUES = {
         "[«Node(**TALKER, additional_env=[('a', 'b')])»]",
         "an environment is a dict of names and values, this is a list",
     ),
+    "a variable that is a number": Mistake(
+        "[«Node(**TALKER, additional_env={'LEVEL': 5})»]",
+        "the value of 'LEVEL' in an environment: expected a text or a substitution (or several in a list), found int",
+    ),
     "a command that is one text": Mistake("[«ExecuteProcess(cmd='ls -l')»]", "cmd is a list of words"),
     "an argument of an include that is one text": Mistake(
         "[«IncludeLaunchDescription('inner.launch.py', launch_arguments=['a:=b'])»]",

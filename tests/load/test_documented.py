@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
+import jsonschema
 import pytest
+import yaml
 
 from orchestra.description.conditions import FACTS, Alive
 from orchestra.description.limits import Limits
@@ -13,7 +16,9 @@ from orchestra.description.parts import DependsOn, Restart, Stop
 from orchestra.description.running import Running
 from tests.resolve.launching import outcome
 
-_PAGE = (Path(__file__).parents[2] / "docs" / "launch-files.md").read_text("utf-8")
+_ROOT = Path(__file__).parents[2]
+_PAGE = (_ROOT / "docs" / "launch-files.md").read_text("utf-8")
+_SCHEMA = json.loads((_ROOT / "schemas" / "launch.schema.json").read_text("utf-8"))
 _BLOCKS = re.findall(r"^```yaml\n(.*?)^```$", _PAGE, re.DOTALL | re.MULTILINE)
 _ADDED = _PAGE.partition("## What Orchestra adds")[2].partition("### In Python")[0]
 _OTHERS = """
@@ -31,12 +36,14 @@ def _file(block: str) -> str:
 
 
 @pytest.mark.parametrize("block", [block for block in _BLOCKS if not block.startswith("#")])
-def test_every_example_has_a_plan(tmp_path: Path, block: str) -> None:
+def test_every_example_has_a_plan_and_fulfils_the_schema(tmp_path: Path, block: str) -> None:
     (tmp_path / "params").mkdir()
     (tmp_path / "params" / "robot.yaml").write_text("/**: {ros__parameters: {a: 1}}", "utf-8")
     text = f"{_file(block)}\n- let: {{name: id, value: x}}".replace(
         "launch:\n", "launch:\n- arg: {name: id, default: '7'}\n"
     )
+    faults = jsonschema.Draft202012Validator(_SCHEMA).iter_errors(yaml.safe_load(text))
+    assert [f"{fault.json_path}: {fault.message}" for fault in faults] == []
     found = outcome(tmp_path, text, launching=False, environment={"PATH": "/bin"})
     assert found.problems.errors == ()
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.errors import Code, Severity
+from orchestra.plan import codec
 from orchestra.plan.conditions import Alive, ParameterFact, Ready, StateFact, TransformFact
 from orchestra.values import Limits, Restart
 from tests.resolve.launching import outcome
@@ -116,6 +117,7 @@ def test_values_of_conditions_may_be_substituted(tmp_path: Path) -> None:
     assert process.restart == Restart("always")
     assert process.limits == Limits(cores=tuple(range(8)), nice=7, memory=7 << 20, rlimits={"nofile": (7, 7)})
     assert (process.stdin, process.lifecycle, process.kind) == (True, "active", "lifecycle_node")
+    assert codec.loads(codec.dumps(found.plan)) == found.plan
 
 
 def test_names_go_through_the_remaps_of_the_node(tmp_path: Path) -> None:

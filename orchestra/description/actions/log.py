@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import Field, PlainValidator, WithJsonSchema
+from pydantic import Field, PlainValidator
 
 from orchestra.description.entity import Action
-from orchestra.description.fields import Text, word
+from orchestra.description.fields import Text, word, worded
 from orchestra.description.text import Template
 
 LEVELS = ("debug", "info", "warning", "error")
@@ -17,6 +17,6 @@ class Log(Action):
     """Print a message when the run starts, or when the timer around it goes off."""
 
     message: Text
-    level: (
-        Annotated[Template, PlainValidator(word(*LEVELS)), WithJsonSchema({"enum": list(LEVELS)})] | None
-    ) = Field(default=None, description="How much it matters; `info` where absent.")
+    level: Annotated[Template, PlainValidator(word(*LEVELS)), worded(*LEVELS)] | None = Field(
+        default=None, description="How much it matters; `info` where absent."
+    )

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from pydantic import Field, PlainValidator, WithJsonSchema
+from pydantic import Field, PlainValidator
 
-from orchestra.description.fields import Argv, Text, word
+from orchestra.description.fields import Argv, Text, word, worded
 from orchestra.description.parts import Param, Remap
 from orchestra.description.running import Running
 from orchestra.description.text import Template
@@ -28,9 +28,7 @@ class Node(Running):
     param: tuple[Param, ...] = Field(
         default=(), description="Parameters and parameter files, later ones win."
     )
-    lifecycle: (
-        Annotated[Template, PlainValidator(word(*REACHED)), WithJsonSchema({"enum": list(REACHED)})] | None
-    ) = Field(
+    lifecycle: Annotated[Template, PlainValidator(word(*REACHED)), worded(*REACHED)] | None = Field(
         default=None,
         description="The state that a lifecycle node is brought to, and back to when it restarts.",
     )
