@@ -124,9 +124,7 @@ class Liveness:
         lines = [f"    {thread}" for thread in found[:_SHOWN]]
         if len(found) > _SHOWN:
             lines.append(f"    and {len(found) - _SHOWN} more threads, in the event")
-        self._around.journal.say(
-            "\n".join((f"{shown(self._process.id)} gives no sign of life: {reason}", *lines))
-        )
+        self._around.journal.say("\n".join((f"where {shown(self._process.id)} is:", *lines)))
         self._around.recorder.record(
             "process_hung", self._process.id, reason=reason, threads=[asdict(thread) for thread in found]
         )

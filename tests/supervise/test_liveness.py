@@ -62,7 +62,8 @@ def test_a_process_whose_watchdog_falls_silent_is_dumped_and_restarted(tmp_path:
     (ended, _) = run.of_kind("process_ended", "node")
     assert ended.data["hang"] == f"no WATCHDOG=1 for {PERIOD:g} s"
     assert run.kinds("node").index("process_hung") < run.kinds("node").index("process_stopping")
-    assert "node gives no sign of life: no WATCHDOG=1" in text(run)
+    assert "node hangs (no WATCHDOG=1 for 2 s) and is ended" in text(run)
+    assert "where node is: " in text(run)
     assert ", thread " in text(run)
 
 
