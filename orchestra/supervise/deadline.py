@@ -9,15 +9,16 @@ if TYPE_CHECKING:
 
     from orchestra.supervise.loop import Loop, Timer
 
-# A timer that comes so much too late, in seconds, says that we ourselves were stopped, or the machine overloaded: what
-# others did meanwhile cannot be judged.
-LATE = 1.0
+# A timer that comes so much too late, in seconds or as a share of the period, says that we ourselves were stopped, or
+# the machine overloaded: what others did meanwhile cannot be judged.
+LATE, _LATE_SHARE = 1.0, 0.25
 
 
 class Deadline:
-    """Calls `expired` when there has been no sign for a period; a period in which we ourselves were stuck counts not.
+    """Calls `expired` when there has been no sign for a period.
 
-    A sign costs nothing but a look at the clock: one timer runs, whatever comes.
+    One period in which we ourselves were stuck does not count, but the next one does: who hangs may be what keeps the
+    machine from everything else. A sign costs nothing but a look at the clock: one timer runs, whatever comes.
     """
 
     def __init__(self, loop: Loop, expired: Callable[[], None]) -> None:
@@ -25,6 +26,7 @@ class Deadline:
         self._expired = expired
         self._period = 0.0
         self._last = 0.0
+        self._excused = False
         self._timer: Timer | None = None
 
     @property
@@ -41,6 +43,7 @@ class Deadline:
 
     def sign(self) -> None:
         """There was a sign."""
+        self._excused = False
         self._last = self._loop.clock()
 
     def end(self) -> None:
@@ -51,8 +54,10 @@ class Deadline:
 
     def _due(self) -> None:
         now = self._loop.clock()
-        if self._timer and now - self._timer.due > LATE:
+        late = now - self._timer.due if self._timer else 0.0
+        if late > min(LATE, _LATE_SHARE * self._period) and not self._excused:
             self.begin(self._period)
+            self._excused = True
             return
         left = self._last + self._period - now
         if left > 0:

@@ -113,7 +113,7 @@ def test_a_stopped_process_does_not_hang(tmp_path: Path) -> None:
 
 def test_time_in_which_we_were_stopped_ourselves_does_not_count(tmp_path: Path) -> None:
     node = notifier("node", "tell=READY=1", "every=0.1,0", ready=ready(notify=True), alive=Alive(notify=0.8))
-    with launched(tmp_path, plan(node, process("waits", command=("sleep", "4")))) as run:
+    with launched(tmp_path, plan(node, process("waits", command=("sleep", "3")))) as run:
         run.await_event("process_ready", "node")
         pids = [run.own("orc-supervisor"), run.of_kind("process_running", "node")[0].pid or 0]
         for pid in pids:
@@ -320,6 +320,11 @@ def test_a_deadline_that_comes_much_too_late_begins_anew() -> None:
     assert not bench.told
     bench.pass_time(0.6)
     assert bench.told == ["expired"]
+    deadline.begin(10.0)
+    bench.after(30.0)
+    bench.after(30.0)
+    assert bench.told == ["expired"] * 2
+    bench.told.pop()
     deadline.begin(10.0)
     deadline.end()
     bench.after(10.0)
