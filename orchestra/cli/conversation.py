@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from orchestra.control.client import Client
 
 _IN, _OUT = 0, 1
+_OUTPUT_MODES = 1  # of what tcgetattr(3) gives
 _READ_SIZE = 4096
 # How soon typed text that the process has not taken is tried again, in seconds.
 _TRY_AGAIN = 0.05
@@ -91,7 +92,7 @@ class Conversation:
     def _take(self, message: dict[str, Any]) -> None:
         if "output" in message:
             if message["missed"]:
-                told(f"\r\n[orchestra] {message['missed']} bytes are not shown: they came too fast\r")
+                told(f"\n[orchestra] {message['missed']} bytes are not shown: they came too fast")
             _write(base64.b64decode(message["output"]))
         elif "detached" in message:
             self._leave(0, f"the process has ended: {message['detached']}")
@@ -116,7 +117,7 @@ class Conversation:
     def _leave(self, status: int, why: str) -> None:
         if self._status is None:
             self._status = status
-            told(f"\r\n[orchestra] {why}\r" if self._types else f"[orchestra] {why}")
+            told(f"\n[orchestra] {why}" if self._types else f"[orchestra] {why}")
 
 
 def _write(data: bytes) -> None:
@@ -127,12 +128,18 @@ def _write(data: bytes) -> None:
 
 @contextmanager
 def _raw(*, wanted: bool) -> Iterator[None]:
-    """Hand every key to the process, and give the terminal its modes back in the end."""
+    """Hand every key to the process, and give the terminal its modes back in the end.
+
+    What is shown goes through the terminal as before: that of a process puts no carriage return before a line feed.
+    """
     if not wanted or not sys.stdin.isatty():
         yield
         return
     before = termios.tcgetattr(_IN)
     tty.setraw(_IN)
+    modes = termios.tcgetattr(_IN)
+    modes[_OUTPUT_MODES] = before[_OUTPUT_MODES]
+    termios.tcsetattr(_IN, termios.TCSADRAIN, modes)
     try:
         yield
     finally:
