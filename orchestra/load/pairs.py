@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.description.source import Keyed, Listed, Written, shortened
 
 if TYPE_CHECKING:
-    from collections.abc import Collection
+    from collections.abc import Set as AbstractSet
 
 _LONGEST: Final = 100
 # The keys of a pair, and the lists that are made of such pairs.
@@ -26,7 +26,7 @@ def written_list(key: str, content: Any) -> str | None:  # noqa: ANN401 - a tree
     return shortened(f"{key}: [{_items(content, _LISTS[key])}]", _LONGEST)
 
 
-def written_item(known: Collection[str], content: Keyed) -> tuple[tuple[str, str], str] | None:
+def written_item(known: AbstractSet[str], content: Keyed) -> tuple[tuple[str, str], str] | None:
     """Return the keys that an item lacks which has a name as its only key, and how it is written.
 
     `known` are the keys that it may have. None where it is something else.

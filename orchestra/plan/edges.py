@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from graphlib import CycleError, TopologicalSorter
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code, Problems
 from orchestra.nearest import nearest
@@ -16,6 +16,10 @@ if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
     from orchestra.resolve.model import Resolved, ResolvedDependency, ResolvedProcess
+
+
+# What lets a process be waited for until it is ready, by whether it is brought to its active state.
+_CURES: Final = {False: "a `ready`", True: "`ready: {lifecycle: active}`, say"}
 
 
 class Targets:
@@ -136,5 +140,5 @@ def _check_ready(written: ResolvedDependency, target: str, targets: Targets, pro
             Code.NEVER_READY,
             f"'{target}' does not say when it is ready",
             written.name.location,
-            notes=(f"it is described at {awaited.location}: give it a `ready`",),
+            notes=(f"it is described at {awaited.location}: give it {_CURES[awaited.autostart]}",),
         )

@@ -368,6 +368,20 @@ OTHER_FAULTS = [
 ]
 
 
+def test_who_waits_for_an_active_node_is_told_how(tmp_path: Path) -> None:
+    text = """launch:
+- node: {exec: a, name: a, lifecycle: active}
+- executable: {cmd: b, depends_on: [{node: a, condition: ready}]}
+"""
+    (problem,) = outcome(tmp_path, text).problems
+    assert problem.code is Code.NEVER_READY
+    assert problem.notes[0].endswith("give it `ready: {lifecycle: active}`, say")
+    cured = outcome(
+        tmp_path, text.replace("lifecycle: active}", "lifecycle: active, ready: {lifecycle: active}}")
+    )
+    assert not len(cured.problems)
+
+
 @pytest.mark.parametrize(("action", "message"), OTHER_FAULTS)
 def test_what_cannot_be_is_told(tmp_path: Path, action: str, message: str) -> None:
     (problem,) = outcome(tmp_path, f"launch:\n- {action}", environment={"PATH": "/bin"}).problems
