@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from orchestra.control import door
 from orchestra.control.place import ENDING, folders
 from orchestra.logs.names import shown
-from orchestra.supervise import identity, proc
+from orchestra.supervise import caps, identity, proc
 from orchestra.supervise.marks import PROCESS, RUN, run_of
 
 if TYPE_CHECKING:
@@ -126,7 +126,11 @@ def _await(left: Collection[Remnant], seconds: float) -> None:
 
 
 def tidy(run: Run) -> None:
-    """Remove the socket of a dead run, and let its directory be that of a run that has ended. Raises `OSError`."""
+    """Remove the socket and the memory caps of a dead run, and let its directory be that of a run that has ended.
+
+    Raises `OSError`.
+    """
+    caps.clear_run(run.identity.run)
     path = door.linked(run.directory)
     if path is not None and path.endswith(f"/{run.identity.run}{ENDING}"):
         door.remove(path)

@@ -103,6 +103,12 @@ def clear(keeper: int) -> list[str]:
     return [] if found is None else clear_in(found, lambda name: _is_of(name, keeper))
 
 
+def clear_run(run: str) -> list[str]:
+    """Remove every group of a run that is dead, by its id, and return the folders of those that cannot be removed."""
+    found = own_hierarchy()
+    return [] if found is None else clear_in(found, lambda name: name.startswith(name_of(run, "")))
+
+
 def clear_in(found: Hierarchy, ours: Callable[[str], bool]) -> list[str]:
     """Remove the groups whose names are `ours`, in the own group and those above it."""
     left: list[str] = []
