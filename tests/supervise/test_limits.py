@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import os
 import resource
+import signal
+import subprocess
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -16,6 +18,8 @@ from orchestra.supervise.cgroups import Place
 from tests.supervise.plans import finished, launched, plan, process, wait_for
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from orchestra.plan.model import Process
     from tests.supervise.plans import Launched
 
@@ -179,7 +183,7 @@ def test_a_cap_counts_all_that_a_process_starts(tmp_path: Path) -> None:
         wait_for(
             lambda: not group.exists() or caps.killed(str(group)), "the end of the one that takes too much"
         )
-        run.send(2)
+        run.send(signal.SIGINT)
         run.wait()
         assert not groups_of(run)
 
@@ -200,9 +204,85 @@ def test_whoever_is_killed_no_group_is_left(tmp_path: Path, victim: str) -> None
     with launched(tmp_path, plan(program("a", lingers, Limits(memory=200 * _MEGABYTE)))) as run:
         run.await_line("a", "up")
         assert groups_of(run)
-        os.kill(run.own(victim), 9)
+        os.kill(run.own(victim), signal.SIGKILL)
         run.assert_gone()
         wait_for(lambda: not groups_of(run), "the end of the control groups", 6.0)
+
+
+@needs_caps
+def test_what_is_left_where_keeper_and_supervisor_are_killed_at_once_is_cleaned(tmp_path: Path) -> None:
+    lingers = "import signal; print('up', flush=True); signal.pause()"
+    with launched(tmp_path, plan(program("a", lingers, Limits(memory=200 * _MEGABYTE)))) as run:
+        run.await_line("a", "up")
+        supervisor, keeper = run.own("orc-supervisor"), run.popen.pid
+        for pid in (keeper, supervisor):
+            os.kill(pid, signal.SIGSTOP)
+        for pid in (keeper, supervisor):
+            os.kill(pid, signal.SIGKILL)
+        run.popen.wait()
+        assert groups_of(run)
+        cleaning = [sys.executable, "-m", "orchestra", "clean", "--yes"]
+        cleaned = subprocess.run(
+            cleaning, env={**os.environ, "ORCHESTRA_HOME": str(run.home)}, capture_output=True, check=False
+        )
+        assert cleaned.returncode == 0, cleaned.stderr
+        assert not groups_of(run)
+
+
+@pytest.fixture
+def own_group(tmp_path: Path) -> Iterator[tuple[Path, tuple[str, ...]]]:
+    """A group of version 2 that nobody is in, and the words before a command that is to be in it alone."""
+    found = cgroups.own_hierarchy()
+    if found is None or found.version == 1:
+        pytest.skip("version 2 of control groups has no memory here")
+    given = cgroups.read(f"{found.root}/cgroup.subtree_control") or ""
+    if "memory" not in given.split() or not os.access(found.root, os.W_OK):
+        pytest.skip("no group with memory can be made")
+    group = Path(found.root) / f"test-{tmp_path.name}-{os.getpid()}"
+    group.mkdir()
+    yield group, ("/bin/sh", "-c", f'echo $$ > {group}/cgroup.procs && exec "$@"', "sh")
+    for inner in sorted(group.glob("**/"), reverse=True):
+        inner.rmdir()
+
+
+def test_a_group_with_nobody_but_us_is_enough(
+    tmp_path: Path, own_group: tuple[Path, tuple[str, ...]]
+) -> None:
+    """Everybody moves out of it for the time of the run, and back."""
+    group, through = own_group
+    lingers = "print(open('/proc/self/cgroup').read(), flush=True); import signal; signal.pause()"
+    capped, free = program("a", lingers, Limits(memory=200 * _MEGABYTE)), program("b", lingers)
+    with launched(tmp_path, plan(capped, free), through=through) as run:
+        run.await_line("a", "")
+        run.await_line("b", "")
+        assert ".a.1\n" in run.log("a")
+        assert ".supervisor\n" in run.log("b")
+        assert not cgroups.members(str(group))
+        run.send(signal.SIGINT)
+        run.wait()
+    assert [path for path in group.iterdir() if path.is_dir()] == []
+    assert cgroups.read(f"{group}/cgroup.subtree_control") == "\n"
+
+
+def test_a_group_of_a_service_that_gives_us_one_below_it(
+    tmp_path: Path, own_group: tuple[Path, tuple[str, ...]]
+) -> None:
+    """As systemd does for `DelegateSubgroup=`: the caps stand beside our own group, and nobody has to move."""
+    group, _ = own_group
+    ours = group / "main"
+    ours.mkdir()
+    cgroups.write(f"{group}/cgroup.subtree_control", "+memory")
+    os.setxattr(group, "user.delegate", b"1")
+    through = ("/bin/sh", "-c", f'echo $$ > {ours}/cgroup.procs && exec "$@"', "sh")
+    lingers = "import signal; print('up', flush=True); signal.pause()"
+    capped = program("a", lingers, Limits(memory=200 * _MEGABYTE))
+    with launched(tmp_path, plan(capped), through=through) as run:
+        run.await_line("a", "up")
+        assert len(list(group.glob("orchestra-*.a.1"))) == 1
+        assert run.own("orc-supervisor") in cgroups.members(str(ours))
+        os.kill(run.own("orc-supervisor"), signal.SIGKILL)
+        run.assert_gone()
+        wait_for(lambda: not list(group.glob("orchestra-*")), "the end of the control groups", 6.0)
 
 
 def test_a_run_without_limits_makes_no_group(tmp_path: Path) -> None:
