@@ -2,7 +2,8 @@
 
 The supervisor is in a session of its own, without a controlling terminal, so the kernel does not stop it when it reads
 from a terminal in the background (it checks only processes of the terminal's own session). It has to look itself: while
-the keeper is not in the foreground, what is typed is the shell's.
+the keeper is not in the foreground, what is typed is the shell's. Nothing tells that the keeper is there again (a shell
+sends SIGCONT only to what was stopped), but then somebody types.
 """
 
 from __future__ import annotations
@@ -15,11 +16,13 @@ from orchestra.supervise import proc, terminal_modes
 from orchestra.supervise.terminal import Terminal, our_size
 
 if TYPE_CHECKING:
-    from orchestra.supervise.loop import Loop
+    from orchestra.supervise.loop import Loop, Timer
     from orchestra.supervise.terminal_modes import Modes
 
 _STDIN = 0
 _READ_SIZE = 4096
+# While keys are not ours we look no more often than this, in seconds, and only when there are some.
+_LOOK_AGAIN = 0.5
 
 
 class Console:
@@ -34,6 +37,7 @@ class Console:
         self._terminals: set[Terminal] = set()
         self._held = b""
         self._listening = False
+        self._timer: Timer | None = None
         self._hung_up = False
 
     @property
@@ -63,8 +67,7 @@ class Console:
 
     def suspend(self) -> None:
         """The terminal is the shell's for now; the keeper has given it its modes back."""
-        self._listen(wanted=False)
-        self._modes = None
+        self._leave_alone()
 
     def resume(self) -> None:
         """The keeper goes on, in the foreground or not."""
@@ -76,7 +79,8 @@ class Console:
         held, self._held = self._held, b""
         if held and self._typed_to:
             self._hand_on(held)
-        self._listen(wanted=self._modes is not None)
+        elif self._typed_to and self._timer is None:
+            self._listen(wanted=True)
 
     def close(self) -> None:
         """Give the terminal back as it was."""
@@ -86,19 +90,34 @@ class Console:
             self._descriptor = None
 
     def _begin(self) -> None:
-        """Listen to the keys where it is our turn; else `resume` comes when it is."""
-        if self._hung_up or not self._in_foreground():
+        """Listen to the keys where it is our turn, and for it where it is not."""
+        if self._hung_up:
             return
+        self._forget_timer()
         try:
             if self._descriptor is None:
                 self._descriptor = _open_anew()
-            self._modes = terminal_modes.pass_keys_on(_STDIN)
+            if self._in_foreground():
+                self._modes = terminal_modes.pass_keys_on(_STDIN)
         except (OSError, termios.error):
             self._hang_up()
             return
         self._listen(wanted=not self._held)
 
+    def _leave_alone(self) -> None:
+        """Let the shell have the keys, and look later."""
+        self._listen(wanted=False)
+        self._modes = None
+        if self._typed_to and self._timer is None:
+            self._timer = self._loop.call_later(_LOOK_AGAIN, self._begin)
+
+    def _forget_timer(self) -> None:
+        if self._timer:
+            self._timer.cancel()
+            self._timer = None
+
     def _end(self) -> None:
+        self._forget_timer()
         self._listen(wanted=False)
         if self._in_foreground():
             terminal_modes.give_back(self._modes)
@@ -117,8 +136,10 @@ class Console:
         if self._descriptor is None:
             return
         if not self._in_foreground():
-            self.suspend()
+            self._leave_alone()
             return
+        if self._modes is None:
+            self._begin()
         try:
             data = os.read(self._descriptor, _READ_SIZE)
         except BlockingIOError:

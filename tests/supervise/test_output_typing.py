@@ -134,6 +134,40 @@ def test_the_terminal_is_given_back_between_two_runs_of_the_process(tmp_path: Pa
         assert run.wait() == 130
 
 
+SHELL = """
+set -m
+"$@"
+[[ $(stty -a) == *" icanon"* ]] && echo shell has lines
+bg
+echo shell is here
+read line
+echo shell got $line
+fg
+"""
+
+
+def test_in_the_background_what_is_typed_is_the_shells(tmp_path: Path) -> None:
+    """Suspended by Ctrl-Z, put into the background, and brought back, which nothing tells us."""
+    through = ("/bin/bash", "--norc", "-c", SHELL, "bash")
+    code = "for line in sys.stdin: print('got', line.strip())"
+    with in_terminal(tmp_path, asking(code), through=through) as (run, terminal):
+        begun(terminal)
+        terminal.type(b"one\r")
+        await_text(terminal, b"got one")
+        terminal.type(b"\x1a")
+        await_text(terminal, b"shell has lines")
+        await_text(terminal, b"shell is here")
+        terminal.type(b"two\r")
+        await_text(terminal, b"shell got two")
+        terminal.type(b"three\r")
+        await_text(terminal, b"got three")
+        wait_for(lambda: modes(terminal) == 0, "keys to be passed on")
+        terminal.type(b"\x04")
+        assert run.wait() == 0
+        assert b"got two" not in terminal.read().replace(b"shell got two", b"")
+        assert modes(terminal) == ECHO
+
+
 def set_size(descriptor: int, columns: int, lines: int) -> None:
     fcntl.ioctl(descriptor, termios.TIOCSWINSZ, struct.pack("HHHH", lines, columns, 0, 0))
 
