@@ -27,9 +27,10 @@ def heard(line: str) -> dict[str, Any] | None:
         message = json.loads(line)
     except (ValueError, RecursionError):
         return None
-    if not isinstance(message, dict) or not ("pong" in message or isinstance(message.get("id"), str)):
+    if not isinstance(message, dict):
         return None
-    return message
+    spoken = all(isinstance(message.get(name), str) for name in ("id", "say"))
+    return message if spoken or "pong" in message else None
 
 
 def fits(message: dict[str, Any], done: str) -> bool:

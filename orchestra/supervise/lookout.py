@@ -7,6 +7,7 @@ been loaded is not: the same one twice is worse than an error.
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
@@ -45,8 +46,12 @@ class Patience(NamedTuple):
 
 @dataclass(slots=True)
 class _Open:
-    """An order, who hears of it, and whether it has come so far that a node has been asked something."""
+    """An order, who hears of it, and whether it has come so far that a node has been asked something.
 
+    Its id is its own: an answer to an earlier order of the same name may still be on its way.
+    """
+
+    id: str
     order: Mapping[str, Any]
     heard: Heard
     asked: bool = False
@@ -63,6 +68,7 @@ class Lookout:
         self._observer: Observer | None = None
         self._former: list[Observer] = []
         self._open: dict[str, _Open] = {}
+        self._numbers = itertools.count(1)
         self._replaced_at: float | None = None
         self._timer: Timer | None = None
         self._unanswered = 0
@@ -84,17 +90,18 @@ class Lookout:
 
     def order(self, name: str, order: Mapping[str, Any], heard: Heard) -> None:
         """Have something done; `heard` gets everything that is said to it."""
-        self._open[name] = _Open(order, heard)
+        self._open[name] = one = _Open(f"{next(self._numbers)} {name}", order, heard)
         try:
-            self.prepare().tell({"id": name, **order})
+            self.prepare().tell({"id": one.id, **order})
         except OSError as error:
             self._fail([name], f"the observer could not be started: {error}")
         self._attend()
 
     def forget(self, name: str) -> None:
         """Take an order back."""
-        if self._open.pop(name, None) and self._observer:
-            self._observer.tell({"forget": name})
+        one = self._open.pop(name, None)
+        if one and self._observer:
+            self._observer.tell({"forget": one.id})
 
     def drop(self) -> None:
         """Look out for nothing any more; what nodes are asked goes on."""
@@ -117,8 +124,9 @@ class Lookout:
         if "pong" in message:
             self._unanswered, self._answers = 0, True
             return
-        one = self._open.get(message["id"])
-        if one is None:  # taken back while the answer was on its way
+        _, _, name = message["id"].partition(" ")
+        one = self._open.get(name)
+        if one is None or one.id != message["id"]:  # taken back while the answer was on its way
             return
         if not dialogue.fits(message, one.order["do"]):
             observer.kill()
@@ -126,7 +134,7 @@ class Lookout:
             return
         one.asked = one.asked or message["say"] == "asking"
         if dialogue.is_final(message):
-            del self._open[message["id"]]
+            del self._open[name]
         one.heard(message)
 
     def _lost(self, observer: Observer, why: str) -> None:
@@ -157,9 +165,9 @@ class Lookout:
         except OSError as error:
             self._fail([*self._open], f"the observer could not be started again: {error}")
             return
-        for name, one in self._open.items():
-            if observer:
-                observer.tell({"id": name, **one.order, "again": True})
+        for one in [*self._open.values()]:
+            if observer and observer is self._observer:  # it may be lost already
+                observer.tell({"id": one.id, **one.order, "again": True})
         self._attend()
 
     def _fail(self, names: Sequence[str], reason: str) -> None:

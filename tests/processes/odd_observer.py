@@ -24,7 +24,7 @@ GARBAGE = {
     "list": "[1]",
     "nameless": '{"say": "done"}',
     "wordless": '{"id": "a"}',
-    "factless": '{"id": "a", "say": "moved", "transition": 1}',
+    "factless": '{"id": "1 a", "say": "moved", "transition": 1}',
     "endless": "x" * 200_000,
 }
 RESULTS = {"change_state": {"state": "active"}, "load": {"node": "/c", "unique_id": 1}}

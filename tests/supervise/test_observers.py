@@ -16,7 +16,7 @@ from orchestra.supervise.kin import Kin
 from orchestra.supervise.lookout import Patience
 from orchestra.supervise.loop import Loop
 from orchestra.supervise.observation import Observers
-from tests.supervise.plans import PATIENCE, PROCESSES
+from tests.supervise.plans import PATIENCE, PROCESSES, wait_for
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -53,13 +53,17 @@ class Run:
             tick.cancel()
 
     def words(self) -> list[tuple[str, str]]:
-        return [(message["id"], message["say"]) for message in self.heard]
+        return [(message["id"].split()[-1], message["say"]) for message in self.heard]
 
     def orders(self, number: int) -> list[dict[str, Any]]:
-        """What the n-th observer was told, pings left out."""
+        """What the n-th observer was told, pings left out; ids without their numbers."""
         path = self.folder / str(number)
         lines = path.read_text().splitlines() if path.exists() else []
-        return [message for message in map(json.loads, lines) if "ping" not in message]
+        messages = [message for message in map(json.loads, lines) if "ping" not in message]
+        return [
+            {key: value.partition(" ")[2] if key in ("id", "forget") else value for key, value in one.items()}
+            for one in messages
+        ]
 
     @property
     def started(self) -> int:
@@ -155,6 +159,19 @@ def test_one_with_nothing_to_do_leaves_and_the_next_order_starts_another(run: Ru
     run.until(lambda: ("b", "done") in run.words())
     assert not [word for word in run.words() if word[0] == "a"]
     assert run.told == []
+
+
+@pytest.mark.parametrize("run", ["good"], indirect=True)
+def test_an_answer_to_an_earlier_order_of_the_same_name_is_none_to_this_one(run: Run) -> None:
+    heard: list[dict[str, Any]] = []
+    run.observers.order("a", WATCH, {**os.environ, "ROS_DOMAIN_ID": "1"}, heard.append)
+    wait_for(lambda: run.orders(0), "the order")  # the answer is there, and we do not read it
+    run.observers.forget("a")
+    run.order("a", CHANGE)
+    run.until(lambda: ("a", "done") in run.words())
+    assert run.words() == [("a", "asking"), ("a", "done")]
+    assert run.heard[1]["state"] == "active"
+    assert heard == []
 
 
 @pytest.mark.parametrize("run", ["mute"], indirect=True)
