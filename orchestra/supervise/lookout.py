@@ -69,6 +69,7 @@ class Lookout:
         self._former: list[Observer] = []
         self._open: dict[str, _Open] = {}
         self._numbers = itertools.count(1)
+        self._dropped = False
         self._replaced_at: float | None = None
         self._timer: Timer | None = None
         self._unanswered = 0
@@ -90,6 +91,8 @@ class Lookout:
 
     def order(self, name: str, order: Mapping[str, Any], heard: Heard) -> None:
         """Have something done; `heard` gets everything that is said to it."""
+        if self._dropped and order["do"] in _LOOKING:
+            return
         self._open[name] = one = _Open(f"{next(self._numbers)} {name}", order, heard)
         try:
             self.prepare().tell({"id": one.id, **order})
@@ -104,7 +107,8 @@ class Lookout:
             self._observer.tell({"forget": one.id})
 
     def drop(self) -> None:
-        """Look out for nothing any more; what nodes are asked goes on."""
+        """Look out for nothing any more, whoever asks; what nodes are asked goes on."""
+        self._dropped = True
         for name in [name for name, one in self._open.items() if one.order["do"] in _LOOKING]:
             self.forget(name)
 

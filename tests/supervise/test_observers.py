@@ -180,8 +180,10 @@ def test_at_the_end_only_what_nodes_are_asked_goes_on(run: Run) -> None:
     run.order("r", {"do": "rate", "topic": "/t", "window": 1.0})
     run.order("b", CHANGE)
     run.observers.drop()
-    run.until(lambda: len(run.orders(0)) == 5)
-    assert run.orders(0)[3:] == [{"forget": "a"}, {"forget": "r"}]
+    run.order("w", WATCH)
+    run.order("c", CHANGE)
+    run.until(lambda: len(run.orders(0)) == 6)
+    assert run.orders(0)[3:] == [{"forget": "a"}, {"forget": "r"}, {"id": "c", **CHANGE}]
 
 
 def test_one_that_cannot_be_started_is_a_reason(tmp_path: Path) -> None:
