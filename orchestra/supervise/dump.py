@@ -11,6 +11,7 @@ import time
 from typing import TYPE_CHECKING
 
 from orchestra.supervise import proc
+from orchestra.supervise.stacks import QUIET
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -19,8 +20,8 @@ if TYPE_CHECKING:
     from orchestra.supervise.loop import Loop, Timer
     from orchestra.supervise.stacks import Stacks
 
-# What the resolver writes comes at once and in one go; a resolver that cannot run writes nothing. In seconds.
-_QUIET = 0.3
+# A resolver that can run begins to write within this time, in seconds.
+_PATIENCE = 1.0
 _OURS = "supervisor"
 
 
@@ -42,6 +43,7 @@ class Dump:
         self._began = loop.clock()
         self._parts: list[str] = []
         self._asked: int | None = None
+        self._answer = ""
         self._timer: Timer | None = None
 
     def take(self) -> None:
@@ -57,7 +59,8 @@ class Dump:
             return
         os.kill(self._asked, signal.SIGQUIT)
         self._loop.on_readable(self._stacks.descriptor, self._answered)
-        self._timer = self._loop.call_later(_QUIET, self._quiet)
+        self._answer = ""
+        self._timer = self._loop.call_later(_PATIENCE, self._finish)
 
     def _our_stacks(self) -> str:
         """Return what keeper and supervisor wrote, each when the signal came to it."""
@@ -72,21 +75,23 @@ class Dump:
         )
 
     def _answered(self) -> None:
-        self._parts.append(f"resolver (pid {self._asked}):\n{self._stacks.read().rstrip()}")
-        self._finish()
-
-    def _quiet(self) -> None:
-        facts = proc.stat(self._asked or 0)
-        state = f"; its state is {facts.state}" if facts else ""
-        self._parts.append(f"resolver (pid {self._asked}): it does not answer{state}")
-        self._finish()
-
-    def _finish(self) -> None:
+        """Take what has come, and wait for more of it."""
+        self._answer += self._stacks.read()
         if self._timer:
             self._timer.cancel()
+        self._timer = self._loop.call_later(QUIET, self._finish)
+
+    def _finish(self) -> None:
         self._timer = None
         self._loop.forget(self._stacks.descriptor)
+        self._parts.append(f"resolver (pid {self._asked}):{self._of_resolver()}")
         self._tell()
+
+    def _of_resolver(self) -> str:
+        if self._answer:
+            return f"\n{self._answer.rstrip()}"
+        facts = proc.stat(self._asked or 0)
+        return " it does not answer" + (f"; its state is {facts.state}" if facts else "")
 
     def _tell(self) -> None:
         text = "\n".join(part for part in self._parts if part)

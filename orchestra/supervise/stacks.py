@@ -13,6 +13,8 @@ import signal
 
 from orchestra.supervise import kernel
 
+# A handler writes line by line; when nothing has come for so long, that was all. In seconds.
+QUIET = 0.1
 _READ_SIZE = 65536
 
 
@@ -44,13 +46,14 @@ class Stacks:
             return  # the pipe is full of stacks that nobody has read
 
     def read(self, patience: float = 0.0) -> str:
-        """Return what has been written, and wait so many seconds for the first of it."""
+        """Return what has been written; with patience, wait so many seconds for the first of it, and for its end."""
         poll = select.poll()
         poll.register(self.descriptor, select.POLLIN)
-        poll.poll(patience * 1000)
         content = bytearray()
-        while True:
+        while poll.poll(patience * 1000):
             try:
                 content += os.read(self.descriptor, _READ_SIZE)
             except BlockingIOError:
-                return content.decode("utf-8", "replace")
+                break  # the other reader was quicker
+            patience = min(patience, QUIET)
+        return content.decode("utf-8", "replace")
