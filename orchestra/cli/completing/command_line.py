@@ -19,7 +19,13 @@ if TYPE_CHECKING:
 
 # The function of `launch_words` that knows the words of a command; those of the others are the choices of its parser.
 _WORDS: Final = {"launch": "launch_words", "plan": "launch_words", "check": "check_words", "run": "run_words"}
-_FILE = "FILE"
+_OF_RUNS: Final = {
+    **dict.fromkeys(("start", "stop", "restart", "logs", "events", "attach"), "process_words"),
+    "signal": "signal_words",
+}
+# Here `--name RUN` is a new name.
+_NAMING: Final = frozenset({"launch", "run"})
+_FILE, _RUN = "FILE", "RUN"
 
 
 def candidates(before: Sequence[str], begun: str) -> list[Candidate]:
@@ -38,18 +44,24 @@ def _of_command(command: str, parser: CommandParser, given: Sequence[str], begun
     options = {name: option for option in parser.actions for name in option.option_strings}
     words, waiting, closed = _positional(given, options, intermixed=parser.intermixed)
     if waiting is not None:
-        return _values(waiting, begun)
+        return _values(command, waiting, begun)
     if begun.startswith("-") and not closed:
         name, separator, value = begun.partition("=")
         if separator and name in options:
-            found = _values(options[name], value)
+            found = _values(command, options[name], value)
             return (candidate._replace(word=f"{name}={candidate.word}") for candidate in found)
         return _options(options, given)
-    if command in _WORDS:
-        known = import_module("orchestra.cli.completing.launch_words")
-        function: Words = getattr(known, _WORDS[command])
-        return function(words, begun)
-    return _choices(parser, words)
+    function = _words_of(command)
+    return function(words, begun) if function else _choices(parser, words)
+
+
+def _words_of(command: str) -> Words | None:
+    """Return what knows the words of a command; only its module is imported."""
+    for table, module in ((_WORDS, "launch_words"), (_OF_RUNS, "run_words")):
+        if command in table:
+            found: Words = getattr(import_module(f"orchestra.cli.completing.{module}"), table[command])
+            return found
+    return None
 
 
 def _positional(
@@ -84,9 +96,14 @@ def _options(options: dict[str, argparse.Action], given: Sequence[str]) -> Itera
             yield Candidate(name, option.help or "")
 
 
-def _values(option: argparse.Action, begun: str) -> Iterable[Candidate]:
+def _values(command: str, option: argparse.Action, begun: str) -> Iterable[Candidate]:
     if option.choices is not None:
         return map(Candidate, map(str, option.choices))
+    if option.metavar == _RUN and command not in _NAMING:
+        names: Callable[[], Iterable[Candidate]] = import_module(
+            "orchestra.cli.completing.run_words"
+        ).run_names
+        return names()
     return paths(begun) if option.metavar == _FILE else ()
 
 
