@@ -72,7 +72,13 @@ def pending(pid: int, number: int) -> bool:
     return bool(int(mask, 16) >> (number - 1) & 1)
 
 
-@pytest.mark.parametrize("stopping", [False, True], ids=["while it runs", "while it stops"])
+@pytest.mark.parametrize(
+    "stopping",
+    [
+        pytest.param(False, marks=pytest.mark.long, id="while it runs"),
+        pytest.param(True, id="while it stops"),
+    ],
+)
 def test_without_a_keeper_nobody_gets_more_time_than_usual(tmp_path: Path, *, stopping: bool) -> None:
     patient = Stop(timeout=60.0, kill_timeout=60.0)
     with launched(tmp_path, plan(process("a", *STUBBORN, stop=patient))) as run:

@@ -117,7 +117,7 @@ def test_a_resolver_that_cannot_answer_is_told(tmp_path: Path) -> None:
 
 
 def test_a_dump_on_a_blocked_terminal_is_in_the_run_directory(tmp_path: Path) -> None:
-    noisy = process("noisy", "bytes=12000000", "say=done", "linger")
+    noisy = process("noisy", "bytes=1200000", "say=done", "linger")
     with in_terminal(tmp_path, noisy) as (run, terminal):
         run.await_line("noisy", "done")
         terminal.type(b"\x1c")

@@ -44,8 +44,17 @@ def _without_keeper(run: Launched) -> int:
     return -signal.SIGKILL
 
 
-@pytest.mark.parametrize("attack", [_stop, _without_supervisor, _without_keeper])
-@pytest.mark.parametrize("words", ["pairs=25", "comets=3"])
+@pytest.mark.parametrize(
+    ("words", "attack"),
+    [
+        ("pairs=25", _stop),
+        ("pairs=25", _without_supervisor),
+        ("comets=3", _stop),
+        pytest.param("pairs=25", _without_keeper, marks=pytest.mark.long),
+        pytest.param("comets=3", _without_keeper, marks=pytest.mark.long),
+        pytest.param("comets=3", _without_supervisor, marks=pytest.mark.long),
+    ],
+)
 def test_a_storm_ends(tmp_path: Path, words: str, attack: Callable[[Launched], int]) -> None:
     with launched(tmp_path, plan(storm(words))) as run:
         run.await_line("a", "up")
@@ -87,7 +96,7 @@ while True:
 """
 
 
-@pytest.mark.parametrize("attack", [_stop, _without_supervisor])
+@pytest.mark.parametrize("attack", [_stop, pytest.param(_without_supervisor, marks=pytest.mark.long)])
 def test_what_a_process_of_the_plan_traces_ends(tmp_path: Path, attack: Callable[[Launched], int]) -> None:
     words = (sys.executable, "-S", "-E", "-c", TRACER)
     with launched(tmp_path, plan(process("a", command=words, stop=QUICK))) as run:
