@@ -143,7 +143,7 @@ def resident(pid: int) -> int:
 
 def test_a_disk_that_hangs_stops_nobody(tmp_path: Path) -> None:
     noisy = process(
-        "noisy", "polite", "bytes=60000000", "complain=done", "linger",
+        "noisy", "polite", "bytes=12000000", "complain=done", "linger",
         depends_on=after("block", "completed"), output={"stderr": ("screen",)},
     )  # fmt: skip
     with launched(tmp_path, plan(blocked("noisy"), noisy)) as run:
@@ -159,7 +159,7 @@ def test_a_disk_that_hangs_stops_nobody(tmp_path: Path) -> None:
 
 def test_a_disk_that_is_only_slow_loses_nothing(tmp_path: Path) -> None:
     """Somebody reads the pipe, so it is a disk that takes its time; the program waits for it."""
-    size = 24_000_000
+    size = 6_000_000
     noisy = process("noisy", f"bytes={size}", depends_on=after("block", "completed"), output="own_log")
     with launched(tmp_path, plan(blocked("noisy"), noisy), stdout=subprocess.DEVNULL) as run:
         run.await_event("process_running", "noisy")
