@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _READ_SIZE = 65536
 # How many lines of one client are seen to before the others, and the run itself, have their turn.
-_LINES_PER_TURN = 8
+_LINES_PER_TURN = 4
 
 
 class Guest:

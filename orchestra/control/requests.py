@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import signal
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.control import protocol
@@ -25,15 +25,15 @@ from orchestra.control.protocol import Refusal
 from orchestra.control.selection import UnmatchedError, select
 from orchestra.control.subscribers import Subscribers
 from orchestra.control.waiting import Waiting
-from orchestra.supervise.operation import Operation
+from orchestra.supervise.operation import Operation, Standing
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
     from orchestra.control.guest import Guest
     from orchestra.control.protocol import Request
-    from orchestra.supervise.operation import Standing
 
+_FIELDS = tuple(field.name for field in fields(Standing))
 _BY_AN_OPERATOR = "an operator ended it"
 
 
@@ -59,7 +59,12 @@ def _subscribe(desk: Desk, guest: Guest, request: Request) -> None:
 
 
 def _seen(desk: Desk) -> dict[str, Any]:
-    return {"run": dict(desk.run), "processes": [asdict(found) for found in desk.operation.processes()]}
+    return {"run": dict(desk.run), "processes": [_told(found) for found in desk.operation.processes()]}
+
+
+def _told(standing: Standing) -> dict[str, Any]:
+    """Return a standing as JSON data; `dataclasses.asdict` would copy every value of it."""
+    return {name: getattr(standing, name) for name in _FIELDS}
 
 
 def _start(desk: Desk, guest: Guest, request: Request) -> None:
@@ -88,7 +93,7 @@ def _change(
         if standings is None:
             guest.send(protocol.refusal(request.id, Refusal("over", "the run ended meanwhile")))
             return
-        processes = {name: asdict(standing) for name, standing in standings.items()}
+        processes = {name: _told(standing) for name, standing in standings.items()}
         guest.send(protocol.answer(request.id, {"refused": refused, "processes": processes}))
 
     if wait and concerned:
@@ -102,7 +107,7 @@ def _signal(desk: Desk, guest: Guest, request: Request) -> None:
     told = desk.operation.signal(_selected(desk, request), number)
     refused = {name: why for name, why in told.items() if why is not None}
     processes = {
-        found.id: asdict(found)
+        found.id: _told(found)
         for found in desk.operation.processes()
         if found.id in told and found.id not in refused
     }

@@ -109,8 +109,7 @@ def test_ps_for_programs(run: Launched, orchestra: Command) -> None:
     assert (last["phase"], last["ending"], last["memory"]) == ("failed", "exit code 3", None)
 
 
-def test_ps_tells_of_a_run_that_does_not_answer(run: Launched, orchestra: Command) -> None:
-    """A supervisor that is stopped cannot: nobody waits for it for ever."""
+def test_ps_tells_of_a_run_that_cannot_be_asked(run: Launched, orchestra: Command) -> None:
     (run.directory / "control.sock").unlink()
     found = orchestra("ps")
     assert (found.returncode, found.stdout) == (1, "")
