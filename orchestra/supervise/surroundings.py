@@ -64,8 +64,8 @@ class Surroundings:
     """The loop, our children, where output and events go, what looks into the ROS graph, and who knows the user's code.
 
     `environment` is that of a process; of None what every process has before its description adds to it. `folder` is
-    the run directory. `more_time` asks the keeper to wait so many seconds for the end of the run, which is longer than
-    usual, and tells whether it will.
+    the run directory. `intake` says how fast output may be read, `console` is the user's terminal. `more_time` asks the
+    keeper to wait so many seconds for the end of the run, which is longer than usual, and tells whether it will.
     """
 
     loop: Loop
