@@ -20,7 +20,7 @@ from tests.chaos.cases import Case
 from tests.chaos.judging import judge
 from tests.chaos.playing import HANG, play
 from tests.chaos.smaller import smallest
-from tests.chaos.stage import unshare_words
+from tests.chaos.stage import here
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -135,7 +135,7 @@ def _campaign(options: Namespace) -> int:
 def _cases(seed: str, options: Namespace) -> Iterator[Case]:
     numbers = range(options.runs) if options.only is None else [options.only]
     for number in numbers:
-        yield inventing.case(f"{seed}:{number}", private=unshare_words() is not None)
+        yield inventing.case(f"{seed}:{number}", here())
 
 
 def _fails(case: Case) -> bool:

@@ -55,7 +55,10 @@ class Member:
 
 @dataclass(frozen=True, slots=True)
 class Root:
-    """A process of the plan, and what the plan says about it. `stop` is the two times of the stop ladder."""
+    """A process of the plan, and what the plan says about it.
+
+    `stop` is the two times of the stop ladder. `capped`: it has a memory cap. `stdin`: it has the user's terminal.
+    """
 
     member: Member
     respawn: bool = False
@@ -65,6 +68,8 @@ class Root:
     ready: bool = False
     never_ready: bool = False
     tty: bool = False
+    capped: bool = False
+    stdin: bool = False
     stop: tuple[float, float] | None = None
 
 

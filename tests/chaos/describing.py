@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.supervise import document
 from orchestra.supervise.options import RunOptions
-from orchestra.values import Restart, Stop
+from orchestra.values import Limits, Restart, Stop
 from tests.chaos.cases import member_words
 from tests.supervise.plans import PROCESSES, after, plan, process, ready_when
 
@@ -19,6 +19,8 @@ if TYPE_CHECKING:
     from tests.chaos.cases import Case, Member, Root
 
 NEVER = "/never"
+# More than any member needs: 50 of them at once, too.
+_CAP = 1 << 30
 
 
 def prepared(case: Case, folder: Path, cookie: str) -> tuple[str, ...]:
@@ -53,6 +55,8 @@ def _process(root: Root, cookie: str) -> Process:
     changes: dict[str, Any] = {
         "restart": Restart("always") if root.respawn else None,
         "depends_on": after(root.needs[0], "ready" if root.needs_ready else "started") if root.needs else (),
+        "limits": Limits(memory=_CAP) if root.capped else None,
+        "stdin": True if root.stdin else None,
         "stop": Stop(timeout=root.stop[0], kill_timeout=root.stop[1]) if root.stop else None,
     }
     return process(
@@ -81,6 +85,10 @@ def _action(root: Root, cookie: str) -> dict[str, Any]:
     if root.needs:
         condition = "ready" if root.needs_ready else "started"
         action["depends_on"] = [{"process": name, "condition": condition} for name in root.needs]
+    if root.capped:
+        action["limits"] = {"memory": _CAP}
+    if root.stdin:
+        action["stdin"] = True
     if root.stop:
         action["stop"] = {"timeout": root.stop[0], "kill_timeout": root.stop[1]}
     return action

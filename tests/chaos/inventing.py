@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from random import Random
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from tests.chaos.cases import MANNERS, Act, Case, Member, Root
 
@@ -15,18 +16,36 @@ _STOP_SIGNALS = ("INT", "TERM", "HUP")
 _STORM = 50
 
 
-def case(seed: str, *, private: bool = True) -> Case:
-    """Return the case of a seed. Without `private` file systems there are no small disks."""
+class Abilities(NamedTuple):
+    """What the machine allows: file systems that nobody else sees, memory caps."""
+
+    private: bool
+    caps: bool
+
+
+_EVERYTHING = Abilities(private=True, caps=True)
+
+
+def case(seed: str, here: Abilities = _EVERYTHING) -> Case:
+    """Return the case of a seed, which asks for no more than is possible here."""
     chance = Random(seed)  # noqa: S311 - that is the purpose
     roots = _roots(chance)
     door: Door = "launch file" if chance.random() < 0.4 else "document"
     screen: Screen = chance.choices(
         ("file", "full pipe", "closed pipe", "terminal", "blocked terminal"), (4, 1, 1, 3, 2)
     )[0]
-    disk = chance.choice((64, 300)) if private and chance.random() < 0.2 else None
+    disk = chance.choice((64, 300)) if here.private and chance.random() < 0.2 else None
     leaps = door == "document" and chance.random() < 0.15
     acts = _acts(chance, screen, disk)
+    if screen in ("terminal", "blocked terminal") and chance.random() < 0.3:
+        roots = _with(roots, chance.randrange(len(roots)), stdin=True, tty=False)
+    if here.caps and chance.random() < 0.2:
+        roots = _with(roots, chance.randrange(len(roots)), capped=True)
     return Case(seed, roots, acts, door, screen, disk, leaps)
+
+
+def _with(roots: tuple[Root, ...], number: int, **changes: bool) -> tuple[Root, ...]:
+    return (*roots[:number], replace(roots[number], **changes), *roots[number + 1 :])  # type: ignore[arg-type]
 
 
 def _roots(chance: Random) -> tuple[Root, ...]:

@@ -28,7 +28,13 @@ def _left(case: Case, seen: Observation) -> Iterator[str]:
     remains = seen.remains
     # Whether shared memory came during the run is told by the time of its file, on the clock that leaps.
     litter = tuple(path for path in remains.litter if not (case.leaps and "fastrtps_" in path))
-    for kind, names in (("process", remains.processes), ("socket", remains.sockets), ("file", litter)):
+    left = {
+        "process": remains.processes,
+        "socket": remains.sockets,
+        "file": litter,
+        "control group": remains.groups,
+    }
+    for kind, names in left.items():
         if names:
             yield f"left behind, {kind}: {len(names)}, {', '.join(names[:4])}"
 
@@ -38,7 +44,9 @@ def _ended(case: Case, seen: Observation) -> Iterator[str]:
         yield f"it hangs: nothing has ended {HANG:g} s after the last act"
     elif seen.status not in allowed(case, seen):
         yield f"its status is {seen.status}, and not one of {sorted(allowed(case, seen))}"
-    yield from (f"it says {words!r}" for words in _BUGS if re.search(words, seen.screen))
+    # What has the terminal for itself speaks without its name.
+    bugs = _BUGS[1:] if any(root.stdin for root in case.roots) else _BUGS
+    yield from (f"it says {words!r}" for words in bugs if re.search(words, seen.screen))
 
 
 def _told(case: Case, seen: Observation) -> Iterator[str]:
@@ -82,6 +90,6 @@ def _log_faults(root: Root, seen: Observation, *, dead: bool) -> Iterator[str]:
         event for event in seen.events if event.kind == "process_ended" and event.process == root.member.name
     ]
     expected = sum(event.data.get("code") == root.member.code for event in ends)
-    for letter in "o" if root.tty else "oe":
+    for letter in "o" if root.tty or root.stdin else "oe":
         if whole[letter] != expected:
             yield f"it wrote {expected} times all it had to say to stream {letter}, and {whole[letter]} are in its log"

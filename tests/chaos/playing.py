@@ -33,6 +33,7 @@ class Remains:
     processes: tuple[str, ...]
     sockets: tuple[str, ...]
     litter: tuple[str, ...]
+    groups: tuple[str, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +97,7 @@ def _observation(
         tuple(f"{text} (pid {pid})" for pid, text in stage.processes().items()),
         tuple(stage.sockets()),
         tuple(stage.litter()),
+        tuple(stage.groups(actor.keeper)),
     )
     names = [root.member.name for root in case.roots]
     logs = {name: _log(stage, name) for name in names}

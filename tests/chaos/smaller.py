@@ -49,7 +49,7 @@ def _plainer_root(root: Root) -> Iterator[Root]:
     for member in _plainer(root.member):
         yield replace(root, member=member)
     usual = type(root)(root.member)
-    for name in ("respawn", "required", "ready", "never_ready", "tty", "stop"):
+    for name in ("respawn", "required", "ready", "never_ready", "tty", "capped", "stdin", "stop"):
         if getattr(root, name) != getattr(usual, name):
             yield replace(root, **{name: getattr(usual, name)})
     if root.needs:

@@ -19,7 +19,8 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from orchestra.supervise import proc
+from orchestra.supervise import cgroups, proc
+from tests.chaos.inventing import Abilities
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -46,6 +47,13 @@ def unshare_words() -> tuple[str, ...] | None:
             if subprocess.run(command, capture_output=True, check=False, timeout=20).returncode == 0:
                 return words
     return None
+
+
+@cache
+def here() -> Abilities:
+    """Return what is possible on this machine."""
+    place = cgroups.find_place(cgroups.own_hierarchy(), [os.getpid()])
+    return Abilities(unshare_words() is not None, isinstance(place, cgroups.Place) and not place.vacate)
 
 
 @dataclass(frozen=True)
@@ -107,6 +115,12 @@ class Stage:
             shared = self.seen(Path("/dev/shm")).iterdir()  # noqa: S108 - of its own
             found += [str(path) for path in shared if not path.name.startswith(_OF_THE_USER)]
         return found
+
+    def groups(self, keeper: int) -> list[str]:
+        """Return the control groups that were made for the run of a keeper."""
+        hierarchy = cgroups.own_hierarchy()
+        folders = cgroups.upwards(hierarchy) if hierarchy else []
+        return [str(path) for folder in folders for path in Path(folder).glob(f"orchestra-*-{keeper}.*")]
 
     def processes(self) -> dict[int, str]:
         """Return what runs below us, apart from the holder."""

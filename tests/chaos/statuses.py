@@ -43,7 +43,8 @@ def allowed(case: Case, seen: Observation) -> set[int]:
     befell = fate(seen)
     ended = _last_of(seen.events, "run_ended")
     if befell.keeper_killed:
-        own = set() if ended is None else {ended.data["status"]}
+        # It may have been ending already, and be no more than a zombie when it was killed.
+        own = {ended.data["status"]} if ended else _without_events(case, befell) if case.disk else set()
         return {-signal.SIGKILL, *own}
     if befell.supervisor_killed or befell.supervisor_frozen:
         return {_FAILED} if ended is None else {_FAILED, ended.data["status"]}

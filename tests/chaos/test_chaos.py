@@ -12,7 +12,7 @@ import pytest
 
 from tests.chaos import cases, inventing
 from tests.chaos.campaign import Verdict, burning, verdicts
-from tests.chaos.stage import unshare_words
+from tests.chaos.stage import here
 
 _FEW, _MANY = 6, 200
 _AT_ONCE = 4
@@ -20,9 +20,7 @@ _AT_ONCE = 4
 
 def broken_promises(seed: str, runs: int) -> str:
     """Play the runs of a seed and tell what went wrong, with what repeats it."""
-    chosen = [
-        inventing.case(f"{seed}:{number}", private=unshare_words() is not None) for number in range(runs)
-    ]
+    chosen = [inventing.case(f"{seed}:{number}", here()) for number in range(runs)]
     return "\n".join(_words(verdict) for verdict in verdicts(chosen, _AT_ONCE) if verdict.broken)
 
 
