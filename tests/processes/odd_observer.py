@@ -27,7 +27,10 @@ GARBAGE = {
     "factless": '{"id": "1 a", "say": "moved", "transition": 1}',
     "endless": "x" * 200_000,
 }
-RESULTS: dict[str, dict[str, object]] = {"change_state": {"state": "active"}, "load": {"node": "/c", "unique_id": 1}}
+RESULTS: dict[str, dict[str, object]] = {
+    "change_state": {"state": "active"},
+    "load": {"node": "/c", "unique_id": 1},
+}
 
 
 def say(message: dict[str, object]) -> None:
