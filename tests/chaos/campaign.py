@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -63,8 +65,7 @@ def verdicts(chosen: Iterable[Case], jobs: int) -> Iterator[Verdict]:
             time.sleep(0.02)
     finally:
         for popen in playing:
-            popen.kill()
-            popen.wait()
+            _end(popen)
 
 
 def _player(case: Case) -> subprocess.Popen[bytes]:
@@ -72,10 +73,18 @@ def _player(case: Case) -> subprocess.Popen[bytes]:
     return subprocess.Popen(command, cwd=_ROOT, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE)
 
 
+def _end(popen: subprocess.Popen[bytes]) -> None:
+    """End who plays; he clears the stage first, if he still can."""
+    popen.terminate()
+    with contextlib.suppress(subprocess.TimeoutExpired):
+        popen.communicate(timeout=HANG)
+    popen.kill()
+    popen.communicate()
+
+
 def _verdict(case: Case, popen: subprocess.Popen[bytes]) -> Verdict:
     if popen.poll() is None:
-        popen.kill()
-        popen.wait()
+        _end(popen)
         return Verdict(case, ("it hangs, and whoever plays it too",), None, _PATIENCE)
     output = popen.communicate()[0]
     if popen.returncode:
@@ -85,6 +94,7 @@ def _verdict(case: Case, popen: subprocess.Popen[bytes]) -> Verdict:
 
 
 def _play(case: Case) -> int:
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(1))  # with everything that is to be done at the end
     folder = Path(tempfile.mkdtemp(prefix="chaos-"))
     try:
         seen = play(case, folder / "stage")
