@@ -37,7 +37,7 @@ def guarded_run(beginnings: Beginnings) -> int:
             f"this is a bug in Orchestra: {type(error).__name__}: {error}; please report it with {_report(error)}"
         )
         if os.getppid() != beginnings.keeper:
-            sweep(os.getpid(), _pause)
+            sweep(_pause)
         return BUG
 
 

@@ -59,7 +59,7 @@ def keep(supervise: Callable[[], int], patience: Patience, stacks: Stacks) -> in
         terminal_modes.give_back(modes)
     if status is not None and os.WIFEXITED(status) and os.WEXITSTATUS(status) == UNSTOPPABLE:
         return UNSTOPPABLE  # the supervisor has tried everything, and has named what is left
-    left = sweep(os.getpid(), _pause)
+    left = sweep(_pause)
     if status is None or not os.WIFEXITED(status) or os.WEXITSTATUS(status) == _BUG:
         _clear_caps()
         _clear_shared_memory(began)

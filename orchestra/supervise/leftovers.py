@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from orchestra.supervise import proc
 from orchestra.supervise.kin import send_to_groups
 from orchestra.supervise.marks import RUN
+from orchestra.supervise.sweeping import kill_below
 
 if TYPE_CHECKING:
     from orchestra.supervise.loop import Loop
@@ -40,7 +41,7 @@ def end_leftovers(around: Surroundings, run_id: str, *, remaining: float | None)
         around.recorder.record("left_behind", pid=pid, command=proc.command(pid))
         around.journal.say(f"something was left behind and is ended: {proc.command(pid)} (pid {pid})")
     for number, seconds in ((signal.SIGTERM, polite), (signal.SIGKILL, _GIVE_UP_AFTER)):
-        if left and seconds > 0:
+        if (left or not proc.childless()) and seconds > 0:
             _tell(left, number)
             left = _await(around, run_id, seconds, again=number == signal.SIGKILL)
     return {pid: f"{proc.command(pid)} (pid {pid})" for pid in left}
@@ -64,9 +65,10 @@ def _await(around: Surroundings, run_id: str, seconds: float, *, again: bool) ->
     while True:
         around.kin.refresh()
         left = leftovers(run_id)
-        if not left or loop.clock() >= deadline:
+        if (not left and proc.childless()) or loop.clock() >= deadline:
             return left
         if again:
+            kill_below(os.getpid(), around.kin.refresh)
             _tell(left, signal.SIGKILL)
         _pause(loop)
 

@@ -95,6 +95,19 @@ def descendants(root: int) -> list[int]:
     return found
 
 
+def childless() -> bool:
+    """Tell whether this process has no child, not even one that has ended and is to be reaped.
+
+    Of a subreaper this says that nothing at all is below it, which no look at /proc can: what forks and ends all the
+    time has another number at each look (waitid(2), ECHILD).
+    """
+    try:
+        os.waitid(os.P_ALL, 0, os.WEXITED | os.WNOHANG | os.WNOWAIT)
+    except ChildProcessError:
+        return True
+    return False
+
+
 def branch(root: int) -> list[int]:
     """Return what is below a process, by the `children` files: only its own branch is read, not the whole machine."""
     found: list[int] = []

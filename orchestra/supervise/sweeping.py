@@ -26,26 +26,26 @@ _LOOK_AGAIN = 0.05
 _CHASE = 0.3
 
 
-def sweep(root: int, pause: Callable[[float], bool]) -> list[int]:
-    """End every descendant of a process, politely first; return those that are left.
+def sweep(pause: Callable[[float], bool]) -> list[int]:
+    """End every descendant of this process, a subreaper, politely first; return those that are left.
 
     `pause` waits so many seconds at most, collects those of our children that have ended, and tells whether somebody
     is in a hurry: then everything is killed now. Whoever receives a signal decides nothing: after the last one only
     what the kernel itself cannot end is left.
     """
     for number, seconds in _POLITE:
-        if _asked(root, number, seconds, pause):
+        if _asked(number, seconds, pause):
             break
     deadline = time.monotonic() + _KILL
-    while left := proc.descendants(root):
+    while not proc.childless():
         if time.monotonic() >= deadline:
-            return left
-        kill_below(root, lambda: pause(0.0))
+            return proc.descendants(os.getpid())
+        kill_below(os.getpid(), lambda: pause(0.0))
         pause(_LOOK_AGAIN)
     return []
 
 
-def _asked(root: int, number: int, seconds: float, pause: Callable[[float], bool]) -> bool:
+def _asked(number: int, seconds: float, pause: Callable[[float], bool]) -> bool:
     """Ask each descendant once, and wait for their end; tell whether there is nothing more to wait for.
 
     That is when all have ended, or somebody is in a hurry.
@@ -53,11 +53,12 @@ def _asked(root: int, number: int, seconds: float, pause: Callable[[float], bool
     deadline = time.monotonic() + seconds
     told: set[int] = set()
     hurry = pause(0.0)
-    while left := proc.descendants(root):
+    while not proc.childless():
         if hurry or time.monotonic() >= deadline:
             return hurry
-        _tell(set(left) - told, number)
-        told.update(left)
+        left = set(proc.descendants(os.getpid()))
+        _tell(left - told, number)
+        told |= left
         hurry = pause(_LOOK_AGAIN)
     return True
 

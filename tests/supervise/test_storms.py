@@ -6,13 +6,14 @@ import ctypes
 import os
 import signal
 import sys
+import time
 from typing import TYPE_CHECKING
 
 import pytest
 
 from orchestra.supervise import proc
 from orchestra.values import Stop
-from tests.supervise.plans import PROCESSES, launched, plan, process, stand_in, wait_for
+from tests.supervise.plans import PROCESSES, launched, name_of, plan, process, stand_in, wait_for
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -24,9 +25,23 @@ if TYPE_CHECKING:
 QUICK = Stop(timeout=0.3, kill_timeout=0.3)
 
 
-def storm(words: str) -> Process:
-    """Return a process that multiplies."""
-    return process("a", command=(sys.executable, "-S", "-E", str(PROCESSES / "storm.py"), words), stop=QUICK)
+def storm(words: str, mark: str) -> Process:
+    """Return a process that multiplies; the mark stands in the command line of each of them."""
+    command = (sys.executable, "-S", "-E", str(PROCESSES / "storm.py"), words, mark)
+    return process("a", command=command, stop=QUICK)
+
+
+def seen(mark: str, seconds: float) -> set[int]:
+    """Look for a while for processes with a mark: what forks and ends all the time is not there at every look."""
+    deadline = time.monotonic() + seconds
+    found: set[int] = set()
+    while time.monotonic() < deadline:
+        found.update(pid for pid in proc.pids() if mark in proc.command(pid) and not ours(pid))
+    return found
+
+
+def ours(pid: int) -> bool:
+    return pid == os.getpid() or name_of(pid).startswith("orc-")
 
 
 def _stop(run: Launched) -> int:
@@ -56,11 +71,14 @@ def _without_keeper(run: Launched) -> int:
     ],
 )
 def test_a_storm_ends(tmp_path: Path, words: str, attack: Callable[[Launched], int]) -> None:
-    with launched(tmp_path, plan(storm(words))) as run:
+    mark = f"mark={tmp_path}"
+    with launched(tmp_path, plan(storm(words, mark))) as run:
         run.await_line("a", "up")
+        assert seen(mark, 0.5)
         status = attack(run)
         run.assert_gone(8.0)
         assert run.wait() == status
+    assert not seen(mark, 0.5)
 
 
 @pytest.mark.parametrize("attack", [_stop, _without_supervisor])
