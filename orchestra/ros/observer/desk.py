@@ -20,6 +20,11 @@ if TYPE_CHECKING:
     from orchestra.ros.observer.order import Order
 
 
+# After looks that took so long, this many times as long belongs to what nodes say: on a busy machine, or with many
+# orders, the one look would else follow the other, and answers would wait while they are asked for again.
+_REST = 4.0
+
+
 class Desk:
     """Carries out orders. `answers` is the descriptor that what is said to them is written to."""
 
@@ -28,13 +33,16 @@ class Desk:
         self._answers = answers
         self._orders: dict[str, Order] = {}
         self._due: dict[str, float] = {}
+        self._rest_until = 0.0
         self._over: set[str] = set()
         self.closed = False
 
     @property
     def pause(self) -> float | None:
         """The time in seconds until something is to be looked at, None where nothing is."""
-        return max(0.0, min(self._due.values()) - time.monotonic()) if self._due else None
+        if not self._due:
+            return None
+        return max(0.0, max(min(self._due.values()), self._rest_until) - time.monotonic())
 
     def greet(self) -> None:
         """Say, once, that we are in the graph."""
@@ -57,9 +65,12 @@ class Desk:
     def look(self) -> None:
         """Look at what is due, and clear away what is over."""
         now = time.monotonic()
-        for name in [name for name, due in self._due.items() if due <= now]:
-            self._attempt(name, self._orders[name].look)
-            self._time(name)
+        if now >= self._rest_until:
+            for name in [name for name, due in self._due.items() if due <= now]:
+                self._attempt(name, self._orders[name].look)
+                self._time(name)
+            end = time.monotonic()
+            self._rest_until = end + _REST * (end - now)
         while self._over:
             self._drop(self._over.pop())
 

@@ -8,7 +8,9 @@ import sys
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from rclpy.parameter import Parameter
 
+from orchestra.ros.observer.facts.parameter import same_value
 from orchestra.ros.observer.facts.tf import connected
 from orchestra.ros.observer.kinds import FACTS, maker
 from tests.ros.observer.conversation import Domain, graph_node, observing
@@ -63,37 +65,48 @@ def test_what_a_node_offers_is_seen_when_it_is_there(observer: Conversation, nod
 
 VALUES: list[tuple[Any, Any]] = [
     (1, 2),
+    (1, 1.0),
     (1.0, 1),
     (1, True),
+    (True, 1),
     ("1", 1),
     ("", []),
     ([1, 2], [1]),
+    ([1, 2], [1.0, 2.0]),
     ([1.0, 2.0], [1, 2]),
     (["a", ""], ["a"]),
     ([True, False], [True]),
-    ([], "x"),
+    ([1], []),
 ]
 
 
-def test_parameters_are_compared_with_their_types(observer: Conversation, node: Node) -> None:
-    """Each has the other value, or one of another type, before it has the one that is awaited."""
-    for index, (wanted, other) in enumerate(VALUES):
-        about = {"node": "/ns/one", "name": f"p{index}"}
-        observer.watch(f"value {index}", "parameter", **about, value=wanted)
-        observer.watch(f"never {index}", "parameter", **about, value="never")
-        observer.watch(f"any {index}", "parameter", **about)
-        node.do(f"set p{index} {written(other)}")
-    for index, (wanted, _) in enumerate(VALUES):
-        observer.said(f"any {index}", "done")
-        assert observer.heard(f"value {index}") == []
-        node.do(f"set p{index} {written(wanted)}")
-    for index in range(len(VALUES)):
-        observer.said(f"value {index}", "done")
-        assert observer.heard(f"never {index}") == []
+@pytest.mark.parametrize(("held", "wanted"), VALUES)
+def test_parameters_are_compared_with_their_types(held: Any, wanted: Any) -> None:
+    value = Parameter("p", value=held).get_parameter_value()
+    assert same_value(value, held)
+    assert not same_value(value, wanted)
 
 
-def written(value: object) -> str:
-    return json.dumps(value, separators=(",", ":"))
+@pytest.mark.parametrize("kind", [Parameter.Type.STRING_ARRAY, Parameter.Type.DOUBLE_ARRAY])
+def test_an_empty_list_is_the_same_whatever_its_elements_would_be(kind: Parameter.Type) -> None:
+    assert same_value(Parameter("p", kind, []).get_parameter_value(), [])
+
+
+def test_a_parameter_is_awaited_until_it_is_there_and_has_the_value(
+    observer: Conversation, node: Node
+) -> None:
+    about = {"node": "/ns/one", "name": "speed"}
+    observer.watch("any value", "parameter", **about)
+    observer.watch("this value", "parameter", **about, value=2.0)
+    observer.watch("never", "parameter", **about, value=2)
+    observer.caught_up()
+    assert observer.heard("any value") == []
+    node.do("set speed 1.0")
+    observer.said("any value", "done")
+    assert observer.heard("this value") == []
+    node.do("set speed 2.0")
+    observer.said("this value", "done")
+    assert observer.heard("never") == []
 
 
 def test_a_state_of_a_lifecycle_node_is_seen_and_one_that_lasts_for_a_moment_too(

@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from orchestra.ros.observer.order import Request, Say
 
 # In seconds.
-_ASK_ANEW = 0.3
+_ASK_ANEW = 0.5
 
 
 class ParameterThere:
