@@ -154,7 +154,9 @@ def test_what_outlives_the_run_is_found_and_ended(tmp_path: Path) -> None:
     """
     with ExitStack() as stack:
         run = stack.enter_context(
-            launched(_description({"name": "stays", "cmd": "env --ignore-signal=TERM sleep 300"}), home=tmp_path)
+            launched(
+                _description({"name": "stays", "cmd": "env --ignore-signal=TERM sleep 300"}), home=tmp_path
+            )
         )
         run.wait_ready()
         (left,) = [survivor for survivor in run.survivors() if survivor.process == "stays"]
