@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING
 from orchestra.control import door
 from orchestra.control.place import ENDING, folders
 from orchestra.logs.names import shown
-from orchestra.supervise import caps, identity, proc
+from orchestra.supervise import caps, identity, proc, shared_memory
 from orchestra.supervise.marks import PROCESS, RUN, run_of
 
 if TYPE_CHECKING:
@@ -128,9 +128,10 @@ def _await(left: Collection[Remnant], seconds: float) -> None:
 def tidy(run: Run) -> None:
     """Remove the socket and the memory caps of a dead run, and let its directory be that of a run that has ended.
 
-    Raises `OSError`.
+    Shared memory that nobody uses any more goes too. Raises `OSError`.
     """
     caps.clear_run(run.identity.run)
+    shared_memory.remove_leftovers(run.identity.began)
     path = door.linked(run.directory)
     if path is not None and path.endswith(f"/{run.identity.run}{ENDING}"):
         door.remove(path)

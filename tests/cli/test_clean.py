@@ -9,6 +9,8 @@ import signal
 import subprocess
 import sys
 import time
+import uuid
+from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
 import pytest
@@ -20,7 +22,6 @@ from tests.supervise.plans import PATIENCE, alive, launched, plan, process, wait
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
-    from pathlib import Path
     from subprocess import CompletedProcess
 
     from tests.supervise.plans import Launched
@@ -94,10 +95,15 @@ def test_clean_asks_where_nobody_can_answer_and_ends_them_with_yes(
     (home / "runs" / f"{BEGINNING}999999999").write_text("")
     begins = home / "runs" / f"{BEGINNING}{os.getpid()}"
     begins.write_text("")
+    memory = [Path(f"/dev/shm/fastrtps_{uuid.uuid4().hex[:16]}")]  # noqa: S108
+    memory.append(Path(f"{memory[0]}_el"))
+    for file in memory:
+        file.write_text("")
     found = orchestra("clean", "--yes")
     assert found.returncode == 0, found.stderr
     assert "2 processes ended" in found.stdout
     assert not any(map(alive, left))
+    assert not any(file.exists() for file in memory)
     assert not os.path.lexists(path)
     assert not running.unfinished(str(home / "runs"))
     assert [entry.name for entry in (home / "runs").iterdir() if entry.name.startswith(".")] == [begins.name]
