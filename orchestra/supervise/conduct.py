@@ -123,7 +123,7 @@ def _run(
 ) -> Outcome:
     system = System(plan, around)
     dump.report = system.state_report
-    attention.on_child = system.look
+    attention.on_child = system.child_ended
     attention.on_stop = system.stop_signal
     attention.on_resize = around.console.resize
     attention.on_suspend = around.console.suspend

@@ -167,12 +167,12 @@ class System:
         self._verdict.went_wrong(what)
 
     def look(self) -> None:
-        """Find out who became our child and whose child it was, and who of them has ended.
+        """Find out who became our child and who has ended: once a round, for what had happened by its begin."""
+        if self._looked_in != self._around.loop.round:
+            self.child_ended()
 
-        Once a round is enough: whoever has ended by its begin has left its children to us by then.
-        """
-        if self._looked_in == self._around.loop.round:
-            return
+    def child_ended(self) -> None:
+        """Look in any case: it may have ended after this round's look, and nobody will tell us again."""
         self._looked_in = self._around.loop.round
         new, ended = self._around.kin.refresh()
         for adopted in new:
