@@ -26,9 +26,12 @@ _LOOK_AGAIN = 0.5
 
 
 class Console:
-    """Hands keys on to a program, and the size of our terminal to all of them. `keeper` is who sits at the terminal."""
+    """Hands keys on to a program, and the size of our terminal to all of them. `keeper` is who sits at the terminal.
 
-    def __init__(self, loop: Loop, keeper: int) -> None:
+    Nobody sits there where the run is `detached`: the program has its terminal, and whoever attaches to it types.
+    """
+
+    def __init__(self, loop: Loop, keeper: int, *, detached: bool) -> None:
         self._loop = loop
         self._keeper = keeper
         self._descriptor: int | None = None
@@ -39,11 +42,12 @@ class Console:
         self._listening = False
         self._timer: Timer | None = None
         self._hung_up = False
+        self._detached = detached
 
     @property
     def interactive(self) -> bool:
-        """Whether our standard input is a terminal that a program can be given, and nobody has it."""
-        return self._typed_to is None and not self._hung_up and os.isatty(_STDIN)
+        """Whether a program can be given a terminal for itself, ours or one to attach to, and none has it."""
+        return self._typed_to is None and not self._hung_up and (self._detached or os.isatty(_STDIN))
 
     def opened(self, terminal: Terminal, *, foremost: bool) -> None:
         """A program with a terminal runs; what is typed goes to it where it is `foremost`."""
@@ -91,7 +95,7 @@ class Console:
 
     def _begin(self) -> None:
         """Listen to the keys where it is our turn, and for it where it is not."""
-        if self._hung_up:
+        if self._hung_up or self._detached:
             return
         self._forget_timer()
         try:
@@ -119,7 +123,7 @@ class Console:
     def _end(self) -> None:
         self._forget_timer()
         self._listen(wanted=False)
-        if self._in_foreground():
+        if not self._detached and self._in_foreground():
             terminal_modes.give_back(self._modes)
         self._modes = None
 

@@ -56,7 +56,7 @@ def surroundings(
         sheets = opened.enter_context(_screens(loop, options))
         written = opened.enter_context(books(loop, run_directory, plan, options, sheets))
         journal = written.journal
-        console = Console(loop, os.getppid())
+        console = Console(loop, os.getppid(), detached=options.detached)
         opened.callback(console.close)
         kin = Kin(run_id)
         yield Surroundings(

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
 
+from orchestra.supervise import registry
 from orchestra.values import Restart
 from tests.supervise.plans import launched, plan, process, wait_for
 
@@ -40,6 +41,10 @@ for line in sys.stdin:
         sys.exit(5)
     else:
         print("heard", line.strip(), flush=True)
+"""
+_TYPED_TO = """\
+launch:
+  - executable: {cmd: sh -c 'tty; read line; echo heard "$line"', name: talker, stdin: true, required: true}
 """
 
 
@@ -291,3 +296,19 @@ def test_whom_nobody_can_attach_to(run: Launched, orchestra: Command) -> None:
     found = orchestra("attach", "mute")
     assert (found.returncode, found.stderr) == (1, "error: run: mute does not run\n")
     del run
+
+
+def test_a_detached_run_has_its_one_terminal_for_whoever_attaches(
+    orchestra: Command, home: Path, folder: Path, attach: Callable[..., Attached]
+) -> None:
+    (folder / "talk.launch.yaml").write_text(_TYPED_TO)
+    assert orchestra("launch", "--detach", "talk.launch.yaml").returncode == 0
+    (run,) = registry.living(home / "runs")
+    log = run.directory / "logs" / "talker.log"
+    wait_for(lambda: log.exists() and "/dev/pts/" in log.read_text(), "the terminal")
+    attached = attach("talker")
+    wait_for(attached.raw, "the modes of the terminal")
+    attached.type(b"hello\r")
+    attached.read_until(b"heard hello")
+    assert attached.end() == 0
+    wait_for(lambda: not registry.living(home / "runs"), "the end of the run")
