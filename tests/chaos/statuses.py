@@ -49,15 +49,15 @@ def allowed(case: Case, seen: Observation) -> set[int]:
     if befell.supervisor_killed or befell.supervisor_frozen:
         return {_FAILED} if ended is None else {_FAILED, ended.data["status"]}
     if _last_of(seen.events, "run_started") is None:
-        return _refused(seen, befell)
+        return _refused(case, seen, befell)
     return _as_described(case, seen, befell)
 
 
-def _refused(seen: Observation, befell: Fate) -> set[int]:
-    """No run came about, or its events could not be written."""
+def _refused(case: Case, seen: Observation, befell: Fate) -> set[int]:
+    """No run came about: its directory, too, needs room on the disk."""
     resolver = any(each.act.target == "resolver" and each.pid for each in seen.deliveries)
     found = {_SIGNALLED + number for number in befell.stop_signals[:1]}
-    if resolver or "the run directory cannot be written" in seen.screen:
+    if resolver or case.disk:
         found.add(_FAILED)
     return found
 
