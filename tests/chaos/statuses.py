@@ -49,7 +49,7 @@ def allowed(case: Case, seen: Observation) -> set[int]:
     if befell.supervisor_killed or befell.supervisor_frozen:
         return {_FAILED} if ended is None else {_FAILED, ended.data["status"]}
     if _last_of(seen.events, "run_started") is None:
-        return _refused(case, seen, befell)
+        return _refused(case, seen, befell) | (_without_events(case, befell) if case.disk else set())
     return _as_described(case, seen, befell)
 
 
