@@ -8,7 +8,7 @@ TYPE_CHECKING = False  # `typing` itself costs more than this module
 if TYPE_CHECKING:
     from typing import BinaryIO
 
-    from orchestra.supervise.serving import Answer
+    from orchestra.supervise.resolver.serving import Answer
 
 _ONLY_SHOWING = {"--help", "--show-args", "--show-arguments", "--print", "--print-description"}
 # Commands that tell of runs that died and left something behind. `clean` does it in its own way.
@@ -46,7 +46,7 @@ def _look_after_the_dead() -> int:
 
     Returns another status than 0 where the user wants to go on no more.
     """
-    from orchestra.supervise.running import abandoned, state_path
+    from orchestra.supervise.runs.running import abandoned, state_path
 
     if not abandoned(f"{state_path()}/runs"):
         return 0

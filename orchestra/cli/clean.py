@@ -11,7 +11,7 @@ from orchestra.cli import runs
 from orchestra.cli.detaching import BEGINNING
 from orchestra.cli.parser import CommandParser
 from orchestra.control import door, remains
-from orchestra.supervise import registry
+from orchestra.supervise.runs import registry
 
 if TYPE_CHECKING:
     from argparse import Namespace

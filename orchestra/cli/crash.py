@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.cli import past, runs
 from orchestra.cli.parser import CommandParser
-from orchestra.supervise.crashes import FOLDER, REPORT, TEXT
-from orchestra.supervise.dossier_text import summary
+from orchestra.supervise.crash.crashes import FOLDER, REPORT, TEXT
+from orchestra.supervise.crash.dossier_text import summary
 
 if TYPE_CHECKING:
     from argparse import Namespace

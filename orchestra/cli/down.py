@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 from orchestra.cli import runs
 from orchestra.cli.parser import CommandParser
 from orchestra.errors import RunError
-from orchestra.supervise import registry
+from orchestra.supervise.runs import registry
 
 if TYPE_CHECKING:
     from argparse import Namespace
 
     from orchestra.control.client import Client
-    from orchestra.supervise.registry import Run
+    from orchestra.supervise.runs.registry import Run
 
 _EPILOG = "The exit status is that of the run; with --all it is the first that is not 0."
 

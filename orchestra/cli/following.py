@@ -8,8 +8,8 @@ import select
 from contextlib import ExitStack
 from typing import TYPE_CHECKING
 
-from orchestra.supervise import identity
-from orchestra.supervise.running import LOCK, is_locked
+from orchestra.supervise.runs import identity
+from orchestra.supervise.runs.running import LOCK, is_locked
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

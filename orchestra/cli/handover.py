@@ -11,8 +11,8 @@ from orchestra.cli.boundary import Telling, guarded
 from orchestra.cli.run_options import run_options
 from orchestra.cli.starting import started
 from orchestra.errors import DescriptionError, Severity
-from orchestra.supervise import document
-from orchestra.supervise.marks import RUN
+from orchestra.supervise.keeping.marks import RUN
+from orchestra.supervise.resolver import document
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 
     from orchestra.errors import Problem
     from orchestra.plan.model import Plan
-    from orchestra.supervise.serving import Answer
+    from orchestra.supervise.resolver.serving import Answer
 
 
 def hand_over(
@@ -51,7 +51,7 @@ def warn(plan: Plan, options: Namespace) -> None:
 def _unfit(plan: Plan) -> tuple[Problem, ...]:
     if all(process.limits is None for process in plan.processes):
         return ()
-    from orchestra.supervise.confines import checked  # noqa: PLC0415 - few plans have limits
+    from orchestra.supervise.limits.confines import checked  # noqa: PLC0415 - few plans have limits
 
     return checked(plan, os.environ[RUN])
 

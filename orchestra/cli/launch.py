@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from typing import BinaryIO
 
     from orchestra.pipeline import Launch
-    from orchestra.supervise.serving import Answer
+    from orchestra.supervise.resolver.serving import Answer
 
 
 def parser() -> CommandParser:

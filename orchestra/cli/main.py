@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from typing import Any, BinaryIO
 
-    from orchestra.supervise.serving import Answer
+    from orchestra.supervise.resolver.serving import Answer
 
 _ResultT = TypeVar("_ResultT")
 

@@ -11,12 +11,12 @@ from orchestra.cli import colour, runs, table
 from orchestra.cli.parser import CommandParser
 from orchestra.cli.usage import usage
 from orchestra.errors import RunError
-from orchestra.supervise import registry
+from orchestra.supervise.runs import registry
 
 if TYPE_CHECKING:
     from argparse import Namespace
 
-    from orchestra.supervise.registry import Run
+    from orchestra.supervise.runs.registry import Run
 
 _HEAD = ("NAME", "STATE", "PID", "RESTARTS", "UPTIME", "CPU", "MEMORY", "")
 _STATE, _NOTE = 1, 7

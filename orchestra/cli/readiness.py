@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from orchestra.control.client import Client, GoneError
-from orchestra.supervise.registry import name_of
+from orchestra.supervise.runs.registry import name_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable

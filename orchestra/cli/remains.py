@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING
 from orchestra.cli.boundary import INTERRUPTED, Telling, guarded
 from orchestra.cli.runs import folder, told
 from orchestra.control import remains
-from orchestra.supervise import registry
+from orchestra.supervise.runs import registry
 
 if TYPE_CHECKING:
     from orchestra.control.remains import Remnant
-    from orchestra.supervise.registry import Run
+    from orchestra.supervise.runs.registry import Run
 
 _NAMED = 4
 _YES = frozenset({"y", "yes"})

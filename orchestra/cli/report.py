@@ -11,7 +11,7 @@ import traceback
 from importlib.metadata import version
 from pathlib import Path
 
-from orchestra.supervise.directory import state_folder
+from orchestra.supervise.runs.directory import state_folder
 
 
 def write_report(error: BaseException) -> Path:

@@ -11,14 +11,14 @@ from orchestra.control.client import Client, GoneError
 from orchestra.control.protocol import Refusal
 from orchestra.errors import RunError, UsageError
 from orchestra.nearest import nearest
-from orchestra.supervise import registry
-from orchestra.supervise.directory import state_folder
+from orchestra.supervise.runs import registry
+from orchestra.supervise.runs.directory import state_folder
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser
     from collections.abc import Iterator
 
-    from orchestra.supervise.registry import Run
+    from orchestra.supervise.runs.registry import Run
 
 # Faults of the command line, where everything else is a matter of the run.
 _OF_THE_USER = frozenset({"unknown_process", "unknown_signal", "malformed"})

@@ -7,7 +7,7 @@ from orchestra.supervise.run import run
 
 TYPE_CHECKING = False  # `typing` itself costs more than this module
 if TYPE_CHECKING:
-    from orchestra.supervise.resolver import Prepare
+    from orchestra.supervise.resolver.process import Prepare
 
 
 def started(prepare: Prepare, *, detach: bool, wait_ready: bool) -> int:
@@ -16,7 +16,7 @@ def started(prepare: Prepare, *, detach: bool, wait_ready: bool) -> int:
         return run(prepare, attend, afterwards)
     # Both only where they are needed: the keeper of a run at a terminal has no use for them.
     from orchestra.cli.detaching import detached  # noqa: PLC0415
-    from orchestra.supervise.running import state_path  # noqa: PLC0415
+    from orchestra.supervise.runs.running import state_path  # noqa: PLC0415
 
     return detached(
         f"{state_path()}/runs",

@@ -18,14 +18,14 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.control import protocol
 from orchestra.control.protocol import Refusal
-from orchestra.supervise.life import FINAL
+from orchestra.supervise.process.life import FINAL
 
 if TYPE_CHECKING:
     from orchestra.control.guest import Guest
-    from orchestra.supervise.attachment import Attachment
     from orchestra.supervise.loop import Loop
     from orchestra.supervise.operation import Operation
-    from orchestra.supervise.unit import Unit
+    from orchestra.supervise.output.attachment import Attachment
+    from orchestra.supervise.process.unit import Unit
 
 # No more output is taken for a client while it has so much to read, in bytes.
 _ENOUGH = 65536

@@ -16,14 +16,16 @@ from typing import TYPE_CHECKING
 from orchestra.control import door
 from orchestra.control.place import ENDING, folders
 from orchestra.logs.names import shown
-from orchestra.supervise import caps, identity, proc, shared_memory
-from orchestra.supervise.marks import PROCESS, RUN, run_of
+from orchestra.supervise.keeping import proc, shared_memory
+from orchestra.supervise.keeping.marks import PROCESS, RUN, run_of
+from orchestra.supervise.limits import caps
+from orchestra.supervise.runs import identity
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterable, Iterator
     from pathlib import Path
 
-    from orchestra.supervise.registry import Run
+    from orchestra.supervise.runs.registry import Run
 
 # How long what is left may take after each signal, in seconds.
 _LADDER = ((signal.SIGINT, 2.0), (signal.SIGTERM, 1.5), (signal.SIGKILL, 1.5))

@@ -8,7 +8,7 @@ from orchestra.control import protocol
 
 if TYPE_CHECKING:
     from orchestra.control.guest import Guest
-    from orchestra.supervise.recorder import Recorder
+    from orchestra.supervise.output.recorder import Recorder
 
 
 class Subscribers:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, NamedTuple
 
-from orchestra.supervise.life import Phase
+from orchestra.supervise.process.life import Phase
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable

@@ -8,9 +8,9 @@ import time
 TYPE_CHECKING = False
 if TYPE_CHECKING:
     from orchestra.supervise.attendance import Attend
-    from orchestra.supervise.patience import Patience
-    from orchestra.supervise.resolver import Resolver
-    from orchestra.supervise.stacks import Stacks
+    from orchestra.supervise.keeping.patience import Patience
+    from orchestra.supervise.keeping.stacks import Stacks
+    from orchestra.supervise.resolver.process import Resolver
     from orchestra.supervise.summons import Summons
 
 

@@ -9,13 +9,13 @@ import time
 import traceback
 from typing import TYPE_CHECKING
 
-from orchestra.supervise import open_files
 from orchestra.supervise.conduct import conduct
-from orchestra.supervise.directory import state_folder
+from orchestra.supervise.keeping.standard_streams import say
+from orchestra.supervise.keeping.sweeping import sweep
 from orchestra.supervise.outcome import BUG
-from orchestra.supervise.resolving import Refused
-from orchestra.supervise.standard_streams import say
-from orchestra.supervise.sweeping import sweep
+from orchestra.supervise.process import open_files
+from orchestra.supervise.resolver.resolving import Refused
+from orchestra.supervise.runs.directory import state_folder
 
 if TYPE_CHECKING:
     from pathlib import Path

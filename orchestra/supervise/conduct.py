@@ -9,29 +9,30 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.plan import codec
-from orchestra.supervise import directory, shared_memory
-from orchestra.supervise.attention import Attention
-from orchestra.supervise.confines import Confines
-from orchestra.supervise.dump import Dump
-from orchestra.supervise.furnishing import furnish
-from orchestra.supervise.identity import identity
-from orchestra.supervise.kin import Kin, send_to_groups
-from orchestra.supervise.leftovers import end_leftovers
+from orchestra.supervise.keeping import shared_memory
+from orchestra.supervise.keeping.attention import Attention
+from orchestra.supervise.keeping.dump import Dump
+from orchestra.supervise.keeping.kin import Kin, send_to_groups
+from orchestra.supervise.keeping.leftovers import end_leftovers
+from orchestra.supervise.keeping.standard_streams import say
+from orchestra.supervise.limits.confines import Confines
 from orchestra.supervise.loop import Loop
 from orchestra.supervise.outcome import FAILED, MISTAKE, UNSTOPPABLE, judge
-from orchestra.supervise.resolving import Collection, Refused
+from orchestra.supervise.resolver.resolving import Collection, Refused
+from orchestra.supervise.runs import directory
+from orchestra.supervise.runs.furnishing import furnish
+from orchestra.supervise.runs.identity import identity
 from orchestra.supervise.service_manager import ServiceManager
 from orchestra.supervise.setting import surroundings
-from orchestra.supervise.standard_streams import say
 from orchestra.supervise.system import System
 
 if TYPE_CHECKING:
     from orchestra.plan.model import Plan
     from orchestra.supervise.beginnings import Beginnings
-    from orchestra.supervise.directory import RunDirectory
-    from orchestra.supervise.document import Document
     from orchestra.supervise.outcome import Outcome
-    from orchestra.supervise.resolver import Resolver
+    from orchestra.supervise.resolver.document import Document
+    from orchestra.supervise.resolver.process import Resolver
+    from orchestra.supervise.runs.directory import RunDirectory
     from orchestra.supervise.surroundings import Surroundings
 
 # They are asked, and killed after a second; in seconds.

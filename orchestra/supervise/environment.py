@@ -19,7 +19,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from orchestra.supervise.marks import PROCESS, RUN
+from orchestra.supervise.keeping.marks import PROCESS, RUN
 from orchestra.supervise.summons import PERSONAL
 from orchestra.wheels import DONE, LIBRARY_PATH
 

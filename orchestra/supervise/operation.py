@@ -5,16 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from orchestra.supervise import life
-from orchestra.supervise.life import FINAL, LIVE, Phase
+from orchestra.supervise.process import life
+from orchestra.supervise.process.life import FINAL, LIVE, Phase
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
-    from orchestra.supervise.beginning import Beginning
-    from orchestra.supervise.stopping import Stopping
+    from orchestra.supervise.process.beginning import Beginning
+    from orchestra.supervise.process.stopping import Stopping
+    from orchestra.supervise.process.unit import Unit
     from orchestra.supervise.surroundings import Surroundings
-    from orchestra.supervise.unit import Unit
 
 
 @dataclass(frozen=True, slots=True)

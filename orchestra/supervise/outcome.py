@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from orchestra.supervise.ending import Ending, signal_name
+from orchestra.supervise.process.ending import Ending, signal_name
 
 OK, FAILED, MISTAKE, BUG, UNSTOPPABLE = 0, 1, 2, 3, 4
 _SIGNALLED = 128

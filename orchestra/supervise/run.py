@@ -13,21 +13,21 @@ import os
 import sys
 import time
 
-from orchestra.supervise import kernel
 from orchestra.supervise.beginnings import Beginnings, Kept
-from orchestra.supervise.keeper import keep
-from orchestra.supervise.marks import RUN, number_of, run_mark
-from orchestra.supervise.patience import Patience
-from orchestra.supervise.resolver import fork_resolver
-from orchestra.supervise.signals import (
+from orchestra.supervise.keeping import kernel
+from orchestra.supervise.keeping.keeper import keep
+from orchestra.supervise.keeping.marks import RUN, number_of, run_mark
+from orchestra.supervise.keeping.patience import Patience
+from orchestra.supervise.keeping.signals import (
     disregard_hang_up,
     receive_signals,
     received_signals,
     reset_signals,
     unblock_signals,
 )
-from orchestra.supervise.stacks import Stacks
-from orchestra.supervise.standard_streams import fill_standard_descriptors
+from orchestra.supervise.keeping.stacks import Stacks
+from orchestra.supervise.keeping.standard_streams import fill_standard_descriptors
+from orchestra.supervise.resolver.process import fork_resolver
 from orchestra.supervise.summons import taken
 
 TYPE_CHECKING = False  # `typing` itself costs more than the rest of this module
@@ -35,7 +35,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from orchestra.supervise.attendance import Attend
-    from orchestra.supervise.resolver import Prepare
+    from orchestra.supervise.resolver.process import Prepare
 
 
 def run(
@@ -44,8 +44,8 @@ def run(
     """Run what `prepare` describes and return the exit status of the design's table.
 
     `prepare` runs in the resolver process. It writes one JSON document `{"plan": ..., "options": ...}` to the stream
-    (`orchestra.supervise.document.dumps`) and returns 0, or tells the user what is wrong and returns another status,
-    which becomes the result.
+    (`orchestra.supervise.resolver.document.dumps`) and returns 0, or tells the user what is wrong and returns another
+    status, which becomes the result.
 
     A plan with deferred triggers needs code of the description at run time. `prepare` then returns, instead of 0, a
     function that answers questions: it is called in the resolver process, one question at a time, until the run is

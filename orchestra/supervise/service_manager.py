@@ -11,13 +11,13 @@ from __future__ import annotations
 import socket
 from typing import TYPE_CHECKING, Protocol
 
-from orchestra.supervise.life import FINAL, LIVE, Phase
+from orchestra.supervise.process.life import FINAL, LIVE, Phase
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection
 
-    from orchestra.supervise.life import State
     from orchestra.supervise.loop import Loop, Timer
+    from orchestra.supervise.process.life import State
     from orchestra.supervise.summons import Summons
 
 # What the service manager has no room for is tried again after this time, in seconds.

@@ -9,27 +9,27 @@ from typing import TYPE_CHECKING
 from orchestra.logs.screen import Screen, same_file
 from orchestra.logs.sheets import Sheet, Sheets
 from orchestra.logs.terminal_text import wants_colour
-from orchestra.supervise.books import books
-from orchestra.supervise.console import Console
-from orchestra.supervise.discovery import quick_discovery
 from orchestra.supervise.environment import node_environment
+from orchestra.supervise.graph.discovery import quick_discovery
+from orchestra.supervise.graph.observation import Observers
 from orchestra.supervise.host import this_host
-from orchestra.supervise.kin import Kin
-from orchestra.supervise.observation import Observers
-from orchestra.supervise.questions import Questions
+from orchestra.supervise.keeping.kin import Kin
+from orchestra.supervise.output.books import books
+from orchestra.supervise.output.console import Console
+from orchestra.supervise.reactions.questions import Questions
+from orchestra.supervise.signs.trial import Trials
 from orchestra.supervise.surroundings import Surroundings
-from orchestra.supervise.trial import Trials
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
     from orchestra.plan.model import Plan, Process
     from orchestra.supervise.beginnings import Beginnings
-    from orchestra.supervise.confines import Confines
-    from orchestra.supervise.directory import RunDirectory
+    from orchestra.supervise.limits.confines import Confines
     from orchestra.supervise.loop import Loop
     from orchestra.supervise.options import RunOptions
-    from orchestra.supervise.resolver import Resolver
+    from orchestra.supervise.resolver.process import Resolver
+    from orchestra.supervise.runs.directory import RunDirectory
     from orchestra.supervise.service_manager import ServiceManager
 
 _STDOUT, _STDERR = 1, 2

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.supervise.life import Phase
+from orchestra.supervise.process.life import Phase
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from orchestra.supervise.operation import Standing
-    from orchestra.supervise.stopping import Stopping
+    from orchestra.supervise.process.stopping import Stopping
 
 
 def state_report(standings: Iterable[Standing], stopping: Stopping) -> str:

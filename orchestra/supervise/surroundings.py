@@ -9,20 +9,20 @@ from typing import TYPE_CHECKING, Protocol
 
 from orchestra.logs.journal import Journal
 from orchestra.plan.model import Process
-from orchestra.supervise.confines import Confines
-from orchestra.supervise.console import Console
-from orchestra.supervise.intake import Intake
-from orchestra.supervise.kin import Kin
+from orchestra.supervise.graph.observation import Observers
+from orchestra.supervise.keeping.kin import Kin
+from orchestra.supervise.limits.confines import Confines
 from orchestra.supervise.loop import Loop
-from orchestra.supervise.observation import Observers
 from orchestra.supervise.options import RunOptions
-from orchestra.supervise.questions import Questions
-from orchestra.supervise.recorder import Recorder
+from orchestra.supervise.output.console import Console
+from orchestra.supervise.output.intake import Intake
+from orchestra.supervise.output.recorder import Recorder
+from orchestra.supervise.reactions.questions import Questions
 from orchestra.supervise.service_manager import ServiceManager
-from orchestra.supervise.trial import Trials
+from orchestra.supervise.signs.trial import Trials
 
 if TYPE_CHECKING:
-    from orchestra.supervise.ending import Ending
+    from orchestra.supervise.process.ending import Ending
 
 
 class Listener(Protocol):

@@ -6,21 +6,21 @@ import signal
 from typing import TYPE_CHECKING
 
 from orchestra.plan import codec
-from orchestra.supervise import happening as happenings
-from orchestra.supervise import life
-from orchestra.supervise.actions import Actions
-from orchestra.supervise.beginning import Beginning
-from orchestra.supervise.ending import signal_name
-from orchestra.supervise.fragment import merged
-from orchestra.supervise.furnishing import furnish
-from orchestra.supervise.life import FINAL, LIVE, Phase
-from orchestra.supervise.nodes import Nodes
+from orchestra.supervise.graph.nodes import Nodes
 from orchestra.supervise.operation import Operation
-from orchestra.supervise.performance import Performance
+from orchestra.supervise.process import life
+from orchestra.supervise.process.beginning import Beginning
+from orchestra.supervise.process.ending import signal_name
+from orchestra.supervise.process.life import FINAL, LIVE, Phase
+from orchestra.supervise.process.stopping import Stopping
+from orchestra.supervise.process.unit import Unit
+from orchestra.supervise.reactions import happening as happenings
+from orchestra.supervise.reactions.actions import Actions
+from orchestra.supervise.reactions.fragment import merged
+from orchestra.supervise.reactions.performance import Performance
+from orchestra.supervise.reactions.triggers import LONGEST_AT_THE_END, Triggers, held
+from orchestra.supervise.runs.furnishing import furnish
 from orchestra.supervise.state_report import state_report
-from orchestra.supervise.stopping import Stopping
-from orchestra.supervise.triggers import LONGEST_AT_THE_END, Triggers, held
-from orchestra.supervise.unit import Unit
 from orchestra.supervise.verdict import Verdict
 
 if TYPE_CHECKING:
@@ -28,9 +28,9 @@ if TYPE_CHECKING:
 
     from orchestra.plan.model import Plan, Process
     from orchestra.plan.reactions import Trigger, TriggeredAction
-    from orchestra.supervise.ending import Ending
-    from orchestra.supervise.fragment import Fragment
     from orchestra.supervise.outcome import Facts
+    from orchestra.supervise.process.ending import Ending
+    from orchestra.supervise.reactions.fragment import Fragment
     from orchestra.supervise.surroundings import Surroundings
 
 _LIVELY = frozenset({*LIVE, Phase.RESTARTING})

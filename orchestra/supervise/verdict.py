@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.supervise.ending import Ending
-from orchestra.supervise.life import Phase
 from orchestra.supervise.outcome import Facts
+from orchestra.supervise.process.ending import Ending
+from orchestra.supervise.process.life import Phase
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from orchestra.supervise.unit import Unit
+    from orchestra.supervise.process.unit import Unit
 
 
 class Verdict:

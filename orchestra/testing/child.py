@@ -11,7 +11,7 @@ import os
 import signal
 import sys
 
-from orchestra.supervise import kernel
+from orchestra.supervise.keeping import kernel
 
 if __name__ == "__main__":
     kernel.die_with_parent(signal.SIGTERM, int(os.environ.pop("ORCHESTRA_TEST_SESSION")))

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from orchestra.nearest import nearest
-from orchestra.supervise.triggers import held
+from orchestra.supervise.reactions.triggers import held
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

@@ -5,8 +5,8 @@ from __future__ import annotations
 import os
 from dataclasses import dataclass
 
-from orchestra.supervise import proc
-from orchestra.supervise.marks import PROCESS, RUN
+from orchestra.supervise.keeping import proc
+from orchestra.supervise.keeping.marks import PROCESS, RUN
 
 
 @dataclass(frozen=True, slots=True)

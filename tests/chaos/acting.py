@@ -14,7 +14,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from orchestra import events
-from orchestra.supervise import proc
+from orchestra.supervise.keeping import proc
 from tests.chaos.cases import Act, Case
 from tests.chaos.screens import Audience
 from tests.chaos.stage import Stage

@@ -6,8 +6,8 @@ import json
 import sys
 from typing import TYPE_CHECKING, Any
 
-from orchestra.supervise import document
 from orchestra.supervise.options import RunOptions
+from orchestra.supervise.resolver import document
 from orchestra.values import Limits, Restart, Stop
 from tests.chaos.cases import member_words
 from tests.supervise.plans import PROCESSES, after, plan, process, ready_when

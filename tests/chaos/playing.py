@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from orchestra.events import Event
-from orchestra.supervise import kernel
+from orchestra.supervise.keeping import kernel
 from tests.chaos.acting import Actor, Delivery, read_events
 from tests.chaos.describing import prepared
 from tests.chaos.screens import Audience

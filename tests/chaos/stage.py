@@ -19,7 +19,8 @@ from functools import cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from orchestra.supervise import cgroups, proc
+from orchestra.supervise.keeping import proc
+from orchestra.supervise.limits import cgroups
 from tests.chaos.inventing import Abilities
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ import subprocess
 import sys
 from typing import TYPE_CHECKING
 
-from orchestra.supervise import proc
+from orchestra.supervise.keeping import proc
 from tests.supervise.plans import (
     PROCESSES,
     alive,

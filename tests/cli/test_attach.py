@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 import pytest
 
-from orchestra.supervise import registry
+from orchestra.supervise.runs import registry
 from orchestra.values import Restart
 from tests.supervise.plans import launched, plan, process, wait_for
 

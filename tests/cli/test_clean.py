@@ -17,7 +17,7 @@ import pytest
 
 from orchestra.cli.detaching import BEGINNING
 from orchestra.control import door
-from orchestra.supervise import registry, running
+from orchestra.supervise.runs import registry, running
 from tests.supervise.plans import PATIENCE, alive, launched, plan, process, wait_for
 
 if TYPE_CHECKING:

@@ -13,14 +13,15 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import pytest
 
-from orchestra.supervise import proc, registry
+from orchestra.supervise.keeping import proc
+from orchestra.supervise.runs import registry
 from tests.supervise.plans import PATIENCE, alive, wait_for
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from subprocess import CompletedProcess
 
-    from orchestra.supervise.registry import Run
+    from orchestra.supervise.runs.registry import Run
 
     Command: TypeAlias = Callable[..., CompletedProcess[str]]
 

@@ -23,8 +23,8 @@ from orchestra.control.client import Client, GoneError
 from orchestra.control.outlet import BACKLOG
 from orchestra.control.protocol import LONGEST_REQUEST, Refusal
 from orchestra.control.server import MOST_CLIENTS
-from orchestra.supervise import document
 from orchestra.supervise.options import RunOptions
+from orchestra.supervise.resolver import document
 from tests.supervise.plans import PATIENCE, PROCESSES, launched, plan, process, ready_when, wait_for
 
 if TYPE_CHECKING:

@@ -9,10 +9,10 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from orchestra.probes.protocol import Site
-from orchestra.supervise.kin import Kin
+from orchestra.supervise.keeping.kin import Kin
 from orchestra.supervise.loop import Loop
-from orchestra.supervise.spec import Spec
-from orchestra.supervise.trial import Trials
+from orchestra.supervise.process.spec import Spec
+from orchestra.supervise.signs.trial import Trials
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, BinaryIO, NoReturn
 from orchestra.supervise.run import run
 
 if TYPE_CHECKING:
-    from orchestra.supervise.serving import Answer
+    from orchestra.supervise.resolver.serving import Answer
 
 
 def stuck_for_ever() -> NoReturn:

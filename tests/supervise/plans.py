@@ -25,8 +25,9 @@ from orchestra.plan.reactions import (
     Trigger,
     TriggerEvent,
 )
-from orchestra.supervise import document, proc
+from orchestra.supervise.keeping import proc
 from orchestra.supervise.options import RunOptions
+from orchestra.supervise.resolver import document
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator

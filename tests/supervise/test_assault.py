@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.supervise import proc
+from orchestra.supervise.keeping import proc
 from orchestra.values import Stop
 from tests.supervise.plans import assert_ended, launched, plan, process, ready_when, wait_for
 

@@ -4,7 +4,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from orchestra.supervise.backoff import Again, decide
+from orchestra.supervise.process.backoff import Again, decide
 from orchestra.values import Policy, Restart
 
 

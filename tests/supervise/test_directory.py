@@ -10,14 +10,15 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.supervise import identity, proc, registry, running
-from orchestra.supervise.directory import NameTakenError, create, prune, state_folder
+from orchestra.supervise.keeping import proc
+from orchestra.supervise.runs import identity, registry, running
+from orchestra.supervise.runs.directory import NameTakenError, create, prune, state_folder
 
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from orchestra.supervise.directory import RunDirectory
-    from orchestra.supervise.identity import Identity
+    from orchestra.supervise.runs.directory import RunDirectory
+    from orchestra.supervise.runs.identity import Identity
 
 
 def _identity(name: str) -> Identity:

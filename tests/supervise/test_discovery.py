@@ -8,7 +8,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
-from orchestra.supervise.discovery import quick_discovery
+from orchestra.supervise.graph.discovery import quick_discovery
 
 if TYPE_CHECKING:
     from pathlib import Path

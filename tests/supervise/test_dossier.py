@@ -14,14 +14,14 @@ import pytest
 
 from orchestra.plan.conditions import Alive, Ready
 from orchestra.plan.reactions import SignalAction
-from orchestra.supervise import kernel_log
-from orchestra.supervise.capacity import capacity
-from orchestra.supervise.causes import meaning, telling_lines
-from orchestra.supervise.cgroups import Place
-from orchestra.supervise.cores import Victim, told
-from orchestra.supervise.crashes import KEPT_FIRST, KEPT_LAST
-from orchestra.supervise.dossier import Difference, difference, repetition
-from orchestra.supervise.ending import Ending
+from orchestra.supervise.crash import kernel_log
+from orchestra.supervise.crash.causes import meaning, telling_lines
+from orchestra.supervise.crash.cores import Victim, told
+from orchestra.supervise.crash.crashes import KEPT_FIRST, KEPT_LAST
+from orchestra.supervise.crash.dossier import Difference, difference, repetition
+from orchestra.supervise.limits.capacity import capacity
+from orchestra.supervise.limits.cgroups import Place
+from orchestra.supervise.process.ending import Ending
 from orchestra.values import Limits, Restart
 from tests.supervise.plans import HERE, finished, launched, plan, process, when_ended
 

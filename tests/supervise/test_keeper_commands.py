@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.supervise import proc
+from orchestra.supervise.keeping import proc
 from tests.supervise.plans import PATIENCE, Launched, assert_ended, wait_for
 
 if TYPE_CHECKING:

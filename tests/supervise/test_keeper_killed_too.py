@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.control import remains
-from orchestra.supervise import proc
-from orchestra.supervise.marks import RUN, number_of, run_mark, run_of
+from orchestra.supervise.keeping import proc
+from orchestra.supervise.keeping.marks import RUN, number_of, run_mark, run_of
 from tests.supervise.plans import alive, assert_ended, launched, plan, process, stand_in, wait_for
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.supervise.patience import USUAL, Patience
+from orchestra.supervise.keeping.patience import USUAL, Patience
 from orchestra.values import Stop
 from tests.supervise.plans import launched, plan, process, wait_for
 

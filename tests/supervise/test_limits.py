@@ -12,9 +12,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.supervise import caps, cgroups
-from orchestra.supervise.capacity import capacity
-from orchestra.supervise.cgroups import Place
+from orchestra.supervise.limits import caps, cgroups
+from orchestra.supervise.limits.capacity import capacity
+from orchestra.supervise.limits.cgroups import Place
 from tests.supervise.plans import finished, launched, plan, process, wait_for
 
 if TYPE_CHECKING:

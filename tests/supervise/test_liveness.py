@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from orchestra.plan.conditions import Alive
-from orchestra.supervise.deadline import Deadline
 from orchestra.supervise.loop import Loop
-from orchestra.supervise.message_rate import MessageRate
-from orchestra.supervise.threads import threads
+from orchestra.supervise.signs.deadline import Deadline
+from orchestra.supervise.signs.message_rate import MessageRate
+from orchestra.supervise.signs.threads import threads
 from orchestra.values import Restart, Stop
 from tests.supervise.plans import PROCESSES, finished, launched, plan, process, wait_for
 from tests.supervise.test_loop import Clock

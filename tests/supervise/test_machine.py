@@ -8,14 +8,24 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from orchestra.supervise import life
-from orchestra.supervise.ending import Ending
-from orchestra.supervise.life import FINAL, KILL, LIVE, POLITE, QUIESCE, TERMINATE, Phase, Rules, State
-from orchestra.supervise.machine import _TABLE, transition
+from orchestra.supervise.process import life
+from orchestra.supervise.process.ending import Ending
+from orchestra.supervise.process.life import (
+    FINAL,
+    KILL,
+    LIVE,
+    POLITE,
+    QUIESCE,
+    TERMINATE,
+    Phase,
+    Rules,
+    State,
+)
+from orchestra.supervise.process.machine import _TABLE, transition
 from orchestra.values import Restart, Stop
 
 if TYPE_CHECKING:
-    from orchestra.supervise.life import Effect, Event
+    from orchestra.supervise.process.life import Effect, Event
 
 PLAIN = Rules()
 AWAITED = Rules(awaits_ready=True, ready_timeout=5.0)

@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from orchestra.supervise import life
-from orchestra.supervise.ending import Ending
-from orchestra.supervise.life import FINAL, KILL, LIVE, QUIESCE, Phase, Rules, State
-from orchestra.supervise.machine import transition
+from orchestra.supervise.process import life
+from orchestra.supervise.process.ending import Ending
+from orchestra.supervise.process.life import FINAL, KILL, LIVE, QUIESCE, Phase, Rules, State
+from orchestra.supervise.process.machine import transition
 from orchestra.values import Restart, Stop
 
 if TYPE_CHECKING:

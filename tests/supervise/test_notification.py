@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from orchestra.plan.conditions import Alive
-from orchestra.supervise import proc
-from orchestra.supervise.notification import parse, seconds
+from orchestra.supervise.keeping import proc
+from orchestra.supervise.signs.notification import parse, seconds
 from tests.supervise.plans import PROCESSES, after, finished, launched, plan, process
 from tests.supervise.test_readiness import client, ready, text
 

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from orchestra.supervise import proc
-from orchestra.supervise.kin import Kin
-from orchestra.supervise.lookout import Patience
+from orchestra.supervise.graph.lookout import Patience
+from orchestra.supervise.graph.observation import Observers
+from orchestra.supervise.keeping import proc
+from orchestra.supervise.keeping.kin import Kin
 from orchestra.supervise.loop import Loop
-from orchestra.supervise.observation import Observers
 from tests.supervise.plans import PATIENCE, PROCESSES, wait_for
 
 if TYPE_CHECKING:

@@ -10,8 +10,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from orchestra.plan.reactions import TriggerEvent
-from orchestra.supervise import document
 from orchestra.supervise.options import RunOptions
+from orchestra.supervise.resolver import document
 from orchestra.values import Restart, Stop
 from tests.supervise.plans import (
     after,

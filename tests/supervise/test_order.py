@@ -5,9 +5,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.supervise.ending import Ending
-from orchestra.supervise.life import Phase, Rules, State
-from orchestra.supervise.order import Fate, Life, fate, reached, schedule, stop_levels
+from orchestra.supervise.process.ending import Ending
+from orchestra.supervise.process.life import Phase, Rules, State
+from orchestra.supervise.process.order import Fate, Life, fate, reached, schedule, stop_levels
 from orchestra.values import Stop
 from tests.supervise.plans import after, process
 

@@ -4,8 +4,8 @@ import signal
 
 import pytest
 
-from orchestra.supervise.ending import Ending
 from orchestra.supervise.outcome import Facts, judge
+from orchestra.supervise.process.ending import Ending
 
 CRASH = ("camera", Ending(signal=11))
 CODE = ("driver", Ending(code=7))

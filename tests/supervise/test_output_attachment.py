@@ -6,12 +6,12 @@ import os
 import sys
 from typing import TYPE_CHECKING
 
-from orchestra.supervise.attachment import LONGEST_KEPT, Attachment
 from orchestra.supervise.loop import Loop
-from orchestra.supervise.spawn import spawn
-from orchestra.supervise.spec import Spec
-from orchestra.supervise.stream import Stream
-from orchestra.supervise.terminal import Terminal
+from orchestra.supervise.output.attachment import LONGEST_KEPT, Attachment
+from orchestra.supervise.output.stream import Stream
+from orchestra.supervise.output.terminal import Terminal
+from orchestra.supervise.process.spawn import spawn
+from orchestra.supervise.process.spec import Spec
 
 if TYPE_CHECKING:
     from pathlib import Path

@@ -13,10 +13,10 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.supervise.loop import Loop
-from orchestra.supervise.spawn import spawn
-from orchestra.supervise.spec import Spec
-from orchestra.supervise.stream import Stream
-from orchestra.supervise.terminal import MOST_TYPED, Terminal
+from orchestra.supervise.output.stream import Stream
+from orchestra.supervise.output.terminal import MOST_TYPED, Terminal
+from orchestra.supervise.process.spawn import spawn
+from orchestra.supervise.process.spec import Spec
 from tests.supervise.plans import finished, launched, plan, process, wait_for
 from tests.supervise.test_terminal import in_terminal
 

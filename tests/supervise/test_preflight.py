@@ -12,9 +12,9 @@ import pytest
 
 from orchestra.errors import Severity
 from orchestra.location import Location, point
-from orchestra.supervise.capacity import Capacity, capacity
-from orchestra.supervise.cgroups import Hierarchy, Place, find_place, hierarchy
-from orchestra.supervise.preflight import preflight
+from orchestra.supervise.limits.capacity import Capacity, capacity
+from orchestra.supervise.limits.cgroups import Hierarchy, Place, find_place, hierarchy
+from orchestra.supervise.limits.preflight import preflight
 from orchestra.values import Limits
 from tests.supervise.plans import finished, plan, process
 

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.supervise import document
 from orchestra.supervise.options import RunOptions
+from orchestra.supervise.resolver import document
 from tests.supervise.plans import after, finished, launched, plan, process, wait_for
 
 if TYPE_CHECKING:

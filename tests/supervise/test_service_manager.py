@@ -19,8 +19,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.supervise.environment import Host, node_environment
-from orchestra.supervise.life import Phase, State
 from orchestra.supervise.loop import Loop
+from orchestra.supervise.process.life import Phase, State
 from orchestra.supervise.service_manager import ServiceManager, settled, status
 from orchestra.supervise.summons import PERSONAL, Summons, taken
 from orchestra.values import Restart, Stop

@@ -13,9 +13,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.supervise import proc, shared_memory
 from orchestra.supervise.environment import node_environment
 from orchestra.supervise.host import this_host
+from orchestra.supervise.keeping import proc, shared_memory
 from tests.supervise.plans import PROCESSES, launched, plan, process, wait_for
 
 if TYPE_CHECKING:

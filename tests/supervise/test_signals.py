@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.supervise.signals import received_signals
+from orchestra.supervise.keeping.signals import received_signals
 from orchestra.values import Stop
 from tests.supervise.plans import assert_ended, launched, plan, process, wait_for
 

@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.plan.reactions import TriggerEvent
-from orchestra.supervise import document
 from orchestra.supervise.options import RunOptions
+from orchestra.supervise.resolver import document
 from tests.supervise.plans import (
     after,
     at_start,

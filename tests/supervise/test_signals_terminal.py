@@ -11,8 +11,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.supervise import document, proc
+from orchestra.supervise.keeping import proc
 from orchestra.supervise.options import RunOptions
+from orchestra.supervise.resolver import document
 from tests.supervise.plans import PROCESSES, launched, name_of, plan, process, wait_for
 from tests.supervise.test_terminal import Terminal, in_terminal
 

@@ -6,9 +6,9 @@ from pathlib import Path
 import pytest
 
 from orchestra import events
+from orchestra.supervise.keeping.proc import children, descendants, marks, stat
 from orchestra.supervise.options import RunOptions, decode, encode
-from orchestra.supervise.proc import children, descendants, marks, stat
-from orchestra.supervise.spec import argv, located
+from orchestra.supervise.process.spec import argv, located
 from tests.supervise.plans import process
 
 

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.supervise import proc
+from orchestra.supervise.keeping import proc
 from orchestra.values import Stop
 from tests.supervise.plans import PROCESSES, launched, name_of, plan, process, stand_in, wait_for
 

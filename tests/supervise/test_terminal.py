@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.supervise import proc
+from orchestra.supervise.keeping import proc
 from tests.supervise.plans import finished, launched, plan, process, wait_for
 
 if TYPE_CHECKING:

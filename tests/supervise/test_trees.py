@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.supervise import document, proc
+from orchestra.supervise.keeping import proc
 from orchestra.supervise.options import RunOptions
+from orchestra.supervise.resolver import document
 from orchestra.values import Restart, Stop
 from tests.supervise.plans import (
     PROCESSES,

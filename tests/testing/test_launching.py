@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from orchestra.errors import DescriptionError
-from orchestra.supervise import proc
+from orchestra.supervise.keeping import proc
 from orchestra.testing import Run, launched
 
 if TYPE_CHECKING:

@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING
 from orchestra import events
 from orchestra.cli.completing.candidates import Candidate
 from orchestra.logs.names import shown
-from orchestra.supervise import registry
-from orchestra.supervise.directory import state_folder
+from orchestra.supervise.runs import registry
+from orchestra.supervise.runs.directory import state_folder
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Sequence

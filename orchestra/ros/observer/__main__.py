@@ -13,7 +13,7 @@ sys.path.append(str(Path(__file__).parents[3]))
 
 def main() -> int:
     """Observe until standard input ends. The one argument is the pid of the supervisor, with which we die."""
-    from orchestra.supervise import kernel  # noqa: PLC0415 - before rclpy, whose import takes long
+    from orchestra.supervise.keeping import kernel  # noqa: PLC0415 - before rclpy, whose import takes long
 
     kernel.set_name("orc-observer")
     kernel.die_with_parent(signal.SIGKILL, int(sys.argv[1]))

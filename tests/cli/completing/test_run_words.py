@@ -9,14 +9,14 @@ import pytest
 
 from orchestra import events
 from orchestra.cli.completing.command_line import candidates
-from orchestra.supervise import identity
-from orchestra.supervise.directory import create, state_folder
+from orchestra.supervise.runs import identity
+from orchestra.supervise.runs.directory import create, state_folder
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-    from orchestra.supervise.directory import RunDirectory
+    from orchestra.supervise.runs.directory import RunDirectory
 
 
 @pytest.fixture

@@ -10,7 +10,7 @@ import sys
 import threading
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from orchestra.supervise.discovery import quick_discovery
+from orchestra.supervise.graph.discovery import quick_discovery
 from tests.supervise.plans import PROCESSES, wait_for
 
 if TYPE_CHECKING:

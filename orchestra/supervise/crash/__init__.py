@@ -1,0 +1,1 @@
+"""What is kept of every end that nobody wanted."""

@@ -1,0 +1,1 @@
+"""Signs that a process is ready and alive."""
