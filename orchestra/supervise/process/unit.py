@@ -140,7 +140,7 @@ class Unit:
         """Take note of a descendant that detached itself. While stopping, it gets the signal that the others had."""
         self._account.adopted(adopted)
         if self.state.phase is Phase.STOPPING:
-            if not self._sending:
+            if not self._sending and self.state.rung > life.QUIESCE:  # else its signal is still to come
                 self._signal_late(adopted)
         elif self.state.phase not in LIVE:
             self._account.left_behind(adopted)
