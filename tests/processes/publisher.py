@@ -6,6 +6,7 @@ publisher.py [wait] TOPIC,RELIABILITY,DURABILITY,COUNT ...   ten times a second;
 import itertools
 import signal
 import sys
+import threading
 
 import rclpy
 from rclpy.node import Node
@@ -27,8 +28,10 @@ def publish_on(node: Node, publisher: Publisher, count: int | None) -> None:
 
 
 def main() -> None:
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(0))
-    signal.signal(signal.SIGINT, lambda *_: sys.exit(0))
+    # No exception from a handler: one that is raised within a callback of the middleware is lost.
+    over = threading.Event()
+    signal.signal(signal.SIGTERM, lambda *_: over.set())
+    signal.signal(signal.SIGINT, lambda *_: over.set())
     rclpy.init(signal_handler_options=rclpy.signals.SignalHandlerOptions.NO)
     node = rclpy.create_node("publisher")
     words = sys.argv[1:]
@@ -47,7 +50,8 @@ def main() -> None:
                 publish_on(node, publisher, int(count) or None)
         sys.stdout.write("up\n")
         sys.stdout.flush()
-        rclpy.spin(node)
+        while not over.is_set():
+            rclpy.spin_once(node, timeout_sec=0.1)
     finally:
         node.destroy_node()
         rclpy.shutdown()
