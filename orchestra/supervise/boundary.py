@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import contextlib
 import os
 import sys
 import time
@@ -11,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.supervise.conduct import conduct
 from orchestra.supervise.keeping.standard_streams import say
-from orchestra.supervise.keeping.sweeping import sweep
+from orchestra.supervise.keeping.sweeping import reap, sweep
 from orchestra.supervise.outcome import BUG
 from orchestra.supervise.process import open_files
 from orchestra.supervise.resolver.resolving import Refused
@@ -44,9 +43,7 @@ def guarded_run(beginnings: Beginnings) -> int:
 def _pause(seconds: float) -> bool:
     """Let some time pass and collect our children; nobody is in a hurry."""
     time.sleep(seconds)
-    with contextlib.suppress(ChildProcessError):
-        while os.waitpid(-1, os.WNOHANG)[0]:
-            pass
+    reap()
     return False
 
 

@@ -20,7 +20,7 @@ from orchestra.supervise.keeping import kernel, proc, terminal_modes
 from orchestra.supervise.keeping.patience import USUAL
 from orchestra.supervise.keeping.signals import received_signals, stop_signals
 from orchestra.supervise.keeping.standard_streams import flush, say
-from orchestra.supervise.keeping.sweeping import sweep
+from orchestra.supervise.keeping.sweeping import reap, sweep
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -133,7 +133,7 @@ class _Watch:
         """Forward signals until the supervisor has ended; return its wait status, None where nothing can end it."""
         while True:
             received = _fetch(None if self._deadline is None else max(0.0, self._deadline - time.monotonic()))
-            status = _reap(self._supervisor)
+            status = reap(self._supervisor)
             if status is not None:
                 return status
             if received is None and self._killed:
@@ -219,22 +219,8 @@ def _fetch(timeout: float | None) -> int | None:
     return received.si_signo if received else None
 
 
-def _reap(supervisor: int | None = None) -> int | None:
-    """Collect every child that has ended; return the status of the supervisor if it is among them."""
-    status_of_supervisor = None
-    while True:
-        try:
-            pid, status = os.waitpid(-1, os.WNOHANG)
-        except ChildProcessError:
-            return status_of_supervisor
-        if not pid:
-            return status_of_supervisor
-        if pid == supervisor:
-            status_of_supervisor = status
-
-
 def _pause(seconds: float) -> bool:
     """Wait for a signal and collect our children; a stop signal is a wish to hurry."""
     received = _fetch(seconds)
-    _reap()
+    reap()
     return received in stop_signals()

@@ -76,6 +76,20 @@ def kill_below(root: int, collect: Callable[[], object]) -> None:
         _send(pid, signal.SIGKILL)
 
 
+def reap(awaited: int | None = None) -> int | None:
+    """Collect every child that has ended; return the wait status of the one that is awaited if it is among them."""
+    status_of_awaited = None
+    while True:
+        try:
+            pid, status = os.waitpid(-1, os.WNOHANG)
+        except ChildProcessError:
+            return status_of_awaited
+        if not pid:
+            return status_of_awaited
+        if pid == awaited:
+            status_of_awaited = status
+
+
 def _tell(pids: Iterable[int], number: int) -> None:
     """Signal processes; a stopped one is woken, since it could not act on it otherwise."""
     for pid in pids:

@@ -22,11 +22,8 @@ _LONGEST_TEXT = 300
 
 
 @contextmanager
-def reported(action: Callable[[], None] | None) -> Iterator[Callable[[], None] | None]:
+def reported(action: Callable[[], None]) -> Iterator[Callable[[], None]]:
     """Give what `subprocess.Popen` is to call in the child: `action`, whose `OSError` is raised here, in the parent."""
-    if action is None:
-        yield None
-        return
     read, told = os.pipe2(os.O_CLOEXEC | os.O_NONBLOCK)
 
     def act() -> None:
