@@ -65,7 +65,7 @@ class LogFile:
 class Writer:
     """The thread and what it has to do. `descriptor` can be read when `attend` is to be called.
 
-    `failed` hears, within `attend`, of each file that cannot be written, at every write that fails.
+    `failed` hears, within `attend` and `finish`, of each file that cannot be written, at every write that fails.
     """
 
     def __init__(self, failed: Callable[[Path, OSError], None]) -> None:
@@ -141,8 +141,7 @@ class Writer:
     def attend(self) -> None:
         """Do what the thread has called for."""
         os.eventfd_read(self.descriptor)
-        while self._failures:
-            self._failed(*self._failures.popleft())
+        self._tell()
         if self._size <= FEW:
             self._stuck = False
             self._resume()
@@ -150,7 +149,8 @@ class Writer:
     def finish(self, patience: float, most: float) -> bool:
         """Wait until everything is written; tell whether it is.
 
-        The disk must take something every `patience` seconds, and everything within `most` seconds.
+        The disk must take something every `patience` seconds, and everything within `most` seconds. What failed until
+        then is told here: at the end of a run nobody may be left to call `attend`.
         """
         with self._changed:
             rounds = max(1, round(most / patience))
@@ -158,7 +158,9 @@ class Writer:
                 before = self._steps
                 done = self._changed.wait_for(lambda: not self._size, patience)
                 rounds = rounds - 1 if done or self._steps != before else 0
-            return not self._size
+            written = not self._size
+        self._tell()
+        return written
 
     def close(self) -> None:
         """End the thread when it has nothing to do any more; one that hangs ends with the process."""
@@ -209,6 +211,10 @@ class Writer:
             if error or (self._wanted and self._size <= FEW):
                 self._call()
             self._changed.notify_all()
+
+    def _tell(self) -> None:
+        while self._failures:
+            self._failed(*self._failures.popleft())
 
     def _took(self) -> None:
         self._steps += 1

@@ -90,6 +90,14 @@ def test_a_folder_that_is_gone_is_told(tmp_path: Path) -> None:
         assert [(path.name, type(error)) for path, error in failures] == [("a.log", FileNotFoundError)]
 
 
+def test_what_fails_last_is_told_although_nobody_attends_any_more(tmp_path: Path) -> None:
+    failures: Failures = []
+    with writing(failures) as writer:
+        writer.file(tmp_path / "missing" / "a.log", ENDLESS, forms.OUTPUT).write("x")
+        settled(writer)
+        assert [path.name for path, _ in failures] == ["a.log"]
+
+
 def test_nothing_of_a_line_that_had_to_be_torn_stays_among_records(tmp_path: Path) -> None:
     """A limit on the size of files stands for a full disk: a write is cut short, the next one fails."""
     script = f"""
