@@ -6,6 +6,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.plan.awaited import life, readiness
+from orchestra.plan.checks.table import check_all
 from orchestra.plan.command import command
 from orchestra.plan.components import components
 from orchestra.plan.digest import digest
@@ -53,7 +54,7 @@ def build(
         _process(process, identity, edges[identity], resolved, problems)
         for identity, process in targets.process.items()
     )
-    return Plan(
+    plan = Plan(
         VERSION,
         resolved.file,
         tuple(
@@ -75,8 +76,10 @@ def build(
             Skipped(item.action, item.name, item.condition, item.expression, item.value, item.location)
             for item in resolved.skipped
         ),
-        problems.ordered,
+        (),
     )
+    check_all(resolved, plan, problems)
+    return replace(plan, problems=problems.ordered)
 
 
 def _process(

@@ -1,0 +1,26 @@
+"""The table of checks. Each looks at what was resolved and planned as a whole, and reports."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final, Protocol
+
+if TYPE_CHECKING:
+    from orchestra.errors import Problems
+    from orchestra.plan.model import Plan
+    from orchestra.resolve.model import Resolved
+
+
+class Check(Protocol):
+    """Finds one kind of mistake. What is `faulty`, `lost` or follows from a reported problem is left alone."""
+
+    def __call__(self, resolved: Resolved, plan: Plan, problems: Problems, /) -> None:
+        """Report what is wrong."""
+
+
+CHECKS: Final[tuple[Check, ...]] = ()
+
+
+def check_all(resolved: Resolved, plan: Plan, problems: Problems) -> None:
+    """Let every check look at a plan."""
+    for check in CHECKS:
+        check(resolved, plan, problems)
