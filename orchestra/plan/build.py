@@ -57,18 +57,7 @@ def build(
     plan = Plan(
         VERSION,
         resolved.file,
-        tuple(
-            Argument(
-                item.name,
-                item.default,
-                item.value,
-                item.description,
-                item.choices,
-                item.location,
-                item.given,
-            )
-            for item in resolved.arguments
-        ),
+        _arguments(resolved),
         processes,
         components(resolved, ids, loaded, problems),
         triggers(resolved, ids, loaded, triggers_before),
@@ -80,6 +69,21 @@ def build(
     )
     check_all(resolved, plan, problems)
     return replace(plan, problems=problems.ordered)
+
+
+def _arguments(resolved: Resolved) -> tuple[Argument, ...]:
+    return tuple(
+        Argument(
+            item.name,
+            item.default,
+            item.value,
+            item.description,
+            item.choices,
+            item.location,
+            item.given,
+        )
+        for item in resolved.arguments
+    )
 
 
 def _process(
