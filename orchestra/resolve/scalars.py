@@ -168,10 +168,16 @@ def _converted(text: str, kind: type) -> Scalar:
             return read
     else:
         try:
-            return int(text) if kind is int else float(text)
+            return int(text) if kind is int else _float(text)
         except ValueError:
             pass
     raise ValueError(f"'{shortened(text)}' is no {_WORDS[kind]}")
+
+
+def _float(text: str) -> float:
+    """Read a float as Python does, and the words that only YAML has for what is no number: `.inf`, `.nan`."""
+    read = rcl.typed(text.strip())
+    return read if isinstance(read, float) else float(text)
 
 
 def _uniform(values: Sequence[Any]) -> ParameterValue:
