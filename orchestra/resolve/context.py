@@ -5,19 +5,51 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from collections.abc import Set as AbstractSet
 from dataclasses import dataclass, field
-from typing import Final, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias
 
 from orchestra.description.text import Opaque
 from orchestra.errors import Problems
 from orchestra.location import Location, Span
 
+if TYPE_CHECKING:
+    from contextlib import AbstractContextManager
+
+
+ReadKind: TypeAlias = Literal["variable", "environment", "parameter", "namespace"]
+# Who set what is read: `caller` is the environment in which we were called, `code` that of a launch file in Python.
+Setter: TypeAlias = Literal[
+    "default",
+    "include",
+    "command line",
+    "let",
+    "for_each",
+    "environment",
+    "parameter",
+    "push",
+    "code",
+    "caller",
+]
+
+
+@dataclass(frozen=True, slots=True)
+class Read:
+    """Something that was read to make a value: its own value, who set it and where, and what that came through."""
+
+    kind: ReadKind
+    name: str
+    value: str
+    setter: Setter
+    location: Location | None
+    through: tuple[Read, ...] = ()
+
 
 @dataclass(frozen=True, slots=True)
 class Value:
-    """A text that evaluation gave, and where it was written."""
+    """A text that evaluation gave, where it was written, and what was read to make it."""
 
     text: str
     location: Location
+    through: tuple[Read, ...] = field(default=(), compare=False, repr=False, kw_only=True)
 
 
 class Poison:
@@ -42,6 +74,12 @@ class Variables(Protocol):
 
     def names(self) -> tuple[str, ...]:
         """Return the names that are set, for suggestions."""
+
+    def note(self, kind: ReadKind, name: str, value: str) -> None:
+        """Note that something other than a launch configuration is read."""
+
+    def tracing(self) -> AbstractContextManager[list[Read]]:
+        """Collect what is read meanwhile."""
 
 
 class Packages(Protocol):

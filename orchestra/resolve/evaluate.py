@@ -18,18 +18,21 @@ def evaluate(template: Template, context: Context) -> Evaluated:
 
     Every part is evaluated even where one is faulty, so that all faults are reported and all reads are seen.
     """
+    if template.constant is not None and not template.faulty:
+        return Value(template.constant, context.at(template.span))
     texts: list[str] = []
     poisoned = template.faulty
-    for part in template.parts:
-        if isinstance(part, Words):
-            texts.append(part.text)
-            continue
-        value = perform(part, context)
-        if isinstance(value, Poison):
-            poisoned = True
-        else:
-            texts.append(value.text)
-    return POISON if poisoned else Value("".join(texts), context.at(template.span))
+    with context.variables.tracing() as reads:
+        for part in template.parts:
+            if isinstance(part, Words):
+                texts.append(part.text)
+                continue
+            value = perform(part, context)
+            if isinstance(value, Poison):
+                poisoned = True
+            else:
+                texts.append(value.text)
+    return POISON if poisoned else Value("".join(texts), context.at(template.span), through=tuple(reads))
 
 
 def perform(part: Call | Opaque, context: Context) -> Evaluated:

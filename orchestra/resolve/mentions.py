@@ -6,6 +6,7 @@ An argument that only such a part declares or reads is no mistake.
 from __future__ import annotations
 
 from collections.abc import Mapping
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -22,11 +23,12 @@ from orchestra.resolve.scope import Hidden, Variable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
+    from contextlib import AbstractContextManager
 
     from orchestra.description.entity import Action, Conditional
     from orchestra.description.launch import Description
     from orchestra.location import Location
-    from orchestra.resolve.context import Evaluated, Packages
+    from orchestra.resolve.context import Evaluated, Packages, Read, ReadKind
 
     Open: TypeAlias = Callable[[str], Description | None]
 
@@ -123,6 +125,13 @@ class _Glance:
     def names(self) -> tuple[str, ...]:
         """Return the names that are set."""
         return tuple(self.variables)
+
+    def note(self, kind: ReadKind, name: str, value: str) -> None:
+        """Note nothing: what only a glance reads makes no value."""
+
+    def tracing(self) -> AbstractContextManager[list[Read]]:
+        """Collect nothing."""
+        return nullcontext([])
 
 
 def _run_nothing(command: tuple[str, ...], environment: Mapping[str, str]) -> CommandResult:

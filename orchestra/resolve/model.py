@@ -8,7 +8,7 @@ from typing import Any, Literal, TypeAlias
 
 from orchestra.location import Location
 from orchestra.resolve.awaited import ResolvedAlive, ResolvedReady
-from orchestra.resolve.context import Value
+from orchestra.resolve.context import Read, Value
 from orchestra.resolve.rcl.sections import Entry, Section
 from orchestra.resolve.reactions import ResolvedTrigger
 from orchestra.values import Condition, Limits, ParameterValue, Restart, Stop
@@ -35,19 +35,27 @@ class ResolvedArgument:
 
 @dataclass(frozen=True, slots=True)
 class InlineParameter:
-    """A parameter written in the description; `everywhere` where it was set for all nodes of a scope."""
+    """A parameter written in the description; `everywhere` where it was set for all nodes of a scope.
+
+    `keys` are the names it is written with, from the outermost level inwards: each as far as it goes, and its place.
+    `items` are the places of a list's items, none where they are not known.
+    """
 
     name: str
     value: ParameterValue
     location: Location
     everywhere: bool = False
+    keys: tuple[tuple[str, Location], ...] = ()
+    items: tuple[Location, ...] = ()
+    through: tuple[Read, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
 class FileParameters:
     """The sections of a parameter file, as far as it could be read; `everywhere` as with a single parameter.
 
-    `plain` are the parameters of a file that has no sections at all, which only components take.
+    `plain` are the parameters of a file that has no sections at all, which only components take. `through` is what was
+    read to make its path.
     """
 
     path: str
@@ -55,6 +63,7 @@ class FileParameters:
     location: Location
     everywhere: bool = False
     plain: tuple[Entry, ...] = ()
+    through: tuple[Read, ...] = field(default=(), compare=False, repr=False)
 
 
 ParameterSource: TypeAlias = InlineParameter | FileParameters
@@ -66,6 +75,19 @@ class ResolvedRemap:
 
     source: Value
     target: Value
+
+
+@dataclass(frozen=True, slots=True)
+class NamedSchema:
+    """What a node names as the declaration of its parameters: the file at `path`, or a `model` that code has defined.
+
+    `text` is the name as it is written.
+    """
+
+    text: str
+    location: Location
+    path: str | None = None
+    model: Any = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -90,6 +112,7 @@ class EnvironmentChange:
 
     value: str | None
     location: Location
+    through: tuple[Read, ...] = field(default=(), compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -98,8 +121,9 @@ class ResolvedProcess:
 
     `conditional` tells that a condition, which is true, stands on it or around it. `faulty` marks a process of which
     something has been reported: what follows from it is not reported again. Without `inherit_environment` it gets
-    nothing but `environment`. `stdin` is the place that says that it reads what is typed. `origin` is the object of a
-    Python launch file that made it, `around` are those that it came out of, this one included.
+    nothing but `environment`. `stdin` is the place that says that it reads what is typed. `share` is the share folder
+    of its package, where that is here. `origin` is the object of a Python launch file that made it, `around` are those
+    that it came out of, this one included.
     """
 
     kind: Kind
@@ -135,6 +159,8 @@ class ResolvedProcess:
     autostart: bool = False
     limits: Limits | None = None
     stdin: Location | None = None
+    params_schema: NamedSchema | None = None
+    share: str | None = None
     origin: Any = field(default=None, compare=False, repr=False)
     around: tuple[Any, ...] = field(default=(), compare=False, repr=False)
 
@@ -163,6 +189,8 @@ class ResolvedComponent:
     location: Location
     conditional: bool
     faulty: bool
+    params_schema: NamedSchema | None = None
+    share: str | None = None
     origin: Any = field(default=None, compare=False, repr=False)
 
 

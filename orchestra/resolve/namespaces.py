@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
-from orchestra.resolve.context import POISON, Evaluated, Poison, Value
+from orchestra.resolve.context import POISON, Evaluated, Poison, Read, Value
 from orchestra.resolve.names import joined, namespace_fault
 
 if TYPE_CHECKING:
@@ -31,7 +31,14 @@ def below(base: Evaluated | None, namespace: Evaluated | None, problems: Problem
     if fault is not None:
         problems.error(Code.BAD_NAME, f"'{text}' cannot be a namespace: {fault.reason}", location)
         return POISON
-    return Value(text, location)
+    around = () if base is None or namespace is None else (pushed(base),)
+    own = namespace or base
+    return Value(text, location, through=around + (own.through if own is not None else ()))
+
+
+def pushed(base: Value) -> Read:
+    """Return what is noted of the namespace that something stands in."""
+    return Read("namespace", "", base.text, "push", base.location, base.through)
 
 
 def namespace_at(written: Template | None, at: Span, run: Resolution) -> Evaluated | None:

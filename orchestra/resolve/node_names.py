@@ -21,7 +21,7 @@ def named(template: Template | None, run: Resolution) -> Evaluated | None:
     value = run.evaluate(template)
     if value is None or isinstance(value, Poison):
         return value
-    name = Value(value.text.removeprefix("/"), value.location)
+    name = Value(value.text.removeprefix("/"), value.location, through=value.through)
     fault = node_name_fault(name.text)
     if fault is None:
         return name

@@ -51,7 +51,9 @@ def file_parameters(
         if (path, plain) not in run.parameter_files:
             run.parameter_files[path, plain] = read_file(path, value.location, run, plain=plain)
         file = run.parameter_files[path, plain]
-    return None if file is None else replace(file, location=value.location, everywhere=everywhere)
+    if file is None:
+        return None
+    return replace(file, location=value.location, everywhere=everywhere, through=value.through)
 
 
 def _lacking(value: Value, run: Resolution) -> str | None:

@@ -45,14 +45,14 @@ def parameters(
             file = file_parameters(param.from_, run, substitute=substitute is True, plain=component)
             found.append(file if sound_flag else None)
         else:
-            found += _inline(param, "", run, everywhere=isinstance(param, Override), quotes=quotes)
+            found += _inline(param, (), run, everywhere=isinstance(param, Override), quotes=quotes)
     sound = tuple(item for item in found if item is not None)
     return sound, len(sound) == len(found)
 
 
 def everywhere(action: SetParameter, run: Resolution) -> list[InlineParameter | None]:
     """Return the parameters that an action sets for every node, None for each that is faulty."""
-    return _inline(action, "", run, everywhere=True, quotes=False)
+    return _inline(action, (), run, everywhere=True, quotes=False)
 
 
 def typed(name: str, value: Typed | tuple[Typed, ...], run: Resolution) -> ParameterValue | Poison:
@@ -101,14 +101,21 @@ def _text(
 
 
 def _inline(
-    param: Param | SetParameter, above: str, run: Resolution, *, everywhere: bool, quotes: bool
+    param: Param | SetParameter,
+    above: tuple[tuple[str, Location], ...],
+    run: Resolution,
+    *,
+    everywhere: bool,
+    quotes: bool,
 ) -> list[InlineParameter | None]:
     assert param.name is not None  # noqa: S101 - the model demands it where there is no file
-    name = run.text(param.name)
-    if not isinstance(name, str):
+    own = run.text(param.name)
+    if not isinstance(own, str):
         return [None]
+    name = f"{above[-1][0]}.{own}" if above else own
+    keys = (*above, (name, run.at(param.name.span)))
     if param.param is not None:
-        below = partial(_inline, above=f"{above}{name}.", run=run, everywhere=everywhere, quotes=quotes)
+        below = partial(_inline, above=keys, run=run, everywhere=everywhere, quotes=quotes)
         return [item for nested in param.param for item in below(nested)]
     if param.value is None:
         return [None]
@@ -116,12 +123,15 @@ def _inline(
     if isinstance(type_word, Poison):
         return [None]
     at = run.at(span_of(param.value) or param.span)
-    value = _typed(above + name, param.value, type_word, run, at, quotes=quotes)
+    with run.scope.tracing() as reads:
+        value = _typed(name, param.value, type_word, run, at, quotes=quotes)
     if isinstance(value, Poison):
         return [None]
     if everywhere and not quotes and type_word is None and isinstance(param.value, Constant):
         value = _retyped(value, at, run)
-    return [InlineParameter(above + name, value, at, everywhere)]
+    items = param.value if isinstance(param.value, tuple) else ()
+    places = tuple(run.at(item.span) for item in items)
+    return [InlineParameter(name, value, at, everywhere, keys, places, tuple(reads))]
 
 
 def _constant(name: str, value: Constant, type_word: str | None, run: Resolution) -> ParameterValue | Poison:

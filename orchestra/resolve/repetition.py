@@ -32,7 +32,8 @@ def repeated(for_each: Mapping[str, Written | tuple[Written, ...]] | None, run: 
         run.repetitions += 1
         with run.scope.nested():
             for name, value, span in zip(for_each, combination, spans, strict=True):
-                run.scope.set(name, value, value.location if isinstance(value, Value) else run.at(span))
+                at = value.location if isinstance(value, Value) else run.at(span)
+                run.scope.set(name, value, at, "for_each")
             yield
         run.repetitions -= 1
 
@@ -44,7 +45,7 @@ def _values(written: Written | tuple[Written, ...], run: Resolution) -> tuple[Ev
     if isinstance(value, Poison):
         return (POISON,)
     words = (word.strip() for word in value.text.strip("[] ").split(","))
-    return tuple(Value(word.strip("'\""), value.location) for word in words if word)
+    return tuple(Value(word.strip("'\""), value.location, through=value.through) for word in words if word)
 
 
 def _value(written: Written, run: Resolution) -> Evaluated:

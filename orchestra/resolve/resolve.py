@@ -40,7 +40,7 @@ def carry_through(description: Description, run: Resolution) -> Resolved:
     run.descriptions[description.path] = description
     for given in run.inputs.arguments:
         location = Location(given.span)
-        run.scope.set(given.name, Value(given.value, location), location)
+        run.scope.set(given.name, Value(given.value, location), location, "command line")
     with run.inside(Frame(description.path, run.scope)) as ledger:
         try:
             visit_file(description, run)

@@ -14,7 +14,14 @@ from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.dependencies import dependencies
 from orchestra.resolve.limits import limits
-from orchestra.resolve.model import EnvironmentChange, Kind, ParameterSource, ResolvedProcess, ResolvedRemap
+from orchestra.resolve.model import (
+    EnvironmentChange,
+    Kind,
+    NamedSchema,
+    ParameterSource,
+    ResolvedProcess,
+    ResolvedRemap,
+)
 from orchestra.resolve.outputs import output
 from orchestra.resolve.policies import restart, stop
 from orchestra.resolve.reactions import ResolvedStart
@@ -45,6 +52,8 @@ class Program:
     parameters: tuple[ParameterSource, ...] = ()
     remaps: tuple[ResolvedRemap, ...] = ()
     autostart: bool = False
+    params_schema: NamedSchema | None = None
+    share: str | None = None
     faulty: bool = False
 
 
@@ -101,6 +110,8 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         or action.faulty,  # the last one: all others have been looked at
         inherit_environment=action.env_only is None,
         autostart=program.autostart,
+        params_schema=program.params_schema,
+        share=program.share,
         origin=action.origin,
         around=run.around,
     )
@@ -209,9 +220,9 @@ def _environment(action: Running, run: Resolution) -> dict[str, tuple[Environmen
     """Return what the description changes in the environment."""
     changes = dict(run.scope.changes) if action.env_only is None else {}
     for pair in (*(action.env_only or ()), *action.env):
-        name, value = run.text(pair.name), run.text(pair.value)
-        if not isinstance(name, str) or not isinstance(value, str):
+        name, value = run.text(pair.name), run.evaluate(pair.value)
+        if not isinstance(name, str) or not isinstance(value, Value):
             return POISON
-        change = EnvironmentChange(value, run.at(pair.value.span))
+        change = EnvironmentChange(value.text, run.at(pair.value.span), value.through)
         changes[name] = (*changes.get(name, ()), change)
     return changes

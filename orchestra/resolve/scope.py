@@ -16,12 +16,14 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 from orchestra.description.entity import Conditional
 from orchestra.errors import Code, Problems
 from orchestra.location import Location, Span
-from orchestra.resolve.context import POISON, Evaluated, Value
+from orchestra.resolve.context import POISON, Evaluated, Read, Setter, Value
 from orchestra.resolve.model import EnvironmentChange, InlineParameter, ParameterSource, ResolvedRemap
 from orchestra.resolve.scalars import flow
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
+
+    from orchestra.resolve.context import ReadKind
 
 
 NAMESPACE = "ros_namespace"
@@ -38,6 +40,7 @@ class Variable:
     value: Evaluated
     location: Location
     leaked_from: Span | None = None
+    setter: Setter = "let"
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +109,7 @@ class Scope:
     saved_environments: list[SavedEnvironment] = field(default_factory=list)
     saved_settings: list[SavedSettings] = field(default_factory=list)
     _journal: list[tuple[dict[str, Any], str, Any]] = field(default_factory=list)
+    _reads: list[Read] | None = None
 
     def get(self, name: str, reader: Location) -> Evaluated | None:
         """Return a variable's value, None where it is unset."""
@@ -115,23 +119,55 @@ class Scope:
             return None
         if variable.leaked_from is not None:
             self._warn_of_leak(name, variable, reader)
+        if self._reads is not None and isinstance(variable.value, Value):
+            self._reads.append(read_of(name, variable.value, variable))
         return variable.value
+
+    def note(self, kind: ReadKind, name: str, value: str) -> None:
+        """Note that something other than a variable is read."""
+        if self._reads is None:
+            return
+        if kind == "environment" and self.changes.get(name):
+            change = self.changes[name][-1]
+            read = Read(kind, name, value, "environment", change.location, change.through)
+        elif kind == "environment":
+            read = Read(kind, name, value, "caller", None)
+        else:
+            found = [item for item in self.parameters if getattr(item, "name", None) == name]
+            at, through = (found[-1].location, found[-1].through) if found else (None, ())
+            read = Read(kind, name, value, "parameter", at, through)
+        self._reads.append(read)
+
+    @contextmanager
+    def tracing(self) -> Iterator[list[Read]]:
+        """Collect what is read meanwhile."""
+        outer = self._reads
+        inner: list[Read] = []
+        self._reads = inner
+        try:
+            yield inner
+        finally:
+            self._reads = outer
+            if outer is not None:
+                outer += inner
 
     def names(self) -> tuple[str, ...]:
         """Return the names of the variables that are set."""
         return tuple(self.variables)
 
-    def set(self, name: str, value: Evaluated, location: Location) -> None:
+    def set(self, name: str, value: Evaluated, location: Location, setter: Setter = "let") -> None:
         """Set a variable."""
-        self._put(self.variables, name, Variable(value, location))
+        self._put(self.variables, name, Variable(value, location, setter=setter))
 
     def forget(self, name: str) -> None:
         """Unset a variable."""
         self._put(self.variables, name, _ABSENT)
 
-    def change(self, name: str, value: str | None, location: Location) -> None:
+    def change(
+        self, name: str, value: str | None, location: Location, through: tuple[Read, ...] = ()
+    ) -> None:
         """Set or remove an environment variable."""
-        changes = (*self.changes.get(name, ()), EnvironmentChange(value, location))
+        changes = (*self.changes.get(name, ()), EnvironmentChange(value, location, through))
         self._put(self.changes, name, changes)
         self._put(self.environment, name, _ABSENT if value is None else value)
 
@@ -242,6 +278,11 @@ class Scope:
             notes=(f"set at {variable.location}", f"included at {variable.leaked_from}"),
         )
         self._put(self.variables, name, replace(variable, leaked_from=None))
+
+
+def read_of(name: str, value: Value, variable: Variable) -> Read:
+    """Return what is noted of a variable that is read."""
+    return Read("variable", name, value.text, variable.setter, variable.location, value.through)
 
 
 def _write(table: dict[str, Any], name: str, value: object) -> None:

@@ -14,7 +14,9 @@ if TYPE_CHECKING:
 
 def visit(action: AppendEnv, run: Resolution) -> None:
     """Add to an environment variable for what follows; one that is unset gets the new text alone."""
-    name, value = run.text(action.name), run.text(action.value)
+    name = run.text(action.name)
+    with run.scope.tracing() as reads:
+        value = run.text(action.value)
     prepend, separator = run.flag(action.prepend, default=False), run.text(action.separator)
     if not isinstance(name, str):
         return
@@ -24,4 +26,4 @@ def visit(action: AppendEnv, run: Resolution) -> None:
     present = run.scope.environment.get(name)
     texts = [value] if present is None else [value, present] if prepend else [present, value]
     joined = (os.pathsep if separator is None else separator).join(texts)
-    run.scope.change(name, joined, run.at(action.value.span))
+    run.scope.change(name, joined, run.at(action.value.span), tuple(reads))

@@ -37,7 +37,7 @@ def _value(action: Arg, name: str, run: Resolution) -> Evaluated:
     if variable is not None and not _is_default(action, variable.value, run):
         return run.scope.get(name, run.at(action.span)) or POISON  # warns
     value = _default(action, name, run)
-    run.scope.set(name, value, run.at(action.span))
+    run.scope.set(name, value, run.at(action.span), "default")
     return value
 
 

@@ -113,7 +113,7 @@ def _arguments(action: Include, run: Resolution) -> tuple[list[Given], set[str]]
         used |= read.intersection(item.name for item in given)
         if isinstance(name, Value):
             given.append(Given(name.text, name.location))
-            run.scope.set(name.text, value or POISON, run.at(pair.value.span))
+            run.scope.set(name.text, value or POISON, run.at(pair.value.span), "include")
     return given, used
 
 

@@ -17,4 +17,4 @@ def visit(action: PushRosNamespace, run: Resolution) -> None:
     value, at = run.evaluate(action.namespace), run.at(action.namespace.span)
     pushed = below(run.scope.namespace(at), value, run.problems)
     if pushed is not None:
-        run.scope.set(NAMESPACE, pushed, at)
+        run.scope.set(NAMESPACE, pushed, at, "push")

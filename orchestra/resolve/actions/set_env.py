@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from orchestra.resolve.context import Value
+
 if TYPE_CHECKING:
     from orchestra.description.actions.set_env import SetEnv
     from orchestra.resolve.resolution import Resolution
@@ -11,8 +13,8 @@ if TYPE_CHECKING:
 
 def visit(action: SetEnv, run: Resolution) -> None:
     """Set an environment variable for what follows."""
-    name, value = run.text(action.name), run.text(action.value)
-    if isinstance(name, str) and isinstance(value, str):
-        run.scope.change(name, value, run.at(action.value.span))
+    name, value = run.text(action.name), run.evaluate(action.value)
+    if isinstance(name, str) and isinstance(value, Value):
+        run.scope.change(name, value.text, run.at(action.value.span), value.through)
     elif isinstance(name, str):
         run.found.lost.add(name)

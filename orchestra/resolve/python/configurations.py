@@ -58,9 +58,9 @@ class Configurations(MutableMapping[str, Any]):
         if name in (_PARAMETERS, _REMAPS) and isinstance(value, list | tuple):
             self._make_up(name, value)
         elif isinstance(value, str):
-            self._run.scope.set(name, Value(value, location), location)
+            self._run.scope.set(name, Value(value, location), location, "code")
         else:
-            self._run.scope.set(name, ObjectValue(str(value), location, value), location)
+            self._run.scope.set(name, ObjectValue(str(value), location, value), location, "code")
 
     def __delitem__(self, name: str) -> None:
         if self._run.scope.get(name, self._location()) is None:

@@ -23,4 +23,5 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
         code=Code.UNSET_ENVIRONMENT,
         told="the environment variable {} is not set",
         known=lambda: context.environment,
+        kind="environment",
     )

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from orchestra.description.text import Call
     from orchestra.errors import Code
-    from orchestra.resolve.context import Context, Evaluated
+    from orchestra.resolve.context import Context, Evaluated, ReadKind
     from orchestra.resolve.substitutions.arguments import Evaluate
 
 
@@ -27,17 +27,20 @@ def looked_up(
     code: Code,
     told: str,
     known: Callable[[], Iterable[str]],
+    kind: ReadKind | None = None,
 ) -> Evaluated:
     """Return what `find` has for the first argument, else the second one, which is evaluated only then.
 
     Where there is neither, that is reported: `told` says it, with `{}` in the place of the name; `known` are the names
-    that there are.
+    that there are. What is found is noted as something of a `kind` that was read, unless `find` does so.
     """
     written = call.arguments[0]
     name = evaluate(written, context)
     if isinstance(name, Poison):
         return POISON
     value = find(name.text)
+    if kind is not None and isinstance(value, str):
+        context.variables.note(kind, name.text, value)
     if value is None and len(call.arguments) > 1:
         value = evaluate(call.arguments[1], context)
     if value is None:

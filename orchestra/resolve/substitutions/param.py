@@ -26,4 +26,5 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
         code=Code.UNDEFINED_VARIABLE,
         told="no set_parameter has set {} here",
         known=lambda: context.parameters,
+        kind="parameter",
     )
