@@ -83,6 +83,15 @@ class Code(StrEnum):
     MIDDLEWARE = "ORC054"
     UNFIT_MACHINE = "ORC055"
 
+    UNUSED_ARGUMENT = "ORC070"
+    SHADOWED_ARGUMENT = "ORC071"
+    IMPOSSIBLE_CONDITION = "ORC072"
+    IDLE_KEY = "ORC073"
+    SPLIT_TOPIC = "ORC074"
+    IDLE_REMAP = "ORC075"
+    UNRUNNABLE_EXECUTABLE = "ORC076"
+    CONTESTED_CORE = "ORC077"
+
 
 @dataclass(frozen=True, slots=True)
 class Problem:

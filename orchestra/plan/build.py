@@ -14,7 +14,7 @@ from orchestra.plan.edges import Targets, check_cycles, dependencies
 from orchestra.plan.ids import check_names, identities
 from orchestra.plan.model import VERSION, Argument, Plan, Process, Skipped
 from orchestra.plan.parameter_file import file_name
-from orchestra.plan.parameters import Parameters, check_for_all, check_given, parameters_of
+from orchestra.plan.parameters import Parameters, check_given, parameters_of
 from orchestra.plan.provenance import environment_of, provenance
 from orchestra.plan.remappings import check_remaps
 from orchestra.plan.terminal import check_stdin
@@ -49,7 +49,6 @@ def build(
     check_cycles(edges, problems)
     check_stdin(targets.process, problems)
     check_given(resolved, problems)
-    check_for_all(resolved, problems)
     processes = tuple(
         _process(process, identity, edges[identity], resolved, problems)
         for identity, process in targets.process.items()

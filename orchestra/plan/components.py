@@ -14,7 +14,7 @@ from orchestra.nearest import nearest
 from orchestra.plan.absent import is_mistake
 from orchestra.plan.ids import base_identity, node_name
 from orchestra.plan.model import Candidate, Component, Provenance
-from orchestra.plan.parameters import FROM_COMMAND_LINE, check_files, settings_of
+from orchestra.plan.parameters import FROM_COMMAND_LINE, settings_of
 from orchestra.plan.remappings import check_remaps
 from orchestra.resolve.model import InlineParameter
 
@@ -72,8 +72,6 @@ def _component(
     problems: Problems,
 ) -> Component:
     full = node_name(component)
-    if full is not None:
-        check_files(component.parameters, full, problems)
     check_remaps(component, problems)
     candidates = _candidates(component.parameters, full, resolved)
     return Component(
@@ -95,7 +93,9 @@ def _component(
             namespace=component.namespace.location if component.namespace is not None else None,
             parameters=candidates,
             remappings=tuple(rule.source.location for rule in component.remaps),
+            params_schema=None if component.params_schema is None else component.params_schema.location,
         ),
+        params_schema=None if component.params_schema is None else component.params_schema.text,
     )
 
 

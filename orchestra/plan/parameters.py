@@ -11,7 +11,7 @@ from orchestra.plan.absent import is_mistake
 from orchestra.plan.ids import node_name
 from orchestra.plan.model import Candidate, ParameterFile
 from orchestra.plan.parameter_file import rendered
-from orchestra.resolve.model import FileParameters, InlineParameter
+from orchestra.resolve.model import InlineParameter
 from orchestra.resolve.rcl.effective import effective
 from orchestra.resolve.rcl.patterns import matches
 from orchestra.resolve.rcl.sections import Section, entry
@@ -23,7 +23,6 @@ if TYPE_CHECKING:
 
     from orchestra.resolve.model import (
         GivenSections,
-        ParameterSource,
         Resolved,
         ResolvedComponent,
         ResolvedProcess,
@@ -47,7 +46,7 @@ class Parameters:
 def parameters_of(process: ResolvedProcess, given: Sequence[GivenSections], problems: Problems) -> Parameters:
     """Return the effective parameters of a process; those of the command line win over all others.
 
-    Surprises are reported: a value that loses although it stands last, a file that has nothing for the node.
+    A surprise is reported: a value that loses although it stands last.
     """
     if process.kind == "process":
         return Parameters()
@@ -57,8 +56,6 @@ def parameters_of(process: ResolvedProcess, given: Sequence[GivenSections], prob
     settings = settings_of(sections, full)
     overrides = settings_of([section for item in given for section in item.sections], full)
     _report(settings, overrides, problems)
-    if full is not None:
-        check_files(process.parameters, full, problems)
     every = [*sections, *(section for item in given for section in item.sections)]
     return Parameters(
         {
@@ -85,23 +82,6 @@ def check_given(resolved: Resolved, problems: Problems) -> None:
             message = f"there is no node '{section.pattern}' to give parameters to"
             suggestion = nearest(section.pattern, names)
             report(Code.UNMATCHED_SECTION, message, section.location, suggestion=suggestion)
-
-
-def check_for_all(resolved: Resolved, problems: Problems) -> None:
-    """Report parameter files for all nodes of a scope that have nothing for any node."""
-    nodes = _nodes(resolved)
-    names = _names(resolved)
-    files = {
-        source.location: source
-        for node in nodes
-        for source in node.parameters
-        if isinstance(source, FileParameters) and source.everywhere
-    }
-    for file in files.values():
-        matched = any(matches(section.pattern, name) for section in file.sections for name in names)
-        if not matched and len(names) == len(nodes):
-            message = "the parameter file has no section for any node"
-            problems.warning(Code.UNMATCHED_SECTION, message, file.location)
 
 
 def _nodes(resolved: Resolved) -> list[ResolvedProcess | ResolvedComponent]:
@@ -162,22 +142,6 @@ def _report(settings: dict[str, Setting], overrides: dict[str, Setting], problem
                 setting.overruled.location,
                 notes=(f"the value that counts is at {winner.location}",),
             )
-
-
-def check_files(sources: Iterable[ParameterSource], full: str, problems: Problems) -> None:
-    """Report a file of the node's own that has nothing for it."""
-    for source in sources:
-        if not isinstance(source, FileParameters) or source.everywhere or not source.sections:
-            continue
-        if any(matches(section.pattern, full) for section in source.sections):
-            continue
-        patterns = list(dict.fromkeys(section.pattern for section in source.sections))
-        problems.warning(
-            Code.UNMATCHED_SECTION,
-            f"the parameter file has no section for '{full}'",
-            source.location,
-            notes=("it has " + ", ".join(f"'{pattern}'" for pattern in patterns),),
-        )
 
 
 def _passed_on(sections: Iterable[Section], own: str | None) -> tuple[ParameterFile, ...]:

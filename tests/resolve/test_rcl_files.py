@@ -51,7 +51,7 @@ def test_sections_and_entries_come_in_order_with_their_places() -> None:
     assert places["rate"] == (Span("f.yaml", 3, 5, 3, 9), Span("f.yaml", 3, 11, 3, 15))
     assert places["frames.odom"][1] == Span("f.yaml", 4, 20, 4, 24)
     assert places["frames.base"] == (Span("f.yaml", 4, 26, 4, 30), Span("f.yaml", 4, 32, 5, 9))
-    assert sections[1].location.span == Span("f.yaml", 8, 5, 8, 20)
+    assert sections[1].location.span == Span("f.yaml", 7, 3, 7, 4)
 
 
 @pytest.mark.parametrize(

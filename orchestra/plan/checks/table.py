@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, Protocol
 
+from orchestra.plan.checks.sections import check_sections
+
 if TYPE_CHECKING:
     from orchestra.errors import Problems
     from orchestra.plan.model import Plan
@@ -17,7 +19,7 @@ class Check(Protocol):
         """Report what is wrong."""
 
 
-CHECKS: Final[tuple[Check, ...]] = ()
+CHECKS: Final[tuple[Check, ...]] = (check_sections,)
 
 
 def check_all(resolved: Resolved, plan: Plan, problems: Problems) -> None:

@@ -47,6 +47,7 @@ class Reader:
     keys: list[str] = field(default_factory=list)
     node_depth: int = 0  # how many of `keys` lead to the section
     last_key: str = ""
+    node_key: Location | None = None  # where the last key stands that is part of a node's name
     before_key: Joined = field(default_factory=lambda: Joined("/"))
     parameter: OpenParameter | None = None
     lists: list[OpenList] = field(default_factory=list)
@@ -91,6 +92,7 @@ class Reader:
         else:
             self.before_key = copy.copy(self.node)
             self.node.grow(name)
+            self.node_key = self.at(event)
         self.last_key = name
         self.expects_key = False
 
@@ -100,14 +102,14 @@ class Reader:
         if not self.node.count:
             raise self.unreadable(f"'{SECTION_KEY}' must stand below the name of a node", event)
         pattern, said = self.node.text, joined("/", self.keys[1:])
-        fault = pattern_fault(pattern)
+        fault, named_at = pattern_fault(pattern), self.node_key or at
         if fault is not None:
-            self.error(f"'{pattern}' cannot be the name of a node: {fault.reason}", at)
+            self.error(f"'{pattern}' cannot be the name of a node: {fault.reason}", named_at)
         elif pattern != said:
             self.surprise(f"rcl reads this as the section of '{pattern}', not of '{said}'", at)
         if name != SECTION_KEY:
             self.surprise(f"rcl reads '{name}' as '{SECTION_KEY}'", at)
-        self.found.append(OpenSection(pattern, at, sound=fault is None))
+        self.found.append(OpenSection(pattern, named_at, sound=fault is None))
         self.before_key = copy.copy(self.node)
         self.node.shrink()
         self.node_depth = len(self.keys)

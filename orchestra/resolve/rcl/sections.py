@@ -31,7 +31,7 @@ class Section:
     """What one `ros__parameters` mapping sets for the nodes that match a pattern.
 
     The pattern is as rcl keeps it, nested keys joined with `/`: `ns/n` and `/ns/n` match the same nodes but count as
-    two patterns where the order matters. `location` is that of the last key of the pattern.
+    two patterns where the order matters. `location` is that of the last key of the pattern: the node's name.
     """
 
     pattern: str

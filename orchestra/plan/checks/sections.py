@@ -1,0 +1,176 @@
+"""Sections of parameter files that are for no node, where they were meant for one that the file is given to.
+
+Files that are shared have sections for nodes that a description does not start: such are left alone. A mistake is a
+section that stands where one for a node is missing: the only one of a file, one for the same name in another
+namespace, one whose name is that of the node mistyped. What is missing without any such is told at the reference.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, TypeAlias
+
+from orchestra.errors import Code
+from orchestra.location import Location
+from orchestra.plan.checks.typos import is_typo
+from orchestra.plan.ids import node_name
+from orchestra.resolve.model import FileParameters
+from orchestra.resolve.rcl.patterns import matches
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+    from orchestra.errors import Problems
+    from orchestra.plan.model import Plan
+    from orchestra.resolve.model import Resolved, ResolvedComponent, ResolvedProcess
+    from orchestra.resolve.rcl.sections import Section
+
+    _Node: TypeAlias = "ResolvedProcess | ResolvedComponent"
+
+
+@dataclass(slots=True)
+class _File:
+    """A parameter file and the nodes that it is given to, by their full names; `open`: one has no known name."""
+
+    source: FileParameters
+    users: dict[str, Location] = field(default_factory=dict)
+    open: bool = False
+
+
+def check_sections(resolved: Resolved, plan: Plan, problems: Problems) -> None:
+    """Report sections that miss their node, and files that have nothing for a node."""
+    del plan
+    nodes = [*(item for item in resolved.processes if item.kind != "process"), *resolved.components]
+    names = _Names(name for node in nodes if (name := node_name(node)) is not None)
+    told: set[object] = set()
+    for file in _files(nodes):
+        _check(file, names, resolved, problems, told)
+
+
+class _Names:
+    """The full names of all nodes, and which patterns match any."""
+
+    def __init__(self, names: Iterable[str]) -> None:
+        self._names = frozenset(names)
+        self._known: dict[str, bool] = {}
+
+    def any(self, pattern: str) -> bool:
+        """Return whether a pattern matches a node."""
+        if "*" not in pattern:
+            return _absolute(pattern) in self._names
+        if pattern not in self._known:
+            self._known[pattern] = any(matches(pattern, name) for name in self._names)
+        return self._known[pattern]
+
+
+def _files(nodes: Sequence[_Node]) -> list[_File]:
+    """Return the files with the nodes that each is given to; one for all nodes of a scope is a file of its own."""
+    files: dict[tuple[str, object], _File] = {}
+    for node in nodes:
+        name = node_name(node)
+        for source in node.parameters:
+            if not isinstance(source, FileParameters) or not source.sections:
+                continue
+            place = source.location if source.everywhere else None
+            file = files.setdefault((source.path, place), _File(source))
+            if name is None:
+                file.open = True
+            else:
+                file.users.setdefault(name, source.location)
+    return list(files.values())
+
+
+def _check(file: _File, names: _Names, resolved: Resolved, problems: Problems, told: set[object]) -> None:
+    sections = file.source.sections
+    exact = {_absolute(section.pattern) for section in sections}
+    wild = list(dict.fromkeys(section.pattern for section in sections if "*" in section.pattern))
+    idle = [section for section in sections if not names.any(section.pattern)]
+    without: list[str] = []
+    for name in file.users:
+        if name in exact:
+            continue
+        served = any(matches(pattern, name) for pattern in wild)
+        meant = _meant(name, idle, served=served, resolved=resolved) if idle and not file.open else None
+        if meant is not None:
+            _report(meant, name, _instead(meant, name), file.users[name], problems, told)
+        elif not served:
+            without.append(name)
+    if without and (not file.source.everywhere or (len(without) == len(file.users) and not file.open)):
+        _report_without(file, without, idle, problems, told)
+
+
+def _meant(name: str, idle: Sequence[Section], *, served: bool, resolved: Resolved) -> Section | None:
+    """Return the section that was meant for a node, None where none plainly was."""
+    namespace, _, own = name.rpartition("/")
+    for section in idle:
+        there, _, last = _absolute(section.pattern).rpartition("/")
+        if last == own and there != namespace and (not there or not served):
+            return section  # beside a wildcard, one for another namespace is for another robot
+    for section in idle:
+        there, _, last = _absolute(section.pattern).rpartition("/")
+        if last not in resolved.lost and there in ("", "/**", namespace) and is_typo(last, own):
+            return section
+    return None
+
+
+def _instead(section: Section, name: str) -> str | None:
+    """Return what should stand in place of the key of a section, None where one key cannot say it."""
+    namespace, _, own = name.rpartition("/")
+    there, _, last = _absolute(section.pattern).rpartition("/")
+    if not _is_one_key(section):
+        return own if there == namespace else None
+    if last == own:
+        return f"/**/{own}"
+    lead = section.pattern[: len(section.pattern) - len(last)]
+    return f"{lead}{own}" if there in (namespace, "/**") else name
+
+
+def _report(
+    section: Section,
+    name: str,
+    instead: str | None,
+    given_at: Location,
+    problems: Problems,
+    told: set[object],
+) -> None:
+    if section.location.span in told:
+        return
+    told.add(section.location.span)
+    message = f"no node is called '{_absolute(section.pattern)}', and '{name}' is given this file"
+    notes = [f"it is given at {given_at}"]
+    if instead is None:
+        notes.append(f"did you mean '{name}'?")
+    problems.warning(Code.UNMATCHED_SECTION, message, section.location, suggestion=instead, notes=notes)
+
+
+def _report_without(
+    file: _File, names: Sequence[str], idle: Sequence[Section], problems: Problems, told: set[object]
+) -> None:
+    """Report nodes for which a file has nothing: at its one section, else where the file is given to the node."""
+    sections = file.source.sections
+    if len(sections) == 1 and len(names) == len(file.users) and idle and not file.open:
+        alone = names[0] if len(names) == 1 else "/**"
+        instead = alone if _is_one_key(sections[0]) else None
+        _report(sections[0], names[0], instead, file.users[names[0]], problems, told)
+        return
+    patterns = list(dict.fromkeys(section.pattern for section in sections))
+    for name in names:
+        whom = "any node" if file.source.everywhere else f"'{name}'"
+        problems.warning(
+            Code.UNMATCHED_SECTION,
+            f"the parameter file has no section for {whom}",
+            file.users[name],
+            notes=("it has " + ", ".join(f"'{pattern}'" for pattern in patterns),),
+        )
+        if file.source.everywhere:
+            return
+
+
+def _is_one_key(section: Section) -> bool:
+    span = section.location.span
+    width = span.end_column - span.column
+    return span.line == span.end_line and width - len(section.pattern) in (0, 2)
+
+
+def _absolute(pattern: str) -> str:
+    return pattern if pattern.startswith("/") else f"/{pattern}"
