@@ -9,7 +9,7 @@ import codecs
 import re
 from typing import Final
 
-_DECLARED = re.compile(rb"""\s*<\?xml\s[^>]*?\bencoding\s*=\s*["']([^"']*)["']""")
+DECLARED: Final = re.compile(rb"""\s*<\?xml\s[^>]*?\bencoding\s*=\s*["']([^"']*)["']""")
 _WIDE: Final = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
 
 
@@ -26,7 +26,7 @@ def decoded(content: bytes) -> str:
     """Return the text of a file without its byte order mark. Raises `UndecodableError`."""
     if content.startswith(_WIDE):
         return _text(content, "utf-16")
-    declared = _DECLARED.match(content)
+    declared = DECLARED.match(content)
     try:
         return _text(content, "utf-8-sig")
     except UndecodableError:
