@@ -92,6 +92,17 @@ class Code(StrEnum):
     UNRUNNABLE_EXECUTABLE = "ORC076"
     CONTESTED_CORE = "ORC077"
 
+    BROKEN_DECLARATION = "ORC090"
+    UNDECLARED_PARAMETER = "ORC091"
+    DECLARED_TYPE = "ORC092"
+    REFUSED_VALUE = "ORC093"
+    REQUIRED_PARAMETER = "ORC094"
+    TOPIC_TYPE = "ORC095"
+    TOPIC_QOS = "ORC096"
+    UNFED_TOPIC = "ORC097"
+
+    UNUSED_IGNORE = "ORC100"
+
 
 @dataclass(frozen=True, slots=True)
 class Problem:
@@ -115,9 +126,11 @@ class Problems:
     """Collects the problems of one pass.
 
     The same problem at the same place is kept once, with the fewest includes, however often its file is included.
+    `silencing` has file and line of the comments that have silenced some.
     """
 
     _found: dict[tuple[object, ...], Problem] = field(default_factory=dict)
+    silencing: set[tuple[str, int]] = field(default_factory=set)
 
     def report(self, problem: Problem) -> None:
         """Keep a problem unless the same one stands already at this place."""
@@ -155,9 +168,10 @@ class Problems:
         for problem in problems:
             self.report(problem)
 
-    def amend(self, amended: Callable[[Problem], Problem]) -> None:
-        """Put another problem in place of each."""
-        self._found = {key: amended(problem) for key, problem in self._found.items()}
+    def amend(self, amended: Callable[[Problem], Problem | None]) -> None:
+        """Put another problem in place of each, or none."""
+        found = ((key, amended(problem)) for key, problem in self._found.items())
+        self._found = {key: problem for key, problem in found if problem is not None}
 
     def __iter__(self) -> Iterator[Problem]:
         return iter(self._found.values())

@@ -21,6 +21,11 @@ class ComposableNode(Conditional):
     param: tuple[Param, ...] = Field(
         default=(), description="Parameters and parameter files, later ones win."
     )
+    params_schema: Text | None = Field(
+        default=None,
+        description="What declares its parameters: a JSON Schema file, a definition file of"
+        " generate_parameter_library, or a pydantic model (`module:Class`).",
+    )
     remap: tuple[Remap, ...] = Field(default=(), description="Remappings, the first that matches counts.")
     extra_arg: tuple[Param, ...] = Field(
         default=(), description="What else the container is told, as use_intra_process_comms."

@@ -128,6 +128,7 @@ def _process(
         digest="",
         location=process.location,
         provenance=provenance(process, parameters),
+        params_schema=None if process.params_schema is None else process.params_schema.text,
     )
     return _with_files(planned, process, parameters)
 

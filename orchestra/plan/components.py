@@ -11,10 +11,12 @@ from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
 from orchestra.nearest import nearest
+from orchestra.plan import candidates
 from orchestra.plan.absent import is_mistake
 from orchestra.plan.ids import base_identity, node_name
 from orchestra.plan.model import Candidate, Component, Provenance
-from orchestra.plan.parameters import FROM_COMMAND_LINE, settings_of
+from orchestra.plan.parameters import settings_of
+from orchestra.plan.provenance import naming, remapping_values
 from orchestra.plan.remappings import check_remaps
 from orchestra.resolve.model import InlineParameter
 
@@ -73,7 +75,7 @@ def _component(
 ) -> Component:
     full = node_name(component)
     check_remaps(component, problems)
-    candidates = _candidates(component.parameters, full, resolved)
+    written = _candidates(component.parameters, full, resolved)
     return Component(
         id=identity,
         name=component.name.text if component.name is not None else None,
@@ -83,7 +85,7 @@ def _component(
         container=_container(component, index, resolved),
         process=ids[index] if index is not None else None,
         condition="event" if component.delayed else "started",
-        parameters=_values(candidates),
+        parameters=_values(written),
         remappings=tuple((rule.source.text, rule.target.text) for rule in component.remaps),
         extra_arguments=_values(_candidates(component.extra_arguments, full, None)),
         lifecycle="active" if component.autostart else None,
@@ -91,8 +93,10 @@ def _component(
         provenance=Provenance(
             name=component.name.location if component.name is not None else None,
             namespace=component.namespace.location if component.namespace is not None else None,
-            parameters=candidates,
+            parameters=written,
             remappings=tuple(rule.source.location for rule in component.remaps),
+            naming=naming(component),
+            remapping_values=remapping_values(component),
             params_schema=None if component.params_schema is None else component.params_schema.location,
         ),
         params_schema=None if component.params_schema is None else component.params_schema.text,
@@ -136,10 +140,17 @@ def _candidates(
     overrides = settings_of([section for item in given for section in item.sections], full)
     for name, setting in overrides.items():
         for item in sorted(setting.written, key=lambda item: item.won):
-            found.setdefault(name, []).append((item.value, item.location, FROM_COMMAND_LINE))
+            found.setdefault(name, []).append((item.value, item.location, candidates.FROM_COMMAND_LINE))
+    known = candidates.origins(sources)
     return {
         name: tuple(
-            Candidate(value, location, item is written[-1], rule)
+            Candidate(
+                value,
+                location,
+                item is written[-1],
+                rule if item is written[-1] else "written before the value that counts",
+                candidates.behind(location, known),
+            )
             for item in written
             for value, location, rule in (item,)
         )
@@ -161,5 +172,5 @@ def _entries(
             yield name, item.value, item.location
 
 
-def _values(candidates: dict[str, tuple[Candidate, ...]]) -> dict[str, ParameterValue]:
-    return {name: written[-1].value for name, written in candidates.items() if written[-1].value is not None}
+def _values(found: dict[str, tuple[Candidate, ...]]) -> dict[str, ParameterValue]:
+    return {name: written[-1].value for name, written in found.items() if written[-1].value is not None}

@@ -46,24 +46,54 @@ class ParameterFile:
 
 
 @dataclass(frozen=True, slots=True)
+class Via:
+    """What a value came through: something that was read to make it.
+
+    `setter` says who set it: the `default` of an argument, the argument of an `include`, the `command line`, `let`,
+    `for_each`, `environment` and `parameter` of the description, `push` of a namespace, `code` of a launch file, the
+    environment of the `caller` (which has no place). What one with a greater `depth` is, was read to make the last one
+    before it with a lesser one. A long `value` is cut.
+    """
+
+    kind: Literal["variable", "environment", "parameter", "namespace"]
+    name: str
+    value: str
+    setter: str
+    location: Location | None
+    depth: int
+
+
+@dataclass(frozen=True, slots=True)
 class Candidate:
-    """A value somebody wrote for a setting, and whether it is the one that counts."""
+    """A value somebody wrote for a setting, and whether it is the one that counts.
+
+    `rule` says why it does or does not, `through` what was read to make it (or the path of the file that it stands in),
+    outermost first.
+    """
 
     value: ParameterValue | None
     location: Location
     won: bool
     rule: str
+    through: tuple[Via, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Provenance:
-    """Where the values of a process were written."""
+    """Where the values of a process were written.
+
+    `naming` has all that was written for its `name` and its `namespace`, `remapping_values` what the two sides of each
+    rule came through.
+    """
 
     name: Location | None = None
     namespace: Location | None = None
     parameters: dict[str, tuple[Candidate, ...]] = field(default_factory=dict)
     remappings: tuple[Location, ...] = ()
     environment: dict[str, tuple[Candidate, ...]] = field(default_factory=dict)
+    naming: dict[str, tuple[Candidate, ...]] = field(default_factory=dict)
+    remapping_values: tuple[tuple[Via, ...], ...] = ()
+    params_schema: Location | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +106,7 @@ class Process:
     `parameters` are the node's effective values; the file that carries them is `${run}/params/NAME.yaml` and stands
     in `command`. `output` is a word of the launch language, or the places (`screen`, `log`, `own_log`) by stream
     (`stdout`, `stderr`, `both`). `lifecycle` is the state that a lifecycle node is brought to when it has started.
+    `params_schema` is what the description names as the declaration of its parameters.
     """
 
     id: str
@@ -111,6 +142,7 @@ class Process:
     digest: str
     location: Location
     provenance: Provenance
+    params_schema: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -149,6 +181,7 @@ class Component:
     lifecycle: Literal["active"] | None
     location: Location
     provenance: Provenance
+    params_schema: str | None = None
 
 
 @dataclass(frozen=True, slots=True)

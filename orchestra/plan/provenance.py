@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.plan.model import Candidate, Provenance
+from orchestra.plan import candidates
+from orchestra.plan.model import Provenance
 
 if TYPE_CHECKING:
+    from orchestra.plan.model import Candidate, Via
     from orchestra.plan.parameters import Parameters
-    from orchestra.resolve.model import ResolvedProcess
+    from orchestra.resolve.model import ResolvedComponent, ResolvedProcess
 
 
 def environment_of(process: ResolvedProcess) -> dict[str, str | None]:
@@ -24,10 +26,20 @@ def provenance(process: ResolvedProcess, parameters: Parameters) -> Provenance:
         parameters=parameters.candidates,
         remappings=tuple(rule.source.location for rule in process.remaps),
         environment={
-            name: tuple(
-                Candidate(change.value, change.location, change is changes[-1], "the last one counts")
-                for change in changes
-            )
-            for name, changes in process.environment.items()
+            name: candidates.of_environment(changes) for name, changes in process.environment.items()
         },
+        naming=naming(process),
+        remapping_values=remapping_values(process),
+        params_schema=None if process.params_schema is None else process.params_schema.location,
     )
+
+
+def naming(node: ResolvedProcess | ResolvedComponent) -> dict[str, tuple[Candidate, ...]]:
+    """Return all that was written for the name and the namespace of a node, under these two words."""
+    found = {"name": candidates.of_name(node.name), "namespace": candidates.of_namespace(node.namespace)}
+    return {word: written for word, written in found.items() if written}
+
+
+def remapping_values(node: ResolvedProcess | ResolvedComponent) -> tuple[tuple[Via, ...], ...]:
+    """Return for each remapping rule what its two sides came through."""
+    return tuple(candidates.passage([*rule.source.through, *rule.target.through]) for rule in node.remaps)

@@ -11,6 +11,7 @@ from orchestra.resolve.model import ResolvedComponent
 from orchestra.resolve.namespaces import namespace_at
 from orchestra.resolve.node_names import named
 from orchestra.resolve.parameters import parameters
+from orchestra.resolve.params_schema import params_schema
 from orchestra.resolve.reactions import ResolvedLoad
 from orchestra.resolve.remapping import remaps
 
@@ -56,7 +57,8 @@ def _component(
     extra, told = parameters(written.extra_arg, run, component=True, quotes=False)
     rules, regular = remaps(written.remap, run)
     autostart = run.flag(written.autostart, default=False)
-    values = (package, plugin, name, namespace, autostart)
+    schema = params_schema(written.params_schema, run)
+    values = (package, plugin, name, namespace, autostart, schema)
     sound = whole and told and regular and not any(isinstance(value, Poison) for value in values)
     return ResolvedComponent(
         package=package if isinstance(package, str) else written.pkg.raw,
@@ -74,5 +76,7 @@ def _component(
         location=run.at(written.span),
         conditional=run.conditions > 0 or written.if_ is not None or written.unless is not None,
         faulty=not sound or container.faulty or written.faulty,
+        params_schema=None if isinstance(schema, Poison) else schema,
+        share=run.context.packages.share(package) if isinstance(package, str) else None,
         origin=written.origin,
     )

@@ -54,7 +54,12 @@ def placed_back(section: Section, back: Back) -> Section:
 
 
 def _entry_placed_back(entry: Entry, back: Back) -> Entry:
-    return replace(entry, location=_location(entry.location, back), key=_location(entry.key, back))
+    return replace(
+        entry,
+        location=_location(entry.location, back),
+        key=_location(entry.key, back),
+        items=tuple(_location(item, back) for item in entry.items),
+    )
 
 
 def _location(location: Location, back: Back) -> Location:

@@ -57,6 +57,7 @@ _EXTENSIONS = (
     "label",
     "lifecycle",
     "limits",
+    "params_schema",
     "ready",
     "required",
     "restart",

@@ -381,5 +381,5 @@ def test_every_field_of_the_specification_is_in_the_json(tmp_path: Path) -> None
             "stop",
             "limits",
         ),
-        *("warm", "machine", "digest", "location", "provenance"),
+        *("warm", "machine", "digest", "location", "provenance", "params_schema"),
     }

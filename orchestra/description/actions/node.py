@@ -28,6 +28,11 @@ class Node(Running):
     param: tuple[Param, ...] = Field(
         default=(), description="Parameters and parameter files, later ones win."
     )
+    params_schema: Text | None = Field(
+        default=None,
+        description="What declares its parameters: a JSON Schema file, a definition file of"
+        " generate_parameter_library, or a pydantic model (`module:Class`).",
+    )
     lifecycle: Annotated[Template, PlainValidator(word(*REACHED)), worded(*REACHED)] | None = Field(
         default=None,
         description="The state that a lifecycle node is brought to, and back to when it restarts.",

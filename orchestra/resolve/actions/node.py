@@ -10,6 +10,7 @@ from orchestra.resolve.context import POISON, Evaluated, Poison, Value
 from orchestra.resolve.namespaces import namespace_at
 from orchestra.resolve.node_names import named
 from orchestra.resolve.parameters import parameters
+from orchestra.resolve.params_schema import params_schema
 from orchestra.resolve.programs import packaged_words, program_words
 from orchestra.resolve.remapping import remaps
 from orchestra.resolve.running import Program, add_process, texts
@@ -54,7 +55,8 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
     arguments, ros_arguments = texts(action.args, run), texts(action.ros_args, run)
     own, whole = parameters(action.param, run)
     rules, regular = remaps(action.remap, run)
-    values = (package, executable, label, words, name, namespace, arguments, ros_arguments, autostart)
+    schema = params_schema(action.params_schema, run)
+    values = (package, executable, label, words, name, namespace, arguments, ros_arguments, autostart, schema)
     program = Program(
         kind=kind,
         executable=executable.text if isinstance(executable, Value) else action.exec.raw,
@@ -68,6 +70,8 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
         parameters=(*run.scope.parameters, *own),
         remaps=(*run.scope.remaps, *rules),
         autostart=autostart is True,
+        params_schema=None if isinstance(schema, Poison) else schema,
+        share=run.context.packages.share(package.text) if isinstance(package, Value) else None,
         faulty=not whole or not regular or any(isinstance(value, Poison) for value in values),
     )
     _tell(action.origin, program)

@@ -16,6 +16,7 @@ from orchestra.errors import Code
 from orchestra.location import Location, Span
 from orchestra.resolve.rcl.duplicates import report_duplicates
 from orchestra.resolve.rcl.reader import SECTION_KEY, Reader, Unreadable
+from orchestra.resolve.rcl.surprises import report_surprises
 from orchestra.resolve.rcl.values import LOADER
 
 if TYPE_CHECKING:
@@ -69,6 +70,7 @@ def _read(
         pass  # the reader has reported why it cannot go on
     sections = reader.sections()
     report_duplicates(sections, problems)
+    report_surprises(sections, text.removeprefix("\ufeff"), problems)
     return sections
 
 

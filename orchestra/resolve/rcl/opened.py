@@ -32,8 +32,9 @@ class OpenSection:
 
 @dataclass(slots=True)
 class OpenList:
-    """A list that is being read; `items` is None once an inner list has ended."""
+    """A list that is being read; `items` is None once an inner list has ended. `written` are their events."""
 
     start: yaml.Event
     items: list[Scalar] | None = field(default_factory=list)
+    written: list[yaml.Event] = field(default_factory=list)
     sound: bool = True

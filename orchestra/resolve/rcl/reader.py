@@ -157,6 +157,7 @@ class Reader:
             current.sound = False
         items.append(read)
         current.items = items
+        current.written.append(event)
 
     def drop(self) -> None:
         """Leave out the value at hand, which has been reported."""
@@ -241,6 +242,8 @@ class Reader:
             return
         value: ParameterValue | None = tuple(current.items) or None  # type: ignore[assignment] # of one type
         self.emit(value, self.at(current.start, event))
+        entries, items = self.found[-1].entries, tuple(map(self.at, current.written))
+        entries[-1] = replace(entries[-1], items=items if len(items) == len(current.items) else ())
 
     def emit(self, value: ParameterValue | None, location: Location, *, opens: bool = False) -> None:
         """Set the parameter at hand. A second value for it looks for the slot by the name it has by then."""

@@ -15,7 +15,7 @@ class Entry:
     `name` is the whole dotted name, `location` that of the value, `key` that of the name. `value` is None where rcl
     has the parameter without a value (an empty list or mapping). `slot` is the name under which rcl looks for the
     place to put it: for what is nested, the name of the mapping around it. `opens` marks a key that stands for no
-    parameter but for a group of them.
+    parameter but for a group of them. `items` are the places of the items of a list.
     """
 
     name: str
@@ -24,6 +24,7 @@ class Entry:
     key: Location
     slot: str
     opens: bool = False
+    items: tuple[Location, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -43,7 +43,7 @@ class Node(ExecuteProcess):
     for values that no parameter can have.
     """
 
-    _more_keywords = (*RUNNING, "lifecycle")
+    _more_keywords = (*RUNNING, "lifecycle", "params_schema")
 
     UNSPECIFIED_NODE_NAME = "<node_name_unspecified>"
     UNSPECIFIED_NODE_NAMESPACE = "<node_namespace_unspecified>"

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 class ComposableNode:
     """A class of a package, loaded into a container as a node. Raises `TypeError` as `Node` does."""
 
-    def __init__(
+    def __init__(  # noqa: PLR0913 - upstream's signature, and a key of ours
         self,
         *,
         package: Sub,
@@ -36,8 +36,10 @@ class ComposableNode:
         remappings: Any = None,
         extra_arguments: Any = None,
         condition: Condition | None = None,
+        params_schema: Sub | None = None,
     ) -> None:
         self._place = here(self)
+        self.__params_schema = None if params_schema is None else normalized(params_schema)
         self.__package = normalized(package)
         self.__node_plugin = normalized(plugin)
         self.__node_name = None if name is None else normalized(name)
@@ -105,6 +107,7 @@ class ComposableNode:
             param=params(self.parameters or (), span),
             remap=remaps(self.remappings or (), span),
             extra_arg=params(self.extra_arguments or (), span),
+            params_schema=optional(self.__params_schema, span),
             **self._more(),
             **({} if condition is None else condition_fields(condition, span)),
         )

@@ -1,0 +1,80 @@
+"""Classes that a description names and that code of the user defines."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import contextmanager
+from functools import reduce
+from importlib import import_module
+from importlib.util import find_spec
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.seam import connection, is_connected
+from orchestra.errors import Code
+from orchestra.nearest import nearest
+from orchestra.resolve.paths import folder_of
+from orchestra.resolve.python.calling import user_code
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from orchestra.description.text import Template
+    from orchestra.resolve.context import Value
+    from orchestra.resolve.resolution import Resolution
+
+
+def named_class(module: str, name: str, value: Value, written: Template, run: Resolution) -> Any:
+    """Return the object `name` of a module, which is imported; None where there is none (which has been reported).
+
+    Modules beside the launch file are found too, after all others. What the module does while it is imported is undone
+    as what launch files in Python do.
+    """
+    if is_connected():
+        connection().prepare()
+    found: list[Any] = []
+    with _path_with(str(folder_of(run.context.file))):
+        if not _is_there(module):
+            _refuse(f"there is no Python module '{module}'", None, value, run)
+            return None
+        with user_code(run, value.location.span):
+            found.append(import_module(module))
+    if not found:
+        return None  # what it raised has been reported
+    try:
+        return reduce(getattr, name.split("."), found[0])
+    except AttributeError:
+        classes = [key for key, item in vars(found[0]).items() if isinstance(item, type)]
+        near = nearest(name, classes)
+        replaceable = near is not None and written.constant is not None
+        meant = value.text.removesuffix(name) + near if near is not None and replaceable else None
+        _refuse(f"the module '{module}' has no class '{name}'", meant, value, run)
+        return None
+
+
+@contextmanager
+def _path_with(folder: str) -> Iterator[None]:
+    sys.path.append(folder)
+    try:
+        yield
+    finally:
+        if folder in sys.path:  # the code that was imported may have taken it away
+            sys.path.reverse()
+            sys.path.remove(folder)
+            sys.path.reverse()
+
+
+def _is_there(module: str) -> bool:
+    """Return whether there is such a module. Its packages are imported for that, which user code may be."""
+    outermost = module.partition(".")[0]
+    if find_spec(outermost) is None:
+        return False
+    try:
+        return find_spec(module) is not None
+    except ImportError:
+        return False
+    except Exception:  # noqa: BLE001 - a package of the user's that raises: its import does so again, and is reported
+        return True
+
+
+def _refuse(told: str, meant: str | None, value: Value, run: Resolution) -> None:
+    run.problems.error(Code.BROKEN_DECLARATION, told, value.location, suggestion=meant)

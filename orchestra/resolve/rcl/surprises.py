@@ -1,0 +1,118 @@
+"""Plain scalars of parameter files that rcl reads as something else than they say.
+
+Told is what readers of YAML disagree about (rcl's parser, YAML 1.1 as PyYAML reads it, YAML 1.2) and what nobody can
+mean. A number in another notation, as `1e-6` or `0x10`, arrives as the number that it is.
+"""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final
+
+from orchestra.errors import Code
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from orchestra.errors import Problems
+    from orchestra.location import Location, Span
+    from orchestra.resolve.rcl.sections import Entry, Section
+    from orchestra.values import Scalar
+
+_LETTERS: Final = frozenset("yYnN")
+_NULLS: Final = frozenset({"~", "null", "Null", "NULL"})
+_NO_NUMBER: Final = re.compile(r"(?P<sign>[-+]?)\.?(?P<word>inf(?:inity)?|nan)(?:\(\w*\))?", re.IGNORECASE)
+_AS_YAML: Final = re.compile(r"[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)")
+_ZEROS: Final = re.compile(r"(?P<sign>[-+]?)0+(?P<digits>[1-9][0-9]*)")
+_GROUPED: Final = re.compile(r"[-+]?[0-9]+(?:_[0-9]+)+(?:\.[0-9_]*)?")
+_WHOLE: Final = re.compile(r"[-+]?[0-9]+")
+_PREFIXED: Final = re.compile(r"[-+]?0(?:o(?P<octal>[0-7]+)|b(?P<binary>[01]+))")
+
+
+_BREAK: Final = re.compile("\r\n|[\r\n\x85\u2028\u2029]")
+
+
+@dataclass(frozen=True, slots=True)
+class Surprise:
+    """What is to be said of a scalar, and what should stand in its place."""
+
+    message: str
+    instead: str
+
+
+def report_surprises(sections: Sequence[Section], text: str, problems: Problems) -> None:
+    """Report what is surprising about the values in the text of a file; in a list the first."""
+    lines = _BREAK.split(text)
+    for section in sections:
+        for entry in section.entries:
+            for value, location in _scalars(entry):
+                written = _written(location.span, lines)
+                found = surprise(written, value) if written is not None else None
+                if found is not None:
+                    problems.warning(
+                        Code.SURPRISING_SCALAR, found.message, location, suggestion=found.instead
+                    )
+                    break
+
+
+def _scalars(entry: Entry) -> Iterator[tuple[Scalar, Location]]:
+    if isinstance(entry.value, tuple):
+        yield from zip(entry.value, entry.items, strict=False)
+    elif entry.value is not None:
+        yield entry.value, entry.location
+
+
+def _written(span: Span, lines: Sequence[str]) -> str | None:
+    """Return the text of a plain scalar, None for one in quotes, with a tag or on several lines."""
+    if span.line != span.end_line:
+        return None
+    text = lines[span.line - 1][span.column - 1 : span.end_column - 1]
+    return None if text[:1] in ("'", '"', "!", "&", "|", ">", "") else text
+
+
+def surprise(text: str, value: Scalar) -> Surprise | None:
+    """Return what is surprising about the value that rcl reads in a plain scalar, None where nothing is."""
+    if isinstance(value, bool):
+        return _of_boolean(text, value)
+    if isinstance(value, str):
+        return _of_text(text)
+    return _of_number(text, value)
+
+
+def _of_boolean(text: str, value: bool) -> Surprise | None:
+    word = str(value).lower()
+    if text.lower() == word:
+        return None
+    instead = f"'{text}'" if text in _LETTERS else word
+    meaning = "in quotes it is a text" if text in _LETTERS else f"write {word}, or '{text}' for a text"
+    return Surprise(f"'{text}' is read as the boolean {word}: {meaning}", instead)
+
+
+def _of_text(text: str) -> Surprise | None:
+    if text in _NULLS:
+        return Surprise(f"'{text}' is read as a text: no parameter is without a value", f"'{text}'")
+    if _GROUPED.fullmatch(text):
+        return Surprise(f"'{text}' is read as a text: numbers have no '_' here", text.replace("_", ""))
+    if prefixed := _PREFIXED.fullmatch(text):
+        number = int(prefixed["octal"], 8) if prefixed["octal"] else int(prefixed["binary"], 2)
+        sign = "-" if text.startswith("-") else ""
+        return Surprise(f"'{text}' is read as a text, not as the number {sign}{number}", f"{sign}{number}")
+    return None
+
+
+def _of_number(text: str, value: float) -> Surprise | None:
+    zeros = _ZEROS.fullmatch(text)
+    if zeros is not None and str(value) != f"{zeros['sign'].strip('+')}{zeros['digits']}":
+        how = "in base 8" if isinstance(value, int) else "as no whole number"
+        message = f"'{text}' is read as {value}: a number that begins with 0 is read {how}"
+        return Surprise(message, f"{zeros['sign']}{zeros['digits']}")
+    if isinstance(value, float) and _WHOLE.fullmatch(text) and zeros is None:
+        return Surprise(f"'{text}' is read as the float {value}: it does not fit into 64 bits", f"'{text}'")
+    word = _NO_NUMBER.fullmatch(text)
+    if word is not None and not _AS_YAML.fullmatch(text):
+        instead = f"{word['sign'] if word['word'].lower() != 'nan' else ''}.{word['word'].lower()[:3]}"
+        return Surprise(
+            f"'{text}' is read as the float {value}: write {instead}, or '{text}' for a text", instead
+        )
+    return None
