@@ -82,7 +82,8 @@ def decode(kind: Any, data: Any) -> Any:  # noqa: ANN401 - JSON
     if origin is dict:
         return {key: decode(typing.get_args(kind)[1], item) for key, item in data.items()}
     if _is_record(kind):
-        return kind(**{name: decode(hint, data[name]) for name, hint in _hints(kind).items()})
+        # What an older version has not written keeps its default.
+        return kind(**{name: decode(hint, data[name]) for name, hint in _hints(kind).items() if name in data})
     return data
 
 

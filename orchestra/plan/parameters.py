@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.errors import Code, Problems
 from orchestra.nearest import nearest
+from orchestra.plan import candidates
 from orchestra.plan.absent import is_mistake
 from orchestra.plan.ids import node_name
 from orchestra.plan.model import Candidate, ParameterFile
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
 
 
 _EVERY_NODE = "/**"
-FROM_COMMAND_LINE = "the command line wins"
 
 
 @dataclass(frozen=True, slots=True)
@@ -56,6 +56,7 @@ def parameters_of(process: ResolvedProcess, given: Sequence[GivenSections], prob
     settings = settings_of(sections, full)
     overrides = settings_of([section for item in given for section in item.sections], full)
     _report(settings, overrides, problems)
+    known = candidates.origins(process.parameters)
     every = [*sections, *(section for item in given for section in item.sections)]
     return Parameters(
         {
@@ -63,7 +64,10 @@ def parameters_of(process: ResolvedProcess, given: Sequence[GivenSections], prob
             for name, setting in {**settings, **overrides}.items()
             if setting.value is not None
         },
-        {name: _candidates(name, settings, overrides) for name in {**settings, **overrides}},
+        {
+            name: candidates.of_parameter(settings.get(name), overrides.get(name), known)
+            for name in {**settings, **overrides}
+        },
         _passed_on(every, None if own == _EVERY_NODE else own),
     )
 
@@ -111,22 +115,6 @@ def settings_of(sections: Sequence[Section], full: str | None) -> dict[str, Sett
     if full is not None:
         return effective(sections, full)
     return effective([section for section in sections if section.pattern.lstrip("/") == "**"], "/_")
-
-
-def _candidates(
-    name: str, settings: dict[str, Setting], overrides: dict[str, Setting]
-) -> tuple[Candidate, ...]:
-    below, above = settings.get(name), overrides.get(name)
-    written = [
-        Candidate(item.value, item.location, item.won and above is None, below.rule)
-        for item in (below.written if below is not None else ())
-        if below is not None
-    ]
-    if above is not None:
-        written += [
-            Candidate(item.value, item.location, item.won, FROM_COMMAND_LINE) for item in above.written
-        ]
-    return tuple(written)
 
 
 def _report(settings: dict[str, Setting], overrides: dict[str, Setting], problems: Problems) -> None:

@@ -31,9 +31,8 @@ def below(base: Evaluated | None, namespace: Evaluated | None, problems: Problem
     if fault is not None:
         problems.error(Code.BAD_NAME, f"'{text}' cannot be a namespace: {fault.reason}", location)
         return POISON
-    around = () if base is None or namespace is None else (pushed(base),)
-    own = namespace or base
-    return Value(text, location, through=around + (own.through if own is not None else ()))
+    around = () if base is None else (pushed(base),)
+    return Value(text, location, through=around + (() if namespace is None else namespace.through))
 
 
 def pushed(base: Value) -> Read:

@@ -1,0 +1,137 @@
+"""All that was written for a setting of a node: in order, with the rule by which each counts or does not."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.location import Location
+from orchestra.plan.model import Candidate, Via
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping, Sequence
+
+    from orchestra.resolve.context import Read, Value
+    from orchestra.resolve.model import EnvironmentChange, ParameterSource
+    from orchestra.resolve.rcl.effective import Setting, Written
+
+    Origins = Mapping[Location, tuple[Read, ...]]
+
+FROM_COMMAND_LINE = "the command line wins"
+_OVERRULED = "overruled by the command line"
+# Of a chain that branches, so many variables are told, and so many characters of the value of each.
+_MOST = 32
+_LONGEST = 200
+
+
+def origins(sources: Iterable[ParameterSource]) -> Origins:
+    """Return what was read to make each parameter, and the path of each file, by the place where it is written."""
+    return {source.location: source.through for source in sources if source.through}
+
+
+def passage(through: Sequence[Read]) -> tuple[Via, ...]:
+    """Return what was read on the way to a value, each once: what is behind one follows it, a step deeper."""
+    return tuple(_steps(through, 0, set()))[:_MOST]
+
+
+def _steps(through: Sequence[Read], depth: int, seen: set[tuple[object, ...]]) -> Iterator[Via]:
+    for read in through:
+        key = (read.kind, read.name, read.value, read.location)
+        if key in seen or len(seen) >= _MOST:
+            continue
+        seen.add(key)
+        value = read.value if len(read.value) <= _LONGEST else f"{read.value[:_LONGEST]}..."
+        yield Via(read.kind, read.name, value, read.setter, read.location, depth)
+        yield from _steps(read.through, depth + 1, seen)
+
+
+def behind(location: Location, known: Origins) -> tuple[Via, ...]:
+    """Return what was read to make the value at a place: the value itself, or the path of the file it stands in."""
+    if location in known:
+        return passage(known[location])
+    chain = location.included_from
+    return passage(known.get(Location(chain[0], chain[1:]), ())) if chain else ()
+
+
+def of_parameter(below: Setting | None, above: Setting | None, known: Origins) -> tuple[Candidate, ...]:
+    """Return all values of one parameter: those of the description, then those of the command line, which win."""
+    written = [
+        Candidate(
+            item.value,
+            item.location,
+            item.won and above is None,
+            _of_description(item, below, overruled=above is not None),
+            behind(item.location, known),
+        )
+        for item in (below.written if below is not None else ())
+        if below is not None
+    ]
+    if above is not None:
+        written += [
+            Candidate(item.value, item.location, item.won, _of_command_line(item, above))
+            for item in above.written
+        ]
+    return tuple(written)
+
+
+def _of_description(item: Written, setting: Setting, *, overruled: bool) -> str:
+    if overruled:
+        return f"set for '{item.pattern}', {_OVERRULED}"
+    return setting.rule if item.won else _lost(item, setting)
+
+
+def _of_command_line(item: Written, setting: Setting) -> str:
+    return FROM_COMMAND_LINE if item.won else f"of the command line, but {_lost(item, setting)}"
+
+
+def _lost(item: Written, setting: Setting) -> str:
+    """Return why a value does not count."""
+    winner = next((other for other in setting.written if other.won), None)
+    if winner is None:
+        return setting.rule
+    if winner.pattern != item.pattern:
+        return f"set for '{item.pattern}', which appears before '{winner.pattern}' does"
+    if setting.written.index(item) > setting.written.index(winner):
+        return f"set for '{item.pattern}', but {setting.rule}"
+    return f"set for '{item.pattern}' before the value that counts"
+
+
+def of_environment(changes: Sequence[EnvironmentChange]) -> tuple[Candidate, ...]:
+    """Return all values of one variable; the last one counts."""
+    last = len(changes) - 1
+    rules = ("the last one counts", "set before the value that counts")
+    return tuple(
+        Candidate(change.value, change.location, index == last, rules[index != last], passage(change.through))
+        for index, change in enumerate(changes)
+    )
+
+
+def of_name(name: Value | None) -> tuple[Candidate, ...]:
+    """Return the one name that the description gives to a node."""
+    if name is None:
+        return ()
+    return (Candidate(name.text, name.location, True, "the name of the node", passage(name.through)),)
+
+
+def of_namespace(namespace: Value | None) -> tuple[Candidate, ...]:
+    """Return the namespace that is pushed where a node stands, and the one of its own, which may be below it."""
+    if namespace is None:
+        return ()
+    around = next((read for read in namespace.through if read.kind == "namespace"), None)
+    if around is None or around.location is None:
+        rule = "the namespace of the node itself"
+        return (Candidate(namespace.text, namespace.location, True, rule, passage(namespace.through)),)
+    behind_it = passage(around.through)
+    if around.location == namespace.location:
+        rule = "pushed for all that stands below it"
+        return (Candidate(namespace.text, around.location, True, rule, behind_it),)
+    below = namespace.text.startswith(f"{around.value.rstrip('/')}/")
+    rules = (
+        ("pushed for all that stands below it", "the namespace of the node itself, below what is pushed")
+        if below
+        else ("pushed, but the node has an absolute namespace", "the absolute namespace of the node itself")
+    )
+    own = passage([read for read in namespace.through if read is not around])
+    return (
+        Candidate(around.value, around.location, False, rules[0], behind_it),
+        Candidate(namespace.text, namespace.location, True, rules[1], own),
+    )
