@@ -24,6 +24,7 @@ from orchestra.resolve.python.connection import LoadingConnection
 from orchestra.resolve.python.isolation import isolated
 from orchestra.resolve.resolve import begin, carry_through, outcome
 from orchestra.resolve.single import single_node
+from orchestra.settings.settle import settle
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -114,6 +115,7 @@ def opened(
                 _warn_of_remaining(path, isolation, problems)
                 launch = Launch(build(resolved, problems), run, isolation.files)
             problems.amend(in_place)
+            settle(problems, path, inputs.severity)
         yield launch
 
 

@@ -22,8 +22,8 @@ _LONGEST_FUNCTION = 50
 # Each row may import from its own rooms and from the rows above it: the order of docs/design.md.
 _ROWS = (
     ("errors", "location", "events", "nearest", "values", "wheels"),
+    ("settings",),
     ("description",),
-    ("compat",),
     ("compat",),
     ("load",),
     ("resolve",),

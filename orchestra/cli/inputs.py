@@ -8,7 +8,7 @@ import sys
 from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
-from orchestra.cli import boundary, launch_prefix, leaving
+from orchestra.cli import boundary, launch_prefix, leaving, severities
 from orchestra.errors import DescriptionError, Problems, Severity, UsageError
 
 if TYPE_CHECKING:
@@ -42,6 +42,7 @@ def add_to(parser: ArgumentParser) -> None:
     )
     launch_prefix.add_to(parser)
     parser.add_argument("--strict", action="store_true", help="take warnings for errors")
+    severities.add_to(parser)
 
 
 def file_and_inputs(options: Namespace) -> tuple[str, Inputs]:
@@ -55,7 +56,8 @@ def file_and_inputs(options: Namespace) -> tuple[str, Inputs]:
     words = (*words, *launch_prefix.words(options))
     given = pipeline.inputs_from(words, environment=os.environ, params_files=options.params_file)
     debug, noninteractive = getattr(options, "debug", False), getattr(options, "noninteractive", True)
-    return file, dataclasses.replace(given, debug=debug, noninteractive=noninteractive)
+    weights = severities.given(options)
+    return file, dataclasses.replace(given, debug=debug, noninteractive=noninteractive, severity=weights)
 
 
 def plan_from(options: Namespace, *, launching: bool) -> Plan:

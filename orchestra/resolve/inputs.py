@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 from orchestra.location import Span
 
@@ -42,6 +42,7 @@ class Inputs:
     `launching` tells that processes will be started here: then a missing package is an error, not a warning about
     this host. `required` tells whether a required argument without a value is an error. `noninteractive` is what code
     of launch files is told: whether no terminal is assumed. With `debug` what that code raises is told with all calls.
+    `severity` says for codes how much they weigh, over what settings files say.
     """
 
     environment: Mapping[str, str]
@@ -52,3 +53,4 @@ class Inputs:
     required: bool = True
     noninteractive: bool = True
     debug: bool = False
+    severity: Mapping[str, str] = field(default_factory=dict)

@@ -1,0 +1,196 @@
+"""`orchestra check` on a tree of launch files, against the time that loading them takes.
+
+    python benchmarks/checked_tree.py [FILES] [FOLDER]
+
+Prints the seconds of loading every file once in one process (`orchestra.load.files.load`), of reading the YAML files
+with plain PyYAML, of an interpreter that imports and does nothing, and of `orchestra check` with an empty cache, with
+a full one, and without one.
+"""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+_YAML = """\
+launch:
+  - arg: {{name: robot, default: robot{n}}}
+  - arg: {{name: rate, default: "{n}.5", description: how often something is told}}
+  - let: {{name: frame, value: $(var robot)/odom}}
+  - group:
+      - push_ros_namespace: {{namespace: $(var robot)}}
+      - set_parameter: {{name: use_sim_time, value: true}}
+      - executable: {{cmd: "/bin/echo $(var frame)", name: hello{n}, output: screen}}
+      - executable:
+          cmd: /bin/sleep $(var rate)
+          name: sleeper
+          if: $(eval "'$(var robot)' != 'nobody'")
+          env: [{{name: LEVEL, value: "{n}"}}]
+  - include:
+      file: $(dirname)/../shared/driver{shared}.launch.xml
+      arg: [{{name: device, value: /dev/ttyUSB{n}}}, {{name: namespace, value: $(var robot)}}]
+"""
+_XML = """\
+<launch>
+  <arg name="robot" default="robot{n}"/>
+  <arg name="debug" default="false" description="whether to tell more"/>
+  <let name="frame" value="$(var robot)/base"/>
+  <group>
+    <push_ros_namespace namespace="$(var robot)"/>
+    <executable cmd="/bin/echo $(var frame)" name="hello" output="screen" if="$(var debug)"/>
+    <node pkg="bringup" exec="ekf" name="ekf{n}">
+      <param from="$(dirname)/../shared/params{shared}.yaml"/>
+      <param name="frequency" value="{n}.0"/>
+      <remap from="odom" to="odom{n}"/>
+    </node>
+  </group>
+  <include file="$(dirname)/../shared/tools{shared}.launch.yaml">
+    <arg name="topic" value="/robot{n}/scan"/>
+  </include>
+</launch>
+"""
+_PYTHON = """\
+import os
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, ExecuteProcess, IncludeLaunchDescription
+from launch.conditions import IfCondition
+from launch.launch_description_sources import AnyLaunchDescriptionSource
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node, PushRosNamespace
+
+
+def generate_launch_description():
+    shared = os.path.join(os.path.dirname(__file__), "..", "shared")
+    robot = LaunchConfiguration("robot")
+    return LaunchDescription([
+        DeclareLaunchArgument("robot", default_value="robot{n}", description="which one"),
+        DeclareLaunchArgument("slam", default_value="false", choices=["true", "false"]),
+        PushRosNamespace(robot),
+        ExecuteProcess(cmd=["/bin/echo", robot], output="screen", condition=IfCondition(LaunchConfiguration("slam"))),
+        Node(
+            package="bringup", executable="ekf", name="ekf{n}",
+            parameters=[os.path.join(shared, "params{shared}.yaml"), {{"frequency": {n}.0, "frame": robot}}],
+            remappings=[("odom", "odom{n}")],
+        ),
+        IncludeLaunchDescription(
+            AnyLaunchDescriptionSource(PathJoinSubstitution([shared, "tools{shared}.launch.yaml"])),
+            launch_arguments={{"topic": ["/", robot, "/scan"]}}.items(),
+        ),
+    ])
+"""
+_DRIVER = """\
+<launch>
+  <arg name="device"/>
+  <arg name="namespace" default=""/>
+  <group>
+    <push_ros_namespace namespace="$(var namespace)"/>
+    <node pkg="bringup" exec="velocity_controller" name="driver{n}">
+      <param name="device" value="$(var device)" type="str"/>
+      <param from="params{n}.yaml"/>
+    </node>
+  </group>
+</launch>
+"""
+_TOOLS = """\
+launch:
+  - arg: {{name: topic}}
+  - executable: {{cmd: /bin/echo $(var topic), name: tool{n}}}
+"""
+_PARAMETERS = """\
+/**:
+  ros__parameters:
+    use_sim_time: true
+    offsets: [0.1, 0.2, {n}.0]
+    map:
+      frame: map
+      size: [{n}, 20]
+    names: [a, b, c]
+"""
+_SHARED = 20
+
+
+def write_tree(folder: Path, files: int) -> list[Path]:
+    """Write a tree with so many launch files: two fifths YAML, the rest XML and Python; return their paths."""
+    written = []
+    shared = folder / "shared"
+    shared.mkdir(parents=True, exist_ok=True)
+    for n in range(_SHARED):
+        (shared / f"params{n}.yaml").write_text(_PARAMETERS.format(n=n))
+        for name, text in ((f"driver{n}.launch.xml", _DRIVER), (f"tools{n}.launch.yaml", _TOOLS)):
+            (shared / name).write_text(text.format(n=n))
+            written.append(shared / name)
+    kinds = ((".yaml", _YAML), (".xml", _XML), (".py", _PYTHON), (".yaml", _YAML), (".xml", _XML))
+    for n in range(files - len(written)):
+        ending, text = kinds[n % len(kinds)]
+        path = folder / f"part{n % 25}" / f"robot{n}.launch{ending}"
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text.format(n=n, shared=n // 5 % _SHARED))
+        written.append(path)
+    return written
+
+
+_LOAD = """
+import sys, time, os
+from orchestra.compat.seam import connected
+from orchestra.errors import Problems
+from orchestra.load.files import load
+from orchestra import pipeline
+inputs = pipeline.inputs_from((), environment=os.environ)
+from orchestra.resolve.packages import InstalledPackages
+packages = InstalledPackages(os.environ)
+paths = sys.argv[1:]
+started, worked = time.perf_counter(), time.process_time()
+problems = Problems()
+with pipeline._loading(paths[0], inputs, load, packages, problems):
+    for path in paths:
+        load(path, problems)
+print(time.perf_counter() - started, time.process_time() - worked)
+assert not problems.errors, problems.errors[0]
+"""
+_COMPOSE = """
+import sys, time, yaml
+started = time.perf_counter()
+for path in sys.argv[1:]:
+    if path.endswith(".yaml"):
+        with open(path) as file:
+            yaml.compose(file, Loader=yaml.CSafeLoader)
+print(time.perf_counter() - started)
+"""
+
+
+def _printed(program: str, paths: list[Path]) -> float:
+    done = subprocess.run([sys.executable, "-c", program, *map(str, paths)], check=True, capture_output=True)
+    return float(done.stdout)
+
+
+def _wall(*words: str, env: dict[str, str] | None = None) -> float:
+    started = time.perf_counter()
+    done = subprocess.run([sys.executable, *words], check=False, capture_output=True, env=env, text=True)
+    seconds = time.perf_counter() - started
+    print(f"    {done.returncode} {(done.stdout + done.stderr).strip()[-200:]}")
+    return seconds
+
+
+def main() -> None:
+    """Measure."""
+    files = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = Path(sys.argv[2] if len(sys.argv) > 2 else scratch, "tree")  # noqa: PLR2004
+        paths = write_tree(folder, files)
+        env = {**os.environ, "XDG_CACHE_HOME": f"{scratch}/cache"}
+        load, plain = _printed(_LOAD, paths), _printed(_COMPOSE, paths)
+        start = _wall("-c", "import orchestra.pipeline")
+        check = ("-m", "orchestra", "check", str(folder))
+        alone, first, again = _wall(*check, "--no-cache"), _wall(*check, env=env), _wall(*check, env=env)
+    print(f"loading {load:.2f} s, plain PyYAML {plain:.2f} s, start {start:.2f} s")
+    print(f"check without a cache {alone:.2f} s, with an empty one {first:.2f} s, a full one {again:.2f} s")
+    print(f"bar: {2 * load + start:.2f} s for {len(paths)} files on {os.cpu_count()} processors")
+
+
+if __name__ == "__main__":
+    main()
