@@ -14,6 +14,7 @@ from orchestra.resolve.model import InlineParameter, ParameterSource
 from orchestra.resolve.parameter_files import file_parameters
 from orchestra.resolve.rcl.overrides import override_value
 from orchestra.resolve.scalars import checked, coerced, described, differs, unified, upstream_value
+from orchestra.resolve.rcl.surprises import plainly
 from orchestra.resolve.yaml_scalars import QUOTE
 
 if TYPE_CHECKING:
@@ -96,7 +97,7 @@ def _text(
     except ValueError as error:
         return _refuse(name, error, evaluated.location, run)
     if constant is not None:
-        _warn_of_surprise(constant, evaluated.location, run)
+        _warn_of_surprise(constant, result, evaluated.location, run, quotes=quotes)
     return result
 
 
@@ -198,7 +199,10 @@ def _refuse(name: str, reason: object, location: Location, run: Resolution) -> P
     return POISON
 
 
-def _warn_of_surprise(text: str, location: Location, run: Resolution) -> None:
+def _warn_of_surprise(
+    text: str, value: ParameterValue, location: Location, run: Resolution, *, quotes: bool
+) -> None:
     surprise = differs(text)
     if surprise is not None:
-        run.problems.warning(Code.SURPRISING_SCALAR, surprise, location)
+        instead = None if is_python(location) else plainly(text, value, quotes=quotes)
+        run.problems.warning(Code.SURPRISING_SCALAR, surprise, location, suggestion=instead)

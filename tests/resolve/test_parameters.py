@@ -111,6 +111,9 @@ def test_a_file_for_all_nodes_that_is_for_none_is_told_once(tmp_path: Path) -> N
 - node: {exec: sleep, name: b}
 """
     found = outcome(tmp_path, {"main.yaml": main, "p.yaml": "/c: {ros__parameters: {f: 1}}"})
+    assert found.faults == [(Code.UNMATCHED_SECTION, "p.yaml", 1, 1)]
+    two = "/c: {ros__parameters: {f: 1}}\n/d: {ros__parameters: {f: 1}}"
+    found = outcome(tmp_path, {"main.yaml": main, "p.yaml": two})
     assert found.faults == [(Code.UNMATCHED_SECTION, "main.yaml", 2, 40)]
     found = outcome(tmp_path, {"main.yaml": main, "p.yaml": "/a: {ros__parameters: {f: 1}}"})
     assert list(found.problems) == []

@@ -103,8 +103,8 @@ def test_a_file_may_hold_several_documents() -> None:
         ("/n:\n  ros__parameters: {x: [[1], [2]]}\n", "2:30", "a list of lists"),
         ("/n:\n  ros__parameters: {[1]: 2}\n", "2:21", "a list cannot be a key"),
         ("/n:\n  ros__parameters: {? {a: 1} : 2}\n", "2:23", "a mapping cannot be a key"),
-        ("/ns:\n  /n:\n    ros__parameters: {}\n", "3:5", "'/ns//n' cannot be the name of a node"),
-        ("/n*:\n  ros__parameters: {}\n", "2:3", "'*'"),
+        ("/ns:\n  /n:\n    ros__parameters: {}\n", "2:3", "'/ns//n' cannot be the name of a node"),
+        ("/n*:\n  ros__parameters: {}\n", "1:1", "'*'"),
         ("/n:\n\tros__parameters: {}\n", "2:1", "a tab cannot indent"),
         ("/n:\n  ros__parameters:\n    x: @y\n", "3:8", "cannot start any token"),
         ("/n:\n  ros__parameters:\n    x: 'y\n", "4:1", "end of stream"),
@@ -157,7 +157,7 @@ def test_one_reading_tells_of_several_errors() -> None:
         "/e:\n"
         "  ros__parameters: {z: 2}\n"
     )
-    assert [problem.span.line for problem in problems.errors if problem.span] == [1, 3, 5, 6, 7, 10, 12]
+    assert [problem.span.line for problem in problems.errors if problem.span] == [1, 3, 5, 6, 7, 9, 12]
     assert [(section.pattern, _flat(section)) for section in sections if section.entries] == [
         ("/b", {"z": 1}),
         ("/e", {"z": 2}),

@@ -47,7 +47,8 @@ class Reader:
     keys: list[str] = field(default_factory=list)
     node_depth: int = 0  # how many of `keys` lead to the section
     last_key: str = ""
-    node_key: Location | None = None  # where the last key stands that is part of a node's name
+    last_key_at: Location | None = None
+    key_places: list[Location | None] = field(default_factory=list)  # those of `keys`
     before_key: Joined = field(default_factory=lambda: Joined("/"))
     parameter: OpenParameter | None = None
     lists: list[OpenList] = field(default_factory=list)
@@ -92,8 +93,7 @@ class Reader:
         else:
             self.before_key = copy.copy(self.node)
             self.node.grow(name)
-            self.node_key = self.at(event)
-        self.last_key = name
+        self.last_key, self.last_key_at = name, self.at(event)
         self.expects_key = False
 
     def open_section(self, name: str, event: yaml.ScalarEvent) -> None:
@@ -102,7 +102,7 @@ class Reader:
         if not self.node.count:
             raise self.unreadable(f"'{SECTION_KEY}' must stand below the name of a node", event)
         pattern, said = self.node.text, joined("/", self.keys[1:])
-        fault, named_at = pattern_fault(pattern), self.node_key or at
+        fault, named_at = pattern_fault(pattern), self.key_places[-1] or at
         if fault is not None:
             self.error(f"'{pattern}' cannot be the name of a node: {fault.reason}", named_at)
         elif pattern != said:
@@ -190,6 +190,7 @@ class Reader:
         if self.lists:
             self.surprise("a list of mappings is no parameter; rcl takes the mapping apart", self.at(event))
         self.keys.append(self.last_key if self.depth else "")
+        self.key_places.append(self.last_key_at)
         self.depth += 1
         section = self.inside and self.depth == self.node.count + 3
         if self.inside and not section and self.parameter is not None:
@@ -213,6 +214,7 @@ class Reader:
             self.node.shrink()
         self.depth -= 1
         self.keys.pop()
+        self.key_places.pop()
 
     def open_list(self, event: yaml.SequenceStartEvent) -> None:
         """Take the beginning of a list; to rcl an inner list is a new beginning of the outer one."""

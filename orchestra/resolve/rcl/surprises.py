@@ -6,6 +6,7 @@ mean. A number in another notation, as `1e-6` or `0x10`, arrives as the number t
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
@@ -18,12 +19,13 @@ if TYPE_CHECKING:
     from orchestra.errors import Problems
     from orchestra.location import Location, Span
     from orchestra.resolve.rcl.sections import Entry, Section
-    from orchestra.values import Scalar
+    from orchestra.values import ParameterValue, Scalar
 
 _LETTERS: Final = frozenset("yYnN")
 _NULLS: Final = frozenset({"~", "null", "Null", "NULL"})
 _NO_NUMBER: Final = re.compile(r"(?P<sign>[-+]?)\.?(?P<word>inf(?:inity)?|nan)(?:\(\w*\))?", re.IGNORECASE)
 _AS_YAML: Final = re.compile(r"[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)")
+_NOT_FINITE: Final = {"nan": ".nan", "inf": ".inf", "-inf": "-.inf"}
 _ZEROS: Final = re.compile(r"(?P<sign>[-+]?)0+(?P<digits>[1-9][0-9]*)")
 _GROUPED: Final = re.compile(r"[-+]?[0-9]+(?:_[0-9]+)+(?:\.[0-9_]*)?")
 _WHOLE: Final = re.compile(r"[-+]?[0-9]+")
@@ -69,6 +71,25 @@ def _written(span: Span, lines: Sequence[str]) -> str | None:
         return None
     text = lines[span.line - 1][span.column - 1 : span.end_column - 1]
     return None if text[:1] in ("'", '"', "!", "&", "|", ">", "") else text
+
+
+def plainly(text: str, value: ParameterValue, *, quotes: bool) -> str | None:
+    """Return how a text of a launch file is written so that it cannot be read otherwise, None where that is not clear.
+
+    With `quotes`, a text in quotes stays a text.
+    """
+    if isinstance(value, tuple):
+        return None
+    if ":" in text or (isinstance(value, bool) and text in _LETTERS):
+        return f"'{text}'" if quotes else None
+    if isinstance(value, bool):
+        return str(value).lower()
+    zeros = _ZEROS.fullmatch(text)
+    if zeros is not None:
+        return f"{zeros['sign']}{zeros['digits']}"
+    if isinstance(value, float) and not math.isfinite(value):
+        return _NOT_FINITE[str(value)]
+    return str(value) if not isinstance(value, str) else None
 
 
 def surprise(text: str, value: Scalar) -> Surprise | None:
