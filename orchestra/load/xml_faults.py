@@ -9,6 +9,7 @@ from xml.parsers.expat import ErrorString, errors
 
 from orchestra.description.source import shortened
 from orchestra.errors import Code
+from orchestra.load.faults import Fault
 from orchestra.location import Span
 from orchestra.nearest import is_slip
 
@@ -24,17 +25,6 @@ _CHARACTER = re.compile(r"&#[^;\s&<]*;?")
 _ATTRIBUTE = re.compile(rf"""(\s*)({_NAME})(?:\s*=\s*(?:("[^"<]*"?|'[^'<]*'?)|({_NAME}))?)?""")
 _CURLY = "\u201c\u201d\u201e\u2018\u2019"
 _KNOWN_ENTITIES = "XML knows &amp; &lt; &gt; &quot; &apos; and numbers such as &#10;"
-
-
-@dataclass(frozen=True, slots=True)
-class Fault:
-    """What is wrong and where."""
-
-    message: str
-    span: Span
-    code: Code = Code.SYNTAX
-    suggestion: str | None = None
-    notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,8 @@ from xml.parsers import expat
 
 from orchestra.errors import Code
 from orchestra.load.elements import Attribute, Element
-from orchestra.load.xml_faults import Fault, Opened, explained
+from orchestra.load.faults import Fault
+from orchestra.load.xml_faults import Opened, explained
 
 if TYPE_CHECKING:
     from collections.abc import Callable

@@ -6,15 +6,18 @@ PyYAML's C parser reads the file; nothing is constructed, so nothing can be exec
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import yaml
 
-from orchestra.description.source import Keyed, Listed, Written, shortened
+from orchestra.description.source import Keyed, Listed, Written, kind_of
 from orchestra.errors import Code
+from orchestra.load.faults import Fault
 from orchestra.load.offsets import Source, source, spans_of
 from orchestra.load.reader import Reader
+from orchestra.load.yaml_faults import explained
 
 if TYPE_CHECKING:
     from orchestra.location import Span
@@ -22,6 +25,8 @@ if TYPE_CHECKING:
 _NULL = frozenset({"", "~", "null", "Null", "NULL"})
 _PLAIN_TAG = "tag:yaml.org,2002:str"
 _KNOWN_TAGS = frozenset({_PLAIN_TAG, "tag:yaml.org,2002:map", "tag:yaml.org,2002:seq"})
+_DASH = re.compile(r"-[A-Za-z]")
+_TAG = re.compile(r"![^\s,\[\]{}]*")
 _DEEPEST = 100
 # How many values aliases may expand to beyond what is written.
 _MOST_VALUES = 100_000
@@ -37,36 +42,32 @@ def read(text: str, file: str, reader: Reader) -> Any | None:  # noqa: ANN401 - 
     try:
         _check_depth(whole)
         node = yaml.compose(text, Loader=_PARSER)
-    except _TooMuchError as error:
-        reader.error(Code.SYNTAX, error.reason, error.span)
+    except _RefusedError as error:
+        _refuse(error.fault, reader)
         return None
-    except yaml.MarkedYAMLError as error:
-        at = _mark(whole, error.problem_mark or error.context_mark)
-        reader.error(Code.SYNTAX, _reason(error, whole, at), at)
-        return None
-    except (yaml.YAMLError, RecursionError) as error:
-        offset = getattr(error, "position", 0)
-        reader.error(
-            Code.SYNTAX, f"this is not YAML: {shortened(str(error), 200)}", whole.span(offset, offset)
-        )
+    except yaml.YAMLError as error:
+        _refuse(explained(error, whole), reader)
         return None
     if node is None:
         reader.error(Code.SYNTAX, "the file is empty: a launch file has a 'launch' key", whole.span(0, 0))
         return None
     try:
         return _Tree(whole, reader).of(node, None, ())
-    except _TooMuchError as error:
-        reader.error(Code.SYNTAX, error.reason, error.span)
+    except _RefusedError as error:
+        _refuse(error.fault, reader)
         return None
 
 
-class _TooMuchError(Exception):
-    """The file has more in it than anybody writes."""
+class _RefusedError(Exception):
+    """The file has something in it that keeps all of it from being read."""
 
-    def __init__(self, reason: str, span: Span) -> None:
+    def __init__(self, reason: str, span: Span, suggestion: str | None = None) -> None:
         super().__init__(reason)
-        self.reason = reason
-        self.span = span
+        self.fault = Fault(reason, span, suggestion=suggestion)
+
+
+def _refuse(fault: Fault, reader: Reader) -> None:
+    reader.error(fault.code, fault.message, fault.span, suggestion=fault.suggestion)
 
 
 def _check_depth(whole: Source) -> None:
@@ -76,7 +77,7 @@ def _check_depth(whole: Source) -> None:
         if isinstance(event, yaml.CollectionStartEvent):
             depth += 1
             if depth > _DEEPEST:
-                raise _TooMuchError(
+                raise _RefusedError(
                     f"the file nests more than {_DEEPEST} deep", _mark(whole, event.start_mark)
                 )
         elif isinstance(event, yaml.CollectionEndEvent):
@@ -95,15 +96,15 @@ class _Tree:
         span = self.whole.span(node.start_mark.index, node.end_mark.index)
         self.built += 1
         if node in above:
-            raise _TooMuchError("the alias refers to what it stands in", span)
+            raise _RefusedError("the alias refers to what it stands in", span)
         if len(above) > _DEEPEST:
-            raise _TooMuchError(f"the file nests more than {_DEEPEST} deep", span)
+            raise _RefusedError(f"the file nests more than {_DEEPEST} deep", span)
         if self.built > _MOST_VALUES + _VALUES_PER_CHARACTER * len(self.whole.text):
-            raise _TooMuchError("the aliases of the file expand to too much", span)
+            raise _RefusedError("the aliases of the file expand to too much", span)
         if isinstance(node, yaml.ScalarNode):
             return self._scalar(node, span)
         if node.tag not in _KNOWN_TAGS:
-            self.reader.error(Code.SYNTAX, f"the tag {node.tag} means nothing here", span)
+            self._refuse_tag(node)
         if isinstance(node, yaml.SequenceNode):
             items = Listed(span)
             items.extend(self.of(item, None, (*above, node)) for item in node.value)
@@ -114,7 +115,7 @@ class _Tree:
     def _scalar(self, node: yaml.ScalarNode, span: Span) -> Written:
         kind = node.tag.removeprefix("tag:yaml.org,2002:")
         if node.tag != _PLAIN_TAG and kind not in _SCALAR_TYPES:
-            self.reader.error(Code.SYNTAX, f"the tag {node.tag} means nothing here", span)
+            self._refuse_tag(node)
         plain = not node.style and (node.tag == _PLAIN_TAG or kind in _SCALAR_TYPES)
         tagged = plain and self.whole.text[node.start_mark.index : node.start_mark.index + 1] == "!"
         quoted = not plain or (tagged and kind == "str")
@@ -124,18 +125,19 @@ class _Tree:
     def _mapping(
         self, node: yaml.MappingNode, span: Span, head: Span | None, above: tuple[yaml.Node, ...]
     ) -> Keyed:
-        mapping = Keyed(span, head or self.whole.span(node.start_mark.index, node.start_mark.index))
+        mapping = Keyed(span, head or self._beginning(node))
         merged: list[Keyed] = []
         for key, value in node.value:
             at = self.whole.span(key.start_mark.index, key.end_mark.index)
             if not isinstance(key, yaml.ScalarNode):
                 self.reader.error(Code.WRONG_TYPE, "a key is a word, not a mapping or a list", at)
                 continue
+            if _DASH.match(key.value) and not key.style:
+                message = f"a blank is missing behind the '-' of '{key.value}'"
+                raise _RefusedError(message, at, f"- {key.value[1:]}")
             tree = self.of(value, at, (*above, node))
             if key.value == "<<" and not key.style:
-                merged.extend(
-                    item for item in (tree if isinstance(tree, list) else [tree]) if isinstance(item, Keyed)
-                )
+                merged.extend(self._merged(tree, at))
             elif key.value in mapping:
                 first = mapping.keys_at[key.value]
                 self.reader.error(
@@ -152,12 +154,28 @@ class _Tree:
                     mapping.put(name, tree, other.keys_at[name])
         return mapping
 
+    def _beginning(self, node: yaml.MappingNode) -> Span:
+        """Return the place of what a mapping without a key begins with: its brace, or its first key."""
+        if node.flow_style or not node.value:
+            return self.whole.span(node.start_mark.index, node.start_mark.index + 1)
+        key = node.value[0][0]
+        return self.whole.span(key.start_mark.index, key.end_mark.index)
 
-def _reason(error: yaml.MarkedYAMLError, whole: Source, at: Span) -> str:
-    if whole.text.startswith("\t", whole.lines[at.line - 1] + at.column - 1):
-        return "this is not YAML: a tab cannot indent"
-    parts = [part for part in (error.context, error.problem) if part]
-    return "this is not YAML: " + ", ".join(parts)
+    def _merged(self, tree: Any, at: Span) -> list[Keyed]:  # noqa: ANN401 - a tree
+        """Return the mappings behind `<<`; anything else there is reported."""
+        items = tree if isinstance(tree, list) else [tree]
+        stray = next((item for item in items if not isinstance(item, Keyed)), None)
+        if stray is not None:
+            message = f"'<<' takes a mapping, or a list of them, not {kind_of(stray)}"
+            self.reader.error(Code.WRONG_TYPE, message, at)
+        return [item for item in items if isinstance(item, Keyed)]
+
+    def _refuse_tag(self, node: yaml.Node) -> None:
+        """Report a tag that no value can have."""
+        begin = self.whole.text.find("!", node.start_mark.index, node.end_mark.index)
+        found = _TAG.match(self.whole.text, begin)
+        span = self.whole.span(*found.span()) if found else self.whole.span(node.start_mark.index, begin)
+        self.reader.error(Code.SYNTAX, f"the tag {found[0] if found else node.tag} means nothing here", span)
 
 
 def _mark(whole: Source, mark: Any) -> Span:  # noqa: ANN401 - a mark of either parser, or None
