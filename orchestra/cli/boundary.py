@@ -21,7 +21,7 @@ from orchestra.errors import DescriptionError, RunError, UsageError
 
 if TYPE_CHECKING:
     from argparse import Namespace
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Mapping, Sequence
     from typing import TextIO
 
     from orchestra.errors import Problem
@@ -87,16 +87,25 @@ def guarded(work: Callable[[], _ResultT], telling: Telling) -> _ResultT | int:
 
 
 def show_problems(
-    problems: Sequence[Problem], problem_format: str, stream: TextIO, *, command_line: str = ""
+    problems: Sequence[Problem],
+    problem_format: str,
+    stream: TextIO,
+    *,
+    command_line: str = "",
+    texts: Mapping[str, str] | None = None,
 ) -> None:
-    """Print problems to a stream; `command_line` is the text that those of the command line point into."""
+    """Print problems to a stream; `command_line` is the text that those of the command line point into.
+
+    `texts` has what stands in files that are not read from the disk.
+    """
     # `orchestra --help` should be fast, and it has no problems.
     from orchestra.cli.problems.formats import renderer  # noqa: PLC0415
     from orchestra.cli.problems.sources import from_files  # noqa: PLC0415
     from orchestra.resolve.command_line import COMMAND_LINE  # noqa: PLC0415
 
     paint = colour.painter(enabled=colour.wanted(stream, os.environ))
-    stream.write(renderer(problem_format)(problems, from_files({COMMAND_LINE: command_line}), paint))
+    sources = from_files({COMMAND_LINE: command_line, **(texts or {})})
+    stream.write(renderer(problem_format)(problems, sources, paint))
 
 
 def _show_bug(error: Exception, *, debug: bool) -> None:

@@ -30,6 +30,7 @@ COMMANDS: Final[dict[str, Command]] = {
     "clean": Command("orchestra.cli.clean", "end what runs that died have left"),
     "plan": Command("orchestra.cli.plan", "show what a launch file would start"),
     "check": Command("orchestra.cli.check", "find what is wrong in launch files and parameter files"),
+    "format": Command("orchestra.cli.format", "write launch files and parameter files in one form"),
     "schema": Command(
         "orchestra.cli.schema", "print the JSON Schema of launch files, plans, events or problems"
     ),
