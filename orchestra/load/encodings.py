@@ -1,4 +1,4 @@
-"""From the bytes of a file to its text: UTF-8, UTF-16 with a mark, or what an XML declaration says.
+"""From the bytes of a file to its text: UTF-8, UTF-16 or UTF-32 with a mark, or what an XML declaration says.
 
 UTF-8 comes first whatever is declared, as upstream: editors save UTF-8 and leave old declarations as they are.
 """
@@ -10,7 +10,13 @@ import re
 from typing import Final
 
 DECLARED: Final = re.compile(rb"""\s*<\?xml\s[^>]*?\bencoding\s*=\s*["']([^"']*)["']""")
-_WIDE: Final = (codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)
+# In this order: the mark of UTF-16 begins that of UTF-32.
+_WIDE: Final = {
+    codecs.BOM_UTF32_LE: "utf-32",
+    codecs.BOM_UTF32_BE: "utf-32",
+    codecs.BOM_UTF16_LE: "utf-16",
+    codecs.BOM_UTF16_BE: "utf-16",
+}
 
 
 class UndecodableError(Exception):
@@ -24,8 +30,9 @@ class UndecodableError(Exception):
 
 def decoded(content: bytes) -> str:
     """Return the text of a file without its byte order mark. Raises `UndecodableError`."""
-    if content.startswith(_WIDE):
-        return _text(content, "utf-16")
+    wide = next((name for mark, name in _WIDE.items() if content.startswith(mark)), None)
+    if wide is not None:
+        return _text(content, wide)
     declared = DECLARED.match(content)
     try:
         return _text(content, "utf-8-sig")

@@ -19,6 +19,14 @@ Construct: TypeAlias = Callable[[yaml.ScalarEvent], Any]
 
 QUOTE: Final = "quote it to mean a text"
 
+# In characters. Numbers of 64 bits are shorter, and Python takes time with the square of the length for longer ones.
+_LONGEST_NUMBER: Final = 1_000
+# Longer texts are left to libyaml, which is a hundred times as fast; PyYAML's own parser is the one upstream has.
+_LONG: Final = 10_000
+# What PyYAML's constructors raise for a value that does not fit its tag, as in `!!bool perhaps`.
+_UNMEANT: Final = (yaml.YAMLError, ArithmeticError, LookupError, AttributeError)
+_NUMBERS: Final = ("tag:yaml.org,2002:int", "tag:yaml.org,2002:float")
+
 
 class Plain(str):
     """A text that stands unquoted and without a tag."""
@@ -31,8 +39,9 @@ def read_scalars(text: str, construct: Construct) -> Any:  # noqa: ANN401 - a sc
 
     Raises `ValueError` with the reason: not YAML, a mapping, a list of anything but scalars.
     """
+    loader = yaml.SafeLoader if len(text) <= _LONG else getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
-        events = list(yaml.parse(text, Loader=yaml.SafeLoader))[2:-1]
+        events = list(yaml.parse(text, Loader=loader))[2:-1]
     except yaml.YAMLError as error:
         reason = getattr(error, "problem", None) or str(error).partition("\n")[0]
         raise ValueError(f"'{shortened(text)}' is not YAML ({reason}): {QUOTE}") from None
@@ -72,16 +81,18 @@ def by_pyyaml(event: yaml.ScalarEvent) -> Any:  # noqa: ANN401 - what PyYAML mak
     tag = event.tag
     if tag is None or tag == "!":
         tag = _resolve(yaml.ScalarNode, event.value, event.implicit)
+    if tag in _NUMBERS and len(event.value) > _LONGEST_NUMBER:
+        raise ValueError(f"'{shortened(event.value)}' is too long for a number: {QUOTE}")
     try:
         value = _CONSTRUCTOR.construct_object(yaml.ScalarNode(tag, event.value))
-    except yaml.YAMLError:
+    except _UNMEANT:
         raise ValueError(f"'{shortened(event.value)}' means nothing as a parameter: {QUOTE}") from None
     return Plain(value) if isinstance(value, str) and event.implicit[0] else value
 
 
 def by_core(event: yaml.ScalarEvent) -> Any:  # noqa: ANN401 - what YAML 1.2 makes of it
     """Return what the core schema of YAML 1.2 makes of a scalar. Raises `ValueError`."""
-    if not event.implicit[0]:
+    if not event.implicit[0] or len(event.value) > _LONGEST_NUMBER:
         return by_pyyaml(event)
     return next((read(event.value) for form, read in _CORE if form.fullmatch(event.value)), event.value)
 

@@ -9,6 +9,7 @@ from itertools import accumulate
 _TAB = 4
 _WIDEST = 140
 _BEFORE = 40  # cells kept before the mark where a line is cut
+_FAR = 1_000  # characters on either side of the mark's beginning that are looked at: lines may have millions
 _REPLACEMENT = "\ufffd"
 _CUT = "…"
 
@@ -27,13 +28,17 @@ def snippet(line: str, column: int, end_column: int | None) -> Snippet:
     Tabs become spaces, characters that would move the cursor become U+FFFD, wide characters take two cells, and a
     line that is too long for any terminal is cut around the mark.
     """
-    shown = _shown(line)
+    hidden = max(0, column - 1 - _FAR)
+    beyond = len(line) > column + _FAR
+    shown = _shown(line[hidden : column + _FAR])
+    column, end_column = column - hidden, None if end_column is None else end_column - hidden
     cells = list(accumulate((_width(piece) for piece in shown), initial=0))
     first = min(column - 1, len(shown))
     last = len(shown) if end_column is None else min(end_column - 1, len(shown))
     left, right = _window(cells, first, last)
-    source = _CUT * (left > 0) + "".join(shown[left:right]) + _CUT * (right < len(shown))
-    before = cells[first] - cells[left] + (left > 0)
+    cut = left > 0 or hidden > 0
+    source = _CUT * cut + "".join(shown[left:right]) + _CUT * (beyond or right < len(shown))
+    before = cells[first] - cells[left] + cut
     marked = cells[min(last, right)] - cells[first] if last > first else 0
     return Snippet(source.rstrip(), " " * before + "^" * max(marked, 1))
 

@@ -6,6 +6,7 @@ Source: `rcl_yaml_param_parser`, `get_value`; C17 7.22.1; measured in `tests/dat
 from __future__ import annotations
 
 import re
+from decimal import Decimal
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -62,24 +63,24 @@ def _double(text: str) -> float | None:
         return float(special[1] + special[2])
     if decimal := _DECIMAL.fullmatch(text):
         value = float(text)
-        return value if _in_range(value, decimal, lambda: Fraction(text)) else None
+        return value if _in_range(value, decimal, lambda: Decimal(text) == Decimal(value)) else None
     if hexadecimal := _HEXADECIMAL.fullmatch(text):
         try:
             value = float.fromhex(text)
         except OverflowError:
             return None
-        return value if _in_range(value, hexadecimal, lambda: _fraction(text, hexadecimal)) else None
+        return value if _in_range(value, hexadecimal, lambda: _fraction(text, hexadecimal) == value) else None
     return None
 
 
-def _in_range(value: float, found: re.Match[str], exact: Callable[[], Fraction]) -> bool:
+def _in_range(value: float, found: re.Match[str], is_exact: Callable[[], bool]) -> bool:
     """Return whether `strtod` is content: no overflow, and nothing lost where numbers become subnormal."""
     size = abs(value)
     if size == float("inf"):
         return False
     if size == 0:
         return not re.search("[1-9a-fA-F]", found["digits"])
-    return size >= _LEAST_NORMAL or exact() == Fraction(value)
+    return size >= _LEAST_NORMAL or is_exact()
 
 
 def _fraction(text: str, found: re.Match[str]) -> Fraction:
