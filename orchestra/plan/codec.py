@@ -29,10 +29,17 @@ def dumps(plan: model.Plan, *, indent: int | None = None) -> str:
 
 def loads(text: str | bytes) -> model.Plan:
     """Read a plan that `dumps` wrote. Raises `ValueError` where it is not one of this version."""
-    document = json.loads(text)
+    return plan_from(json.loads(text))
+
+
+def plan_from(document: Any) -> model.Plan:  # noqa: ANN401 - JSON
+    """Return the plan that JSON data stands for. Raises `ValueError` where it is not one of this version."""
     if not isinstance(document, dict) or document.get("version") != model.VERSION:
         raise ValueError(f"not a plan of version {model.VERSION}")
-    plan: model.Plan = decode(model.Plan, document)
+    try:
+        plan: model.Plan = decode(model.Plan, document)
+    except (KeyError, TypeError, AttributeError, IndexError) as error:
+        raise ValueError(f"not a whole plan: {type(error).__name__}: {error}") from error
     return plan
 
 

@@ -44,6 +44,12 @@ def process_details(process: Process) -> Iterator[str]:
     yield from _labelled("required", ["the run ends with it"] if process.required else [])
 
 
+def process_kind(process: Process) -> str:
+    """Return what a process is: its kind, and where its program is from."""
+    described = process.kind.replace("_", " ")
+    return f"{described} {process.package}/{process.executable}" if process.package else described
+
+
 def scalar(value: ParameterValue | None) -> str:
     """Return a parameter value so that its type can be seen: text in quotes, lists in brackets."""
     return json.dumps(value, ensure_ascii=False)

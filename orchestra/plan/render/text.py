@@ -11,7 +11,8 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from orchestra.plan.model import Process
-from orchestra.plan.render.details import process_details, scalar
+from orchestra.plan.render.details import process_details, process_kind, scalar
+from orchestra.plan.render.setting import Setting
 from orchestra.plan.render.triggers import trigger_lines
 
 if TYPE_CHECKING:
@@ -22,8 +23,9 @@ if TYPE_CHECKING:
 _INDENT = "  "
 
 
-def render(plan: Plan) -> str:
+def render(plan: Plan, setting: Setting = Setting(), /) -> str:  # noqa: B008 - it is frozen
     """Return the plan as text."""
+    del setting
     sections = [
         _heading(plan),
         _section("arguments", _arguments(tuple(item for item in plan.arguments if not item.given))),
@@ -103,9 +105,7 @@ def _branch(title: str, namespace: _Namespace) -> Iterator[str]:
 
 
 def _process(process: Process) -> Iterator[str]:
-    described = "process" if process.kind == "process" else process.kind.replace("_", " ")
-    origin = f" {process.package}/{process.executable}" if process.package else ""
-    yield f"{process.id}  ({described}{origin}, {process.location})"
+    yield f"{process.id}  ({process_kind(process)}, {process.location})"
     yield from (_INDENT + line for line in process_details(process))
 
 

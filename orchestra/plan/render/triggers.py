@@ -36,14 +36,17 @@ def trigger_lines(triggers: Sequence[Trigger]) -> Iterator[str]:
 
 def _line(trigger: Trigger, *, waits: bool) -> str:
     """Return the line; a trigger that does not wait is about a process that does not start."""
-    delay = "" if trigger.delay is None else f"{trigger.delay:g} s after "
     once = "the first time, " if trigger.once else ""
     armed = "" if trigger.armed or not waits else f", once {trigger.id} is registered"
-    done = "; ".join(map(_action, trigger.do)) or "nothing"
-    event = _event(
-        trigger.on, trigger.on.target or ("any process" if waits else "a process that is not started")
-    )
-    return f"{delay}{event}{armed}: {once}{done}  ({trigger.location})"
+    done = "; ".join(map(action_line, trigger.do)) or "nothing"
+    return f"{event_line(trigger, waits=waits)}{armed}: {once}{done}  ({trigger.location})"
+
+
+def event_line(trigger: Trigger, *, waits: bool = True) -> str:
+    """Return when the actions of a trigger are carried out."""
+    delay = "" if trigger.delay is None else f"{trigger.delay:g} s after "
+    anybody = "any process" if waits else "a process that is not started"
+    return f"{delay}{_event(trigger.on, trigger.on.target or anybody)}"
 
 
 def _event(event: TriggerEvent, target: str) -> str:
@@ -69,7 +72,8 @@ def _narrowed(event: TriggerEvent) -> str:
     return "".join(f" {word} {value}" for word, value in parts.items() if value is not None)
 
 
-def _action(action: TriggeredAction) -> str:  # noqa: C901, PLR0911 - one line per action
+def action_line(action: TriggeredAction) -> str:  # noqa: C901, PLR0911 - one line per action
+    """Return what is done, in a few words."""
     match action:
         case LogAction(message, _, level):
             return f"log {message!r}{'' if level == 'info' else f' as {level}'}"
