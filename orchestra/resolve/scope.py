@@ -35,12 +35,16 @@ _Names: TypeAlias = set[str]
 
 @dataclass(frozen=True, slots=True)
 class Variable:
-    """A variable's value; `leaked_from` is the include that set it where that include has ended."""
+    """A variable's value; `leaked_from` is the include that set it where that include has ended.
+
+    `settled` is where a file declared or set it with no condition around that.
+    """
 
     value: Evaluated
     location: Location
     leaked_from: Span | None = None
     setter: Setter = "let"
+    settled: Location | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,6 +162,12 @@ class Scope:
     def set(self, name: str, value: Evaluated, location: Location, setter: Setter = "let") -> None:
         """Set a variable."""
         self._put(self.variables, name, Variable(value, location, setter=setter))
+
+    def settle(self, name: str, location: Location) -> None:
+        """Note where a variable is declared or set with no condition around that."""
+        variable = self.variables.get(name)
+        if variable is not None:
+            self._put(self.variables, name, replace(variable, settled=location))
 
     def forget(self, name: str) -> None:
         """Unset a variable."""

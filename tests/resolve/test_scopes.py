@@ -17,7 +17,7 @@ MESSAGES = {
     "a variable is seen by what follows": ("launch:\n- let: {name: t, value: a}\n" + SAY, ["a"]),
     "a default counts where nothing is set": ("launch:\n- arg: {name: t, default: d}\n" + SAY, ["d"]),
     "a value that is set already wins over a default": (
-        "launch:\n- let: {name: t, value: a}\n- arg: {name: t, default: d}\n" + SAY,
+        "launch:\n- let: {name: t, value: a, if: true}\n- arg: {name: t, default: d}\n" + SAY,
         ["a"],
     ),
     "a group ends what is set in it": (

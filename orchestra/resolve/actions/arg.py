@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from orchestra.errors import Code
 from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON, Evaluated, Value
+from orchestra.resolve.declarations import declare
 from orchestra.resolve.mentions import glimpse
 from orchestra.resolve.model import ResolvedArgument
 
@@ -20,6 +21,7 @@ def visit(action: Arg, run: Resolution) -> None:
     """Declare a launch argument: a value that is already set stays, else the default counts."""
     name, choices, at = _text(action.name), _choices(action), run.at(action.span)
     run.scope.ledger.declared.add(name)
+    declare(action, name, choices, run)
     value = _value(action, name, run)
     _check_default(action, value, choices, run)
     if isinstance(value, Value) and choices is not None and value.text not in choices:

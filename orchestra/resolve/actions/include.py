@@ -10,6 +10,7 @@ from orchestra.errors import Code
 from orchestra.load.files import PYTHON
 from orchestra.resolve.arguments import Given, settle
 from orchestra.resolve.context import POISON, Poison, Value
+from orchestra.resolve.declarations import check_twice
 from orchestra.resolve.dependencies import dependencies
 from orchestra.resolve.interpret import visit_file
 from orchestra.resolve.mentions import is_fixed
@@ -23,6 +24,7 @@ if TYPE_CHECKING:
     from orchestra.description.actions.include import Include
     from orchestra.description.entity import Action
     from orchestra.description.launch import Description
+    from orchestra.location import Location
     from orchestra.resolve.model import ResolvedDependency
     from orchestra.resolve.resolution import Resolution
 
@@ -107,11 +109,15 @@ def _arguments(action: Include, run: Resolution) -> tuple[list[Given], set[str]]
     """Set the arguments in order, and return them with the names of those that a later one reads, as upstream."""
     given: list[Given] = []
     used: set[str] = set()
+    before: dict[str, tuple[Location, object]] = {}
     for pair in (*action.arg, *action.let):
         with run.scope.reading() as read:
             name, value = run.evaluate(pair.name), run.evaluate(pair.value)
         used |= read.intersection(item.name for item in given)
         if isinstance(name, Value):
+            if name.text not in read:
+                check_twice(name, value, before, run)
+            before[name.text] = (name.location, value)
             given.append(Given(name.text, name.location))
             run.scope.set(name.text, value or POISON, run.at(pair.value.span), "include")
     return given, used

@@ -1,0 +1,71 @@
+"""Defaults that never count, and arguments that an include gives twice.
+
+An argument that a file declares and never reads is no mistake: it belongs to what callers may rely on, and public
+launch files are full of such.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code
+from orchestra.resolve.booleans import boolean
+from orchestra.resolve.context import Value
+
+if TYPE_CHECKING:
+    from collections.abc import Collection
+
+    from orchestra.description.actions.arg import Arg
+    from orchestra.location import Location, Span
+    from orchestra.resolve.resolution import Resolution
+
+
+def declare(action: Arg, name: str, choices: Collection[str] | None, run: Resolution) -> None:
+    """Report a default that never counts, because the file itself has given the variable another value before.
+
+    One that is none of the `choices` is a mistake of its own.
+    """
+    text = action.default.constant if action.default is not None else None
+    variable = run.scope.variables.get(name)
+    if (
+        action.default is None
+        or text is None
+        or variable is None
+        or (choices is not None and text not in choices)
+    ):
+        return
+    before, here = variable.settled, run.at(action.default.span)
+    if before is None or before.span.file != here.span.file or before.included_from != here.included_from:
+        return
+    if (
+        variable.leaked_from is None
+        and isinstance(variable.value, Value)
+        and not _same(variable.value.text, text)
+    ):
+        message = f"this default of '{name}' never counts: it has a value before"
+        run.problems.warning(Code.SHADOWED_ARGUMENT, message, here, notes=(f"it is set at {before}",))
+
+
+def settle(name: str, at: Span, run: Resolution) -> None:
+    """Note that a variable has a value from here on in this file, unless a condition stands on that."""
+    if run.occasion is None and run.conditions + run.repetitions == run.frame.choices:
+        run.scope.settle(name, run.at(at))
+
+
+def check_twice(
+    name: Value, value: object, given: dict[str, tuple[Location, object]], run: Resolution
+) -> None:
+    """Report an argument that an include gives twice; `given` are those before it."""
+    before = given.get(name.text)
+    if before is None or not isinstance(value, Value):
+        return
+    location, other = before
+    if isinstance(other, Value) and other.text != value.text:
+        message = f"'{name.text}' is given twice: this value counts"
+        run.problems.warning(
+            Code.SHADOWED_ARGUMENT, message, name.location, notes=(f"given first at {location}",)
+        )
+
+
+def _same(one: str, other: str) -> bool:
+    return one == other or (boolean(one) is not None and boolean(one) == boolean(other))
