@@ -31,6 +31,7 @@ COMMANDS: Final[dict[str, Command]] = {
     "plan": Command("orchestra.cli.plan", "show what a launch file would start"),
     "check": Command("orchestra.cli.check", "find what is wrong in launch files and parameter files"),
     "format": Command("orchestra.cli.format", "write launch files and parameter files in one form"),
+    "convert": Command("orchestra.cli.convert", "write a launch file in another language"),
     "schema": Command(
         "orchestra.cli.schema", "print the JSON Schema of launch files, plans, events or problems"
     ),

@@ -1,0 +1,1 @@
+"""Launch files in Python, as they are written by hand for ROS 2."""

@@ -1,0 +1,37 @@
+"""Why an action of a Python launch file cannot be said in the launch language."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from orchestra.description.actions.emit_event import EmitEvent
+from orchestra.description.actions.opaque import OpaqueAction
+from orchestra.description.actions.register_event_handler import RegisterEventHandler
+
+if TYPE_CHECKING:
+    from orchestra.description.entity import Action
+
+_ACTIONS: Final = {
+    "LifecycleTransition": "LifecycleTransition",
+    "PopEnvironment": "PopEnvironment",
+    "PopLaunchConfigurations": "PopLaunchConfigurations",
+    "PushEnvironment": "PushEnvironment",
+    "PushLaunchConfigurations": "PushLaunchConfigurations",
+    "UnregisterEventHandler": "UnregisterEventHandler",
+    "UnsetLet": "UnsetLaunchConfiguration",
+}
+
+
+def why(action: Action) -> str:
+    """Return one sentence."""
+    if isinstance(action, OpaqueAction):
+        name = type(action.target).__name__
+        function = getattr(getattr(action.target, "function", None), "__name__", None)
+        called = "" if function is None else f" of {function}()"
+        return f"only Python code knows what this {name}{called} does"
+    if isinstance(action, RegisterEventHandler):
+        names = {type(handler.origin).__name__ for handler in action.handlers}
+        return f"only Python has event handlers ({', '.join(sorted(names))})"
+    if isinstance(action, EmitEvent):
+        return f"only Python can emit events ({type(action.event).__name__})"
+    return f"only Python has {_ACTIONS.get(type(action).__name__, type(action).__name__)}"

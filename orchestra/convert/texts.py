@@ -1,0 +1,107 @@
+"""Texts with substitutions as they are written in YAML and XML, and their normal form, in which they are compared."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+from orchestra.convert.remarks import UnsayableError
+from orchestra.description.substitutions import SIGNATURES
+from orchestra.description.text import Call, Opaque, Template, Words
+from orchestra.description.written import called, escaped
+from orchestra.errors import Problems
+from orchestra.load.grammar import parse_template
+from orchestra.location import point
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+# Calls that give an absolute path without a slash at its end: what is joined to it may as well follow it.
+_FOLDERS = frozenset({"dirname", "find-pkg-prefix", "find-pkg-share"})
+_OPTIONAL_ARGUMENTS = {"if": 3}
+_DEFAULTS = {"command": "fail", "eval": "math"}
+
+
+def written(template: Template) -> str:
+    """Return how a text is written, as its author did where that says the same. Raises `UnsayableError`."""
+    wanted = normal(template)
+    if _reads_as(template.raw, wanted):
+        return template.raw
+    _refuse_opaque(template.parts)
+    text = "".join(map(_written, wanted))
+    if not _reads_as(text, wanted):
+        raise UnsayableError(
+            "a substitution in quotes cannot have arguments in quotes itself: the launch language has no way to"
+            " write that",
+            template.span,
+        )
+    return text
+
+
+def normal(template: Template) -> tuple[Any, ...]:
+    """Return the parts of a text without their places: texts, calls as tuples, what is opaque as its object."""
+    found: list[Any] = []
+    for part in _joined(template.parts):
+        if isinstance(part, str) and found and isinstance(found[-1], str):
+            found[-1] += part
+        elif part != "":
+            found.append(part)
+    return tuple(found)
+
+
+def _joined(parts: Iterable[Any]) -> Iterable[Any]:
+    for part in parts:
+        if isinstance(part, Words):
+            yield part.text
+        elif isinstance(part, Call):
+            yield from _call(part)
+        else:
+            yield id(part.target)
+
+
+def _call(call: Call) -> Iterable[Any]:
+    arguments = [normal(argument) for argument in call.arguments]
+    if call.name == "path-join" and _is_plain_path(arguments):
+        for index, argument in enumerate(arguments):
+            yield from ("/", *argument) if index else argument
+        return
+    default = _DEFAULTS.get(call.name)
+    if default is not None and len(arguments) > 1 and arguments[-1] == (default,):
+        arguments.pop()
+    while len(arguments) < _OPTIONAL_ARGUMENTS.get(call.name, 0):
+        arguments.append(())
+    yield ("log_dir" if call.name == "launch_log_dir" else call.name, *arguments)
+
+
+def _is_plain_path(arguments: list[tuple[Any, ...]]) -> bool:
+    """Return whether joining is the same as writing a slash between: a folder first, relative texts behind."""
+    first, *others = arguments
+    if len(first) != 1 or not isinstance(first[0], tuple) or first[0][0] not in _FOLDERS:
+        return False
+    inner = others[:-1]
+    relative = all(len(item) == 1 and isinstance(item[0], str) and item[0][0] != "/" for item in others)
+    return relative and not any(item[0].endswith("/") for item in inner)
+
+
+def _written(part: Any) -> str:  # noqa: ANN401 - a part of a description, whatever it is
+    if isinstance(part, str):
+        return escaped(part)
+    name, *arguments = part
+    while len(arguments) > SIGNATURES[name].minimum and name in _OPTIONAL_ARGUMENTS and not arguments[-1]:
+        arguments.pop()
+    return called(name, ("".join(map(_written, argument)) for argument in arguments))
+
+
+def _reads_as(text: str, wanted: tuple[Any, ...]) -> bool:
+    problems = Problems()
+    at = point("")
+    return normal(parse_template(text, lambda *_: at, problems)) == wanted and not problems.errors
+
+
+def _refuse_opaque(parts: Iterable[Any]) -> None:
+    for part in parts:
+        if isinstance(part, Opaque):
+            name = type(part.target).__name__.strip("_")
+            raise UnsayableError(f"only Python code knows what this {name} comes to", part.span)
+        if isinstance(part, Call):
+            for argument in part.arguments:
+                _refuse_opaque(argument.parts)
