@@ -40,7 +40,10 @@ class _File:
 def check_sections(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Report sections that miss their node, and files that have nothing for a node."""
     del plan
-    nodes: list[_Node] = [*(item for item in resolved.processes if item.kind != "process"), *resolved.components]
+    nodes: list[_Node] = [
+        *(item for item in resolved.processes if item.kind != "process"),
+        *resolved.components,
+    ]
     names = _Names(name for node in nodes if (name := node_name(node)) is not None)
     told: set[object] = set()
     for file in _files(nodes):

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from orchestra.errors import Code
 from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON, Evaluated, Value
-from orchestra.resolve.declarations import declare
+from orchestra.resolve.declarations import declare, settle
 from orchestra.resolve.mentions import glimpse
 from orchestra.resolve.model import ResolvedArgument
 
@@ -27,6 +27,7 @@ def visit(action: Arg, run: Resolution) -> None:
     if isinstance(value, Value) and choices is not None and value.text not in choices:
         _refuse(name, value, choices, run)
         run.scope.set(name, POISON, at)
+    settle(name, action.span, run)
     _record(action, name, value, choices, run)
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.resolve.context import Value
-from orchestra.resolve.declarations import note_set
+from orchestra.resolve.declarations import settle
 
 if TYPE_CHECKING:
     from orchestra.description.actions.let import Let
@@ -17,4 +17,4 @@ def visit(action: Let, run: Resolution) -> None:
     name, value = run.evaluate(action.name), run.evaluate(action.value)
     if isinstance(name, Value) and value is not None:
         run.scope.set(name.text, value, run.at(action.value.span))
-        note_set(action, name.text, run)
+        settle(name.text, action.span, run)
