@@ -22,7 +22,9 @@ if TYPE_CHECKING:
 Kind: TypeAlias = Literal["launch", "parameters"]
 
 _YAML_NAME = re.compile(r"\.ya?ml$")
-_PARAMETERS_KEY = re.compile(r"""^[^#\n]*\bros__parameters["']?\s*:""", re.MULTILINE)
+# The key of every section, spelled as it may be by mistake.
+_PARAMETERS_KEY = re.compile(r"""^[^#\n]*\bros[_-]*p[a-z]{1,4}m[a-z]{0,6}["']?\s*:""", re.MULTILINE)
+_NODE_KEY = re.compile(r"""^["']?/[\w/*]*["']?\s*:""", re.MULTILINE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +56,7 @@ def kind_of(name: str, text: str) -> Kind | None:
 
 def _behind(path: str) -> list[Target]:
     if is_file(path):
-        return [Target(path, _kind_of_file(Path(path)) or "launch")]
+        return [Target(path, _kind_of_file(Path(path), named=True) or "launch")]
     if not os.path.isdir(path):  # noqa: PTH112 - pathlib raises for paths that the system refuses
         raise UsageError(f"there is no file or folder {path}")
     found = [Target(str(file), kind) for file in sorted(files_below(path)) if (kind := _kind_of_file(file))]
@@ -63,11 +65,14 @@ def _behind(path: str) -> list[Target]:
     return found
 
 
-def _kind_of_file(file: Path) -> Kind | None:
+def _kind_of_file(file: Path, *, named: bool = False) -> Kind | None:
+    """Return what a file is; one that is named for itself may lack what marks a parameter file."""
     if file.suffix not in TEXTS:
         return kind_of(file.name, "")
     try:
         text = file.read_text("utf-8", errors="replace")
     except OSError:
         text = ""  # whoever checks it by its name will say that it cannot be read
-    return kind_of(file.name, text)
+    kind = kind_of(file.name, text)
+    lacking = named and kind is None and _YAML_NAME.search(file.name) and _NODE_KEY.search(text)
+    return "parameters" if lacking else kind

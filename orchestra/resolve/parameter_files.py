@@ -13,7 +13,7 @@ from orchestra.resolve.context import Value
 from orchestra.resolve.model import FileParameters
 from orchestra.resolve.paths import beside, existing_file, folder_of
 from orchestra.resolve.rcl.files import read_parameter_file, read_plain_file
-from orchestra.resolve.rcl.reader import SECTION_KEY
+from orchestra.resolve.rcl.strays import SECTION_KEY
 from orchestra.resolve.substituted import Back, placed_back, substituted
 
 if TYPE_CHECKING:

@@ -12,17 +12,20 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import yaml
 
-from orchestra.errors import Code
+from orchestra.errors import Code, Problems
+from orchestra.load.offsets import source
+from orchestra.load.yaml_faults import explained
 from orchestra.location import Location, Span
 from orchestra.resolve.rcl.duplicates import report_duplicates
-from orchestra.resolve.rcl.reader import SECTION_KEY, Reader, Unreadable
+from orchestra.resolve.rcl.reader import Reader, Unreadable
+from orchestra.resolve.rcl.strays import SECTION_KEY
 from orchestra.resolve.rcl.surprises import report_surprises
 from orchestra.resolve.rcl.values import LOADER
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from orchestra.errors import Problems
+    from orchestra.errors import Problem
     from orchestra.resolve.rcl.sections import Section
 
     _Change: TypeAlias = Callable[[Iterator[yaml.Event]], Iterator[yaml.Event]]
@@ -56,22 +59,32 @@ def read_plain_file(
 def _read(
     text: str, file: str, problems: Problems, included_from: tuple[Span, ...], changed: _Change
 ) -> tuple[Section, ...]:
-    reader = Reader(file, problems, included_from)
+    text, found = text.removeprefix("\ufeff"), Problems()
+    reader = Reader(file, found, included_from)
     try:
-        for event in changed(yaml.parse(text.removeprefix("\ufeff"), Loader=LOADER)):
+        for event in changed(yaml.parse(text, Loader=LOADER)):
             reader.take(event)
     except yaml.YAMLError as error:
-        at = Location(_span(file, error), included_from)
-        problems.error(Code.PARAMETER_SYNTAX, f"not YAML: {_reason(text, error)}", at)
+        fault = explained(error, source(file, text))
+        problems.extend(_before(fault.span, found))
+        at = Location(fault.span, included_from)
+        problems.error(Code.PARAMETER_SYNTAX, fault.message, at, suggestion=fault.suggestion)
+        return reader.sections()
     except UnicodeEncodeError:
         at = Location(Span(file, 1, 1, 1, 1), included_from)
         problems.error(Code.PARAMETER_SYNTAX, "not YAML: a lone surrogate", at)
     except Unreadable:
         pass  # the reader has reported why it cannot go on
     sections = reader.sections()
+    problems.extend(found)
     report_duplicates(sections, problems)
-    report_surprises(sections, text.removeprefix("\ufeff"), problems)
+    report_surprises(sections, text, problems)
     return sections
+
+
+def _before(span: Span, problems: Problems) -> list[Problem]:
+    """Return the problems that stand before a fault of the text: what stands behind it follows from it."""
+    return [problem for problem in problems if problem.span is not None and problem.span < span]
 
 
 def _within_section(events: Iterator[yaml.Event]) -> Iterator[yaml.Event]:
@@ -98,24 +111,3 @@ def _closed_twice(events: Iterator[yaml.Event]) -> Iterator[yaml.Event]:
 
 def _marks(event: yaml.Event) -> dict[str, Any]:
     return {"start_mark": event.start_mark, "end_mark": event.start_mark}
-
-
-def _span(file: str, error: yaml.YAMLError) -> Span:
-    mark = getattr(error, "problem_mark", None) or getattr(error, "context_mark", None)
-    if mark is None:
-        return Span(file, 1, 1, 1, 1)
-    line, column = mark.line + 1, mark.column + 1
-    return Span(file, line, column, line, column + 1)
-
-
-def _reason(text: str, error: yaml.YAMLError) -> str:
-    problem = getattr(error, "problem", None) or getattr(error, "reason", None) or str(error)
-    mark = getattr(error, "problem_mark", None)
-    lines = text.splitlines()
-    if (
-        mark is not None
-        and mark.line < len(lines)
-        and lines[mark.line][mark.column : mark.column + 1] == "\t"
-    ):
-        return "a tab cannot indent"
-    return str(problem).strip()

@@ -32,9 +32,13 @@ class OpenSection:
 
 @dataclass(slots=True)
 class OpenList:
-    """A list that is being read; `items` is None once an inner list has ended. `written` are their events."""
+    """A list that is being read; `items` is None once an inner list has ended. `written` are their events.
+
+    `inner` is the place of the first list inside it.
+    """
 
     start: yaml.Event
     items: list[Scalar] | None = field(default_factory=list)
     written: list[yaml.Event] = field(default_factory=list)
     sound: bool = True
+    inner: Location | None = None

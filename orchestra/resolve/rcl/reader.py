@@ -14,13 +14,15 @@ from orchestra.resolve.rcl.joined import Joined, joined
 from orchestra.resolve.rcl.opened import OpenList, OpenParameter, OpenSection
 from orchestra.resolve.rcl.patterns import pattern_fault
 from orchestra.resolve.rcl.sections import Entry, Section
+from orchestra.resolve.rcl.strays import SECTION_KEY, Key, Strays, is_misspelt_section, is_section
 from orchestra.resolve.rcl.table import kind_of
-from orchestra.resolve.rcl.values import scalar, terminated
+from orchestra.resolve.rcl.values import odd_boolean, scalar, terminated
 
 if TYPE_CHECKING:
     from orchestra.values import ParameterValue, Scalar
 
-SECTION_KEY = "ros__parameters"
+_NESTED = "a parameter cannot be a list of lists"
+_NO_KEY, _NO_DOCUMENT = "a key must not be empty", "rcl does not take an empty document"
 
 
 class Unreadable(Exception):  # noqa: N818 - no fault of the program
@@ -53,20 +55,22 @@ class Reader:
     parameter: OpenParameter | None = None
     lists: list[OpenList] = field(default_factory=list)
     emptied: Location | None = None
+    strays: Strays = field(init=False)
     found: list[OpenSection] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.strays = Strays(self.problems)
 
     def sections(self) -> tuple[Section, ...]:
         """Return the sections read so far."""
+        self.strays.end()
         sound = (section for section in self.found if section.sound)
         return tuple(Section(section.pattern, tuple(section.entries), section.location) for section in sound)
 
     def take(self, event: yaml.Event) -> None:
         """Go on by one event. Raises `Unreadable` where there is no going on."""
         if isinstance(event, yaml.ScalarEvent):
-            if self.expects_key:
-                self.key(event)
-            else:
-                self.value(event)
+            (self.key if self.expects_key else self.value)(event)
         elif isinstance(event, yaml.MappingStartEvent):
             self.open_mapping(event)
         elif isinstance(event, yaml.MappingEndEvent):
@@ -82,23 +86,25 @@ class Reader:
         """Take a key: of a node, of the section, of a parameter."""
         name = terminated(event.value)
         if not name:
-            empty = "a key must not be empty" if self.depth else "rcl does not take an empty document"
-            raise self.unreadable(empty, event)
+            raise self.unreadable(_NO_KEY if self.depth else _NO_DOCUMENT, event)
         if self.lists and self.lists[-1].items is None:
-            raise self.unreadable("a parameter cannot be a list of lists", event)
+            raise self.unreadable(_NESTED, event, self.lists[0].inner)
+        beside = not self.inside and self.strays.key(Key(name, self.at(event), self.depth), self.keys)
         if self.inside:
             self.parameter_key(name, event)
-        elif name.startswith(SECTION_KEY):
-            self.open_section(name, event)
+        elif is_section(name) or (self.node.count and is_misspelt_section(name)):
+            self.open_section(name, event, told=beside)
         else:
             self.before_key = copy.copy(self.node)
             self.node.grow(name)
         self.last_key, self.last_key_at = name, self.at(event)
         self.expects_key = False
 
-    def open_section(self, name: str, event: yaml.ScalarEvent) -> None:
+    def open_section(self, name: str, event: yaml.ScalarEvent, *, told: bool) -> None:
         """Take the key `ros__parameters`: rcl looks only at how it begins."""
         at = self.at(event)
+        if not self.node.count and told:
+            raise Unreadable
         if not self.node.count:
             raise self.unreadable(f"'{SECTION_KEY}' must stand below the name of a node", event)
         pattern, said = self.node.text, joined("/", self.keys[1:])
@@ -107,7 +113,9 @@ class Reader:
             self.error(f"'{pattern}' cannot be the name of a node: {fault.reason}", named_at)
         elif pattern != said:
             self.surprise(f"rcl reads this as the section of '{pattern}', not of '{said}'", at)
-        if name != SECTION_KEY:
+        if not is_section(name):
+            self.error(f"'{name}' is not '{SECTION_KEY}', below which parameters belong", at, SECTION_KEY)
+        elif name != SECTION_KEY:
             self.surprise(f"rcl reads '{name}' as '{SECTION_KEY}'", at)
         self.found.append(OpenSection(pattern, named_at, sound=fault is None))
         self.before_key = copy.copy(self.node)
@@ -138,7 +146,8 @@ class Reader:
         try:
             read = scalar(event)
         except ValueError:
-            self.error(f"the parameter '{self.parameter.name}' has no value", self.at(event))
+            at = self.at(event) if self.lists else self.parameter.key
+            self.error(f"the parameter '{self.parameter.name}' has no value", at)
             self.drop()
             return
         if self.lists:
@@ -153,7 +162,7 @@ class Reader:
         items = current.items if current.items is not None else []
         if current.sound and items and type(items[0]) is not type(read):
             message = f"a list must hold values of one type, not {kind_of(items[0])} and {kind_of(read)}"
-            self.problems.error(Code.PARAMETER_TYPE, message, self.at(event), notes=_odd_boolean(read, event))
+            self.problems.error(Code.PARAMETER_TYPE, message, self.at(event), notes=odd_boolean(read, event))
             current.sound = False
         items.append(read)
         current.items = items
@@ -168,20 +177,15 @@ class Reader:
 
     def misplaced(self, event: yaml.Event) -> None:
         """Report a value above the parameters, and go on as if its key were not there."""
-        if self.inside:
-            message = f"'{SECTION_KEY}' must hold a mapping from names to values"
-        elif self.depth == 0:
+        at = self.last_key_at
+        if self.depth == 0 or at is None:
             raise self.unreadable("a parameter file must be a mapping from nodes to parameters", event)
+        empty = isinstance(event, yaml.ScalarEvent) and not event.value and not event.style
+        if self.inside and not empty:
+            self.error(f"'{SECTION_KEY}' must hold a mapping from names to values", self.at(event))
         else:
-            empty = isinstance(event, yaml.ScalarEvent) and not event.value
-            reason = "is empty" if empty else f"stands outside '{SECTION_KEY}'"
-            message = f"'{self.last_key}' {reason}: parameters belong below '{SECTION_KEY}' of a node"
-        notes = (
-            [] if self.emptied is None else [f"the empty mapping at {self.emptied} ends the section for rcl"]
-        )
-        self.problems.error(Code.PARAMETER_SYNTAX, message, self.at(event), notes=notes)
-        self.node = self.before_key
-        self.inside, self.expects_key = False, True
+            self.strays.value(Key(self.last_key, at, self.depth), self.keys, self.emptied, empty=empty)
+        self.node, self.inside, self.expects_key = self.before_key, False, True
 
     def open_mapping(self, event: yaml.MappingStartEvent) -> None:
         """Take the beginning of a mapping: of the file, of a node, of the parameters, of a group."""
@@ -212,19 +216,24 @@ class Reader:
                     self.emptied = self.at(event)
         elif self.depth == self.node.count + 1:
             self.node.shrink()
+        self.strays.end()
         self.depth -= 1
         self.keys.pop()
         self.key_places.pop()
 
     def open_list(self, event: yaml.SequenceStartEvent) -> None:
         """Take the beginning of a list; to rcl an inner list is a new beginning of the outer one."""
+        if self.expects_key and self.lists:
+            raise self.unreadable(_NESTED, event, self.lists[0].inner)
         if self.expects_key:
-            what = "a parameter cannot be a list of lists" if self.lists else "a list cannot be a key"
-            raise self.unreadable(what if self.depth else "a parameter file must be a mapping", event)
+            what = "a list cannot be a key" if self.depth else "a parameter file must be a mapping"
+            raise self.unreadable(what, event)
         if self.parameter is None or not self.inside:
+            if self.strays.has_told(self.keys):
+                raise Unreadable
             raise self.unreadable(f"a list cannot stand above the parameters of '{SECTION_KEY}'", event)
         if self.lists:
-            self.surprise("a list of lists is no parameter; rcl takes one of the inner lists", self.at(event))
+            self.lists[0].inner = self.lists[0].inner or self.at(event)
             if self.lists[-1].items:
                 self.flush(event)
         self.lists.append(OpenList(event))
@@ -232,9 +241,11 @@ class Reader:
     def close_list(self, event: yaml.SequenceEndEvent) -> None:
         """Take the end of a list."""
         self.flush(event)
-        self.lists.pop()
+        closed = self.lists.pop()
         if self.lists:
             self.lists[-1].items = None
+        elif closed.inner is not None:
+            self.surprise(f"{_NESTED}; rcl takes one of the inner lists", closed.inner)
         self.expects_key = True
 
     def flush(self, event: yaml.Event) -> None:
@@ -264,33 +275,26 @@ class Reader:
         if self.inside and self.parameter is not None:
             self.drop()
         else:
-            self.node = self.before_key
-            self.inside, self.expects_key = False, True
+            self.node, self.inside, self.expects_key = self.before_key, False, True
 
     def at(self, first: yaml.Event, last: yaml.Event | None = None) -> Location:
         """Return the place of an event, or from one to another."""
         start, end = first.start_mark, (last or first).end_mark
         assert start is not None  # noqa: S101 - events of a parser have marks
         assert end is not None  # noqa: S101
-        span = Span(self.file, start.line + 1, start.column + 1, end.line + 1, end.column + 1)
+        unseen = isinstance(first, yaml.CollectionStartEvent) and start.index == end.index  # in block form
+        span = Span(self.file, start.line + 1, start.column + 1, end.line + 1, end.column + 1 + unseen)
         return Location(span, self.included_from)
 
-    def error(self, message: str, at: Location) -> None:
+    def error(self, message: str, at: Location, suggestion: str | None = None) -> None:
         """Report what rcl refuses."""
-        self.problems.error(Code.PARAMETER_SYNTAX, message, at)
+        self.problems.error(Code.PARAMETER_SYNTAX, message, at, suggestion=suggestion)
 
     def surprise(self, message: str, at: Location) -> None:
         """Report what rcl reads in another way than it stands there."""
         self.problems.warning(Code.PARAMETER_SYNTAX, message, at)
 
-    def unreadable(self, message: str, event: yaml.Event) -> Unreadable:
-        """Report what rcl refuses and what leaves nothing to go on with; raise what is returned."""
-        self.error(message, self.at(event))
+    def unreadable(self, message: str, event: yaml.Event, at: Location | None = None) -> Unreadable:
+        """Report what rcl refuses and cannot go on behind; raise what is returned."""
+        self.error(message, at or self.at(event))
         return Unreadable(message)
-
-
-def _odd_boolean(read: Scalar, event: yaml.ScalarEvent) -> tuple[str, ...]:
-    """Return what is to be said of a word that hardly anybody means as a boolean."""
-    if not isinstance(read, bool) or event.value.lower() in ("true", "false"):
-        return ()
-    return (f"'{event.value}' is read as {str(read).lower()} where it is not in quotes",)

@@ -32,3 +32,10 @@ def scalar(event: yaml.ScalarEvent) -> Scalar:
 def terminated(text: str) -> str:
     """Return the text up to its first NUL, where a C string ends."""
     return text.partition("\0")[0]
+
+
+def odd_boolean(read: Scalar, event: yaml.ScalarEvent) -> tuple[str, ...]:
+    """Return what is to be said of a word that hardly anybody means as a boolean."""
+    if not isinstance(read, bool) or event.value.lower() in ("true", "false"):
+        return ()
+    return (f"'{event.value}' is read as {str(read).lower()} where it is not in quotes",)

@@ -1,0 +1,109 @@
+"""Where a parser of YAML gave up, and what it had read before: the ground on which its failure is explained."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import Any, Final
+
+import yaml
+
+from orchestra.load.faults import Fault
+from orchestra.load.offsets import Source
+
+_PARSER: type[Any] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
+
+_WORD = re.compile(r"[^\s:,\[\]{}#]+")
+_QUOTES: Final = ("'", '"')
+_OPENS: Final = " \t\n[{(,:"
+_FOLLOWS: Final = " \t\r\n,]}:#"
+
+
+@dataclass(frozen=True, slots=True)
+class Piece:
+    """A scalar that the parser has read: where it is, and whether it is in quotes."""
+
+    begin: int
+    end: int
+    quoted: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Failure:
+    """Where the parser gave up (`at`), what it was busy with from where on (`context`), and its own words."""
+
+    whole: Source
+    at: int
+    context: int
+    problem: str
+    doing: str
+
+    @property
+    def text(self) -> str:
+        """The whole text."""
+        return self.whole.text
+
+    @property
+    def here(self) -> str:
+        """The character at which the parser gave up."""
+        return self.text[self.at : self.at + 1]
+
+    def fault(self, message: str, begin: int, end: int, suggestion: str | None = None) -> Fault:
+        """Return a fault of a stretch of the text."""
+        return Fault(f"this is not YAML: {message}", self.whole.span(begin, end), suggestion=suggestion)
+
+    def plainly(self) -> Fault:
+        """Return what the parser says, at the word where it says so."""
+        message = ", ".join(part for part in (self.doing, self.problem) if part)
+        return self.fault(message, self.at, self.end_of_word(self.at))
+
+    def end_of_word(self, begin: int) -> int:
+        """Return where a word ends, a character at least; the end of the text has none."""
+        found = _WORD.match(self.text, begin)
+        return found.end() if found else min(begin + 1, len(self.text))
+
+    def line_of(self, offset: int) -> int:
+        """Return the number of the line."""
+        return self.whole.place(offset)[0]
+
+    def line_end(self, begin: int) -> int:
+        """Return where the text of a line that stands from here on ends, comments left out."""
+        line = re.split(r"[\r\n]|\s#", self.text[begin:], maxsplit=1)[0]
+        return begin + len(line.rstrip())
+
+    def pieces(self) -> list[Piece]:
+        """Return the scalars that come before the failure."""
+        found: list[Piece] = []
+        try:
+            for token in yaml.scan(self.text, Loader=_PARSER):
+                if token.start_mark.index >= self.at:
+                    break
+                if isinstance(token, yaml.ScalarToken):
+                    begin, end = token.start_mark.index, token.end_mark.index
+                    found.append(Piece(begin, end, token.style in _QUOTES))
+        except yaml.YAMLError:
+            pass  # the failure itself
+        return found
+
+    def of_quotes(self) -> Fault | None:
+        """Return the fault of a quote that is missing or stands in a quoted text, None where it is none of that."""
+        pieces = self.pieces()
+        for piece in pieces:
+            if piece.quoted and self.line_of(piece.begin) < self.line_of(piece.end) and self.is_next(piece):
+                return self.unclosed(piece.begin)
+        last = pieces[-1] if pieces else None
+        if last is None or not last.quoted or last.end != self.at or self.here in _FOLLOWS:
+            return None
+        quote = self.text[last.begin]
+        escaped = "''" if quote == "'" else '\\"'
+        message = f"this {quote} ends the text: inside {quote} it is written {escaped}"
+        return self.fault(message, last.end - 1, last.end, escaped)
+
+    def is_next(self, piece: Piece) -> bool:
+        """Return whether the quote that ends a text of several lines is rather the beginning of another one."""
+        before, behind = self.text[piece.end - 2], self.text[piece.end : piece.end + 1]
+        return before in _OPENS and behind not in _FOLLOWS and behind != ""
+
+    def unclosed(self, begin: int) -> Fault:
+        """Return the fault of a quote without its other half."""
+        return self.fault(f"this {self.text[begin]} is not closed", begin, begin + 1)
