@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, Protocol
 
+from orchestra.plan.checks.declared import check_declared
 from orchestra.plan.checks.sections import check_sections
 
 if TYPE_CHECKING:
@@ -19,7 +20,10 @@ class Check(Protocol):
         """Report what is wrong."""
 
 
-CHECKS: Final[tuple[Check, ...]] = (check_sections,)
+CHECKS: Final[tuple[Check, ...]] = (
+    check_declared,
+    check_sections,
+)
 
 
 def check_all(resolved: Resolved, plan: Plan, problems: Problems) -> None:

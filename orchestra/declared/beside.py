@@ -1,0 +1,19 @@
+"""The schema that a package has for what it starts, where it certainly is one."""
+
+from __future__ import annotations
+
+from orchestra.declared.convention import definition_beside, names_of_class, schema_beside
+from orchestra.declared.documents import read_document
+from orchestra.declared.generated import is_definition
+from orchestra.errors import Problems
+
+
+def schema_of_package(share: str, called: str) -> str | None:
+    """Return the path of the schema for an executable, or for a class `pkg::Class`, of a package."""
+    names = names_of_class(called) if "::" in called else (called,)
+    found = schema_beside(share, names)
+    if found is not None:
+        return found
+    path = definition_beside(share, names)
+    document = None if path is None else read_document(path, None, Problems())
+    return path if document is not None and is_definition(document.data) else None

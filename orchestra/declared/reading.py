@@ -1,0 +1,74 @@
+"""The ways to declare the parameters of a node: a reader for each, behind one table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Final, Protocol
+
+from orchestra.declared.documents import Document, read_document
+from orchestra.declared.generated import is_definition, read_definition
+from orchestra.declared.json_schema import is_schema, read_schema
+from orchestra.errors import Code
+
+if TYPE_CHECKING:
+    from orchestra.declared.model import ParameterSchema
+    from orchestra.errors import Problems
+    from orchestra.location import Location
+    from orchestra.resolve.model import NamedSchema
+
+
+class Reader(Protocol):
+    """Reads one kind of file; what is wrong with it is reported."""
+
+    def __call__(self, document: Document, problems: Problems, /) -> ParameterSchema | None:
+        """Return what the file declares, None where nothing can be made of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """One way to declare parameters in a file: whether a file is of it, and what reads it."""
+
+    is_it: Callable[[Any], bool]
+    read: Reader
+
+
+# The first that knows a file reads it.
+WAYS: Final = (Way(is_schema, read_schema), Way(is_definition, read_definition))
+
+
+def read_named(named: NamedSchema, problems: Problems) -> ParameterSchema | None:
+    """Return the schema that a description names."""
+    if named.path is not None:
+        return read_file(named.path, named.location, problems)
+    # Here, because hardly any description names one.
+    from orchestra.declared.pydantic_model import read_model  # noqa: PLC0415
+
+    return read_model(named, problems)
+
+
+def read_file(path: str, named_at: Location | None, problems: Problems) -> ParameterSchema | None:
+    """Return the schema in a file, whatever way it is written; `named_at` is where a description names it."""
+    document = read_document(path, named_at, problems)
+    if document is None:
+        return None
+    way = next((way for way in WAYS if way.is_it(document.data)), None)
+    if way is not None:
+        return way.read(document, problems)
+    if _may_be_definition(document.data):
+        return read_definition(document, problems)  # which says what is wrong with it
+    told = "this is neither a JSON Schema of an object nor a definition of generate_parameter_library"
+    problems.error(Code.BROKEN_DECLARATION, told, document.at())
+    return None
+
+
+def _may_be_definition(data: Any) -> bool:  # noqa: ANN401 - whatever a file holds
+    """Return whether something in it has the type of a parameter."""
+    waiting = [data]
+    while waiting:
+        item = waiting.pop()
+        if isinstance(item, dict):
+            if isinstance(item.get("type"), str) and len(item) < 10 and item is not data:  # noqa: PLR2004 - the keys of a parameter
+                return "ros__parameters" not in item
+            waiting += item.values()
+    return False

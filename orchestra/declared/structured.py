@@ -1,0 +1,111 @@
+"""What JSON Schemas and models of pydantic have in common: a tree that their library validates, built along a schema.
+
+What the library lets pass and a node would not take is told as uncertain: a whole number written as a double where an
+integer is declared, or the other way round, and names that the schema neither declares nor refuses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from orchestra.declared.common import COMMON, is_common
+from orchestra.declared.judging import value_faults, wrong_type
+from orchestra.declared.misnamed import misnamed
+from orchestra.declared.model import Fault, Parameter
+from orchestra.declared.plain_schema import ROS_TYPE
+from orchestra.declared.shape import Level, Place, place, ros_types, tree
+from orchestra.declared.typing_of_values import is_taken
+from orchestra.values import ParameterValue
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+
+@dataclass(frozen=True, slots=True)
+class Structured:
+    """The values of a node as a tree; `names` are the parameters by their way in it."""
+
+    values: Mapping[str, ParameterValue]
+    places: Mapping[str, Place]
+    root: Level
+
+    @property
+    def tree(self) -> dict[str, Any]:
+        """The values as the library validates them."""
+        return tree(self.values, self.places)
+
+    def named(self, way: tuple[str | int, ...]) -> tuple[str, int | None]:
+        """Return the parameter, or group, at a way in the tree, and the index of an item of a list."""
+        index = next((step for step in way if isinstance(step, int)), None)
+        steps = tuple(str(step) for step in way[: way.index(index) if index is not None else None])
+        return ".".join(steps), index
+
+
+def structured(values: Mapping[str, ParameterValue], root: Level) -> Structured:
+    """Return the values that a schema is about: those that every node has only where it says something of them."""
+    places = {name: place(name, root) for name in values}
+    own = {name: value for name, value in values.items() if places[name].known or not is_common(name)}
+    return Structured(own, {name: places[name] for name in own}, root)
+
+
+def of_every_node(values: Mapping[str, ParameterValue], found: Structured) -> Iterator[Fault]:
+    """Yield what is wrong with values of parameters that every node has."""
+    for name, parameter in COMMON.items():
+        if name in values and name not in found.values:
+            yield from value_faults(parameter, name, values[name])
+
+
+def unlike(found: Structured, told: set[str]) -> Iterator[Fault]:
+    """Yield values whose type no node would take for what is declared, but for those that have been told of."""
+    for name, value in found.values.items():
+        said = found.places[name].said
+        if said is None or name in told:
+            continue
+        types, beside = ros_types(said)
+        exact = Parameter(name, types, () if set(types) & set(beside) else beside)
+        certain = any(ROS_TYPE in schema for schema, _ in said.schemas)
+        taken = is_taken(exact, value)
+        if taken is not True:
+            yield wrong_type(exact, name, value, certain=certain and taken is False)
+
+
+def known_names(at: Level, above: str = "", depth: int = 0) -> Iterator[str]:
+    """Yield the dotted names of all parameters that a schema names."""
+    if depth > 8:  # noqa: PLR2004 - a schema may hold itself
+        return
+    for name in at.names:
+        inner = at.below(name)
+        if inner is not None and inner.is_object and inner.names:
+            yield from known_names(inner, f"{above}{name}.", depth + 1)
+        else:
+            yield f"{above}{name}"
+
+
+def undeclared(name: str, found: Structured, *, certain: bool) -> Fault:
+    """Return that a name is declared nowhere, with the one that is meant."""
+    fault = misnamed(name, list(known_names(found.root)))
+    return Fault("undeclared", fault.name, fault.told, fault.meant, None, certain)
+
+
+def unsaid(found: Structured, told: set[str]) -> Iterator[Fault]:
+    """Yield names of which the schema says neither that they are declared nor that there may be others."""
+    if found.root.open:
+        return
+    for name in found.values:
+        if not found.places[name].known and not any(_is_within(name, other) for other in told):
+            yield undeclared(name, found, certain=False)
+
+
+def _is_within(name: str, group: str) -> bool:
+    return name == group or name.startswith(f"{group}.")
+
+
+def settled(faults: Iterable[Fault]) -> Iterator[Fault]:
+    """Yield faults without those that follow: what is said to be missing stands there under another name."""
+    every = list(faults)
+    meant = [fault.meant for fault in every if fault.kind == "undeclared" and fault.meant is not None]
+    for fault in every:
+        if fault.kind != "missing" or not any(_is_within(fault.name, name) for name in meant):
+            yield fault

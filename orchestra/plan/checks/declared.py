@@ -1,0 +1,130 @@
+"""Parameters against what their nodes declare: types, bounds, names, and what must be given."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from orchestra.declared.beside import schema_of_package
+from orchestra.declared.common import COMMON
+from orchestra.declared.judging import value_faults
+from orchestra.declared.model import ParameterSchema
+from orchestra.errors import Code, Problem, Problems, Severity
+from orchestra.location import is_python
+from orchestra.plan.written import Written, written_of
+from orchestra.resolve.model import NamedSchema, ResolvedComponent
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from orchestra.declared.model import Fault, FaultKind
+    from orchestra.location import Location
+    from orchestra.plan.model import Component, Plan, Process
+    from orchestra.resolve.model import Resolved, ResolvedProcess
+    from orchestra.values import ParameterValue
+
+_CODES: dict[FaultKind, Code] = {
+    "undeclared": Code.UNDECLARED_PARAMETER,
+    "type": Code.DECLARED_TYPE,
+    "value": Code.REFUSED_VALUE,
+    "missing": Code.REQUIRED_PARAMETER,
+}
+
+
+def check_declared(resolved: Resolved, plan: Plan, problems: Problems) -> None:
+    """Report parameters that their nodes would refuse, or drop without a word."""
+    schemas = _Schemas(problems)
+    for node, planned in nodes_of(resolved, plan):
+        schema, named = schemas.of(node)
+        faults = _of_every_node(planned.parameters) if schema is None else schema.faults(planned.parameters)
+        for fault in faults:
+            if fault.kind != "missing" or _is_whole(node):
+                written = written_of(fault.name, node, planned, resolved)
+                problems.report(_problem(fault, written, node, named=named))
+
+
+def nodes_of(
+    resolved: Resolved, plan: Plan
+) -> Iterator[tuple[ResolvedProcess | ResolvedComponent, Process | Component]]:
+    """Yield the nodes of a plan, each with what it was resolved to."""
+    for process, planned in zip(resolved.processes, plan.processes, strict=True):
+        if process.kind != "process":
+            yield process, planned
+    yield from zip(resolved.components, plan.components, strict=True)
+
+
+@dataclass(slots=True)
+class _Schemas:
+    """The schemas of a description; each is read once."""
+
+    problems: Problems
+    _read: dict[object, ParameterSchema | None] = field(default_factory=dict)
+
+    def of(self, node: ResolvedProcess | ResolvedComponent) -> tuple[ParameterSchema | None, bool]:
+        """Return the schema of a node, and whether its description names it."""
+        if node.params_schema is not None:
+            return self._named(node.params_schema), True
+        if node.share is None:
+            return None, False
+        called = node.plugin if isinstance(node, ResolvedComponent) else node.executable
+        if (node.share, called) not in self._read:
+            path = schema_of_package(node.share, called)
+            named = None if path is None else NamedSchema(path, node.location, path)
+            self._read[node.share, called] = None if named is None else self._named(named)
+        return self._read[node.share, called], False
+
+    def _named(self, named: NamedSchema) -> ParameterSchema | None:
+        # Here, because few nodes have a schema, and for what it imports.
+        from orchestra.declared.reading import read_named  # noqa: PLC0415
+
+        key = named.path or id(named.model)
+        if key not in self._read:
+            self._read[key] = read_named(named, self.problems)
+        return self._read[key]
+
+
+def _of_every_node(values: dict[str, ParameterValue]) -> Iterator[Fault]:
+    for name, parameter in COMMON.items():
+        if name in values:
+            yield from value_faults(parameter, name, values[name])
+
+
+def _is_whole(node: ResolvedProcess | ResolvedComponent) -> bool:
+    """Return whether all parameters that the node is given are known: else what is missing may be among the others."""
+    lacking = any(getattr(source, "path", None) == "" for source in node.parameters)
+    return not node.faulty and not lacking
+
+
+def _problem(
+    fault: Fault, written: Written, node: ResolvedProcess | ResolvedComponent, *, named: bool
+) -> Problem:
+    """Return what is to be told of a fault, at the place that is to be changed."""
+    at, suggestion, notes = _place(fault, written, node)
+    sure = fault.certain and (named or fault.kind != "undeclared") and not _is_lenient(fault, at, named=named)
+    return Problem(
+        _CODES[fault.kind],
+        Severity.ERROR if sure else Severity.WARNING,
+        " ".join(fault.told.split()),
+        at.span,
+        at.included_from,
+        suggestion,
+        notes,
+    )
+
+
+def _is_lenient(fault: Fault, at: Location, *, named: bool) -> bool:
+    """Return whether a description in Python that nobody has given a schema goes on in spite of a fault."""
+    return not named and fault.name in COMMON and is_python(at)
+
+
+def _place(
+    fault: Fault, written: Written, node: ResolvedProcess | ResolvedComponent
+) -> tuple[Location, str | None, tuple[str, ...]]:
+    if fault.kind == "missing" or written.value is None:
+        return node.location, None, ()
+    if fault.kind == "undeclared":
+        key = written.key(fault.name, fault.meant)
+        return key.location, key.meant, key.notes
+    if fault.item is not None and fault.item < len(written.items):
+        return written.items[fault.item], fault.meant, ()
+    return written.value, fault.meant if written.is_whole else None, ()
