@@ -42,9 +42,9 @@ def _folded(word: str) -> str:
 
 
 def _likeness(word: str, candidate: str) -> float:
-    if not word or not candidate:
-        return 0.0
+    if 2 * min(len(word), len(candidate)) <= _LEAST_LIKENESS * (len(word) + len(candidate)):
+        return 0.0  # what `real_quick_ratio` would say, without looking at the letters
     matcher = SequenceMatcher(None, word, candidate, autojunk=False)
-    if matcher.real_quick_ratio() <= _LEAST_LIKENESS or matcher.quick_ratio() <= _LEAST_LIKENESS:
+    if matcher.quick_ratio() <= _LEAST_LIKENESS:
         return 0.0
     return matcher.ratio()

@@ -31,6 +31,11 @@ class Source:
         line = bisect_right(self.lines, offset)
         return line, offset - self.lines[line - 1] + 1
 
+    def offset(self, line: int, column: int) -> int:
+        """Return the offset of a place; a place behind the text, where a parser may see its end, is the end."""
+        begin = self.lines[line - 1] if line <= len(self.lines) else len(self.text)
+        return min(begin + column - 1, len(self.text))
+
     def span(self, start: int, end: int) -> Span:
         """Return the span between two offsets."""
         return Span(self.file, *self.place(start), *self.place(end))

@@ -79,7 +79,7 @@ class _Made:
     def words(self, words: Words) -> None:
         """Take literal text, which is written as it reads but for the backslashes."""
         offsets: list[int] = []
-        at = self._offset(words.span.line, words.span.column)
+        at = self.whole.offset(words.span.line, words.span.column)
         for _ in words.text:
             offsets.append(at)
             at += 2 if self.whole.text[at] == "\\" and at + 1 < len(self.whole.text) else 1
@@ -87,13 +87,16 @@ class _Made:
 
     def value(self, text: str, span: Span) -> None:
         """Take what a substitution came to; all of it is from the whole substitution."""
-        begin, end = self._offset(span.line, span.column), self._offset(span.end_line, span.end_column)
+        begin, end = (
+            self.whole.offset(span.line, span.column),
+            self.whole.offset(span.end_line, span.end_column),
+        )
         self._take(text, range(begin, end))
 
     def back(self, span: Span, evaluated: Source) -> Span:
         """Return where a span of the evaluated text is from."""
-        first = self._origin(evaluated.lines[span.line - 1] + span.column - 1)
-        last = evaluated.lines[span.end_line - 1] + span.end_column - 2
+        first = self._origin(evaluated.offset(span.line, span.column))
+        last = evaluated.offset(span.end_line, span.end_column) - 1
         begin = first[0]
         end = max(begin, self._origin(last)[1]) if (span.line, span.column) != _end(span) else begin
         return self.whole.span(begin, end)
@@ -114,9 +117,6 @@ class _Made:
             return origin.start, origin.stop
         at = origin[offset - self.begins[index]]
         return at, at + 1
-
-    def _offset(self, line: int, column: int) -> int:
-        return self.whole.lines[line - 1] + column - 1
 
 
 def _end(span: Span) -> tuple[int, int]:

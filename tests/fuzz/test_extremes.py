@@ -74,7 +74,7 @@ _MISTAKES: dict[str, tuple[str, str | bytes]] = {
     "deep Python": ("a.launch.py", "x = " + "(" * 5_000 + ")" * 5_000),
     "deep Python operators": ("a.launch.py", "x = " + "-" * _DEEP + "1"),
     "a long key": ("a.yaml", f"launch:\n- {'k' * _HUGE}: {{}}\n"),
-    "a long word": ("a.yaml", f"launch:\n- node: {{exec: {'k' * _HUGE}, pkg: demo_of_nothing}}\n"),
+    "a long word": ("a.yaml", f"launch:\n- node: {{exec: e, nmae: {'k' * _HUGE}}}\n"),
     "a long integer": ("a.yaml", _NODE % ("9" * 200_000)),
     "a long hexadecimal": ("a.yaml", _NODE % ("0x" + "f" * _HUGE)),
     "a long sexagesimal": ("a.yaml", _NODE % ("1" + ":59" * 200_000)),
