@@ -7,7 +7,8 @@ evaluating (a constant) is checked when the file is read.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
+from types import MappingProxyType
 from typing import Annotated, Protocol, TypeAlias
 
 from pydantic import PlainValidator, ValidationError, ValidationInfo, WithJsonSchema
@@ -19,12 +20,22 @@ from orchestra.nearest import nearest
 
 TRUE_WORDS = frozenset({"true", "1", "yes", "on"})
 FALSE_WORDS = frozenset({"false", "0", "no", "off"})
+# What is suggested for what is no flag.
+FLAG_WORDS = ("true", "false", "yes", "no", "on", "off")
+
+# The kind of a fault that is one of a key, not of what stands behind it.
+STRAY_KEY = "stray_key"
 
 _SUBSTITUTION = {"type": "string", "pattern": r"\$\("}
 _TEXT = {"type": ["string", "number", "boolean"]}
 _TEXT_OR_LIST = {"anyOf": [_TEXT, {"type": "array", "items": _TEXT}]}
 
 Value: TypeAlias = Template | Constant
+
+
+def _any_case(word: str) -> str:
+    """Return a regular expression for a word in capitals or not: JSON Schema has no flag for that."""
+    return "".join(f"[{letter.upper()}{letter}]" if letter.isalpha() else letter for letter in word)
 
 
 class TextReader(Protocol):
@@ -67,11 +78,14 @@ def _scalar(value: object, wanted: str) -> Written:
 
 
 def constant_of(
-    wanted: str, accepts: Callable[[str], bool], words: tuple[str, ...] = ()
+    wanted: str,
+    accepts: Callable[[str], bool],
+    words: tuple[str, ...] = (),
+    elsewhere: Mapping[str, str] = MappingProxyType({}),
 ) -> Callable[[object, ValidationInfo], Template]:
     """Return a validator of texts that checks constants; `wanted` says to people what is accepted.
 
-    Of the `words` the nearest is suggested.
+    Of the `words` the nearest is suggested; `elsewhere` are those that mean one of them in other languages.
     """
 
     def validate(value: object, info: ValidationInfo) -> Template:
@@ -80,7 +94,8 @@ def constant_of(
         template = _text(value, info)
         constant = template.constant
         if constant is not None and not accepts(constant):
-            facts = {"wanted": wanted, "found": f"'{constant}'", "suggestion": nearest(constant, words)}
+            meant = elsewhere.get(constant.lower()) or nearest(constant, words)
+            facts = {"wanted": wanted, "found": f"'{constant}'", "suggestion": meant}
             raise PydanticCustomError("wrong_type", "expected {wanted}, found {found}", facts)
         return template
 
@@ -135,23 +150,26 @@ def _item(
     try:
         return read(value, info)
     except PydanticCustomError as error:
-        place = InitErrorDetails(type=error, loc=(index,), input=value)
-        raise ValidationError.from_exception_data("list", [place]) from None
+        raise placed_in((index,), error, value) from None
+
+
+def placed_in(place: tuple[int | str, ...], error: PydanticCustomError, value: object) -> ValidationError:
+    """Return a fault of a part of a value: of the item or the key at the end of a way into it."""
+    return ValidationError.from_exception_data("part", [InitErrorDetails(type=error, loc=place, input=value)])
 
 
 Text: TypeAlias = Annotated[Template, PlainValidator(_text), WithJsonSchema(_TEXT)]
 Literal: TypeAlias = Annotated[Template, PlainValidator(_literal), WithJsonSchema(_TEXT)]
 Flag: TypeAlias = Annotated[
     Template,
-    PlainValidator(constant_of("true or false", _is_flag)),
+    PlainValidator(constant_of("true or false", _is_flag, FLAG_WORDS)),
     WithJsonSchema(
         {
-            "anyOf": [
-                {"type": "boolean"},
-                {"enum": [0, 1]},
-                {"enum": sorted(TRUE_WORDS | FALSE_WORDS)},
-                _SUBSTITUTION,
-            ]
+            "type": ["boolean", "integer", "string"],
+            "minimum": 0,
+            "maximum": 1,
+            "pattern": rf"\$\(|^\s*({'|'.join(map(_any_case, sorted(TRUE_WORDS | FALSE_WORDS)))})\s*$",
+            "patternErrorMessage": "expected true or false",
         }
     ),
 ]
@@ -181,7 +199,9 @@ def worded(*words: str) -> WithJsonSchema:
     return WithJsonSchema({"anyOf": [{"enum": list(words)}, _SUBSTITUTION]})
 
 
-def word(*words: str) -> Callable[[object, ValidationInfo], Template]:
-    """Return a validator for one of a few words."""
+def word(
+    *words: str, elsewhere: Mapping[str, str] = MappingProxyType({})
+) -> Callable[[object, ValidationInfo], Template]:
+    """Return a validator for one of a few words; `elsewhere` are those that mean one of them in other languages."""
     wanted = f"one of {', '.join(words)}" if len(words) > 1 else f"'{words[0]}'"
-    return constant_of(wanted, lambda text: text in words, words)
+    return constant_of(wanted, lambda text: text in words, words, elsewhere)

@@ -7,57 +7,77 @@ from typing import Any
 from pydantic.json_schema import GenerateJsonSchema
 
 from orchestra.description.actions import ACTIONS, model_of
+from orchestra.description.alternatives import told_apart
+from orchestra.description.launch import Launch
+from orchestra.description.rules import with_hyphens, with_rules
 
 _DRAFT = "https://json-schema.org/draft/2020-12/schema"
+_ROOT_KEYS: dict[str, dict[str, Any]] = {
+    "deprecated": {"type": "string"},
+    "children": {"$ref": "#/$defs/Actions"},
+}
 
 
 def launch_schema() -> dict[str, Any]:
     """Return the schema of a YAML launch file."""
     definitions: dict[str, Any] = {}
-    actions = []
+    actions = {}
     for name in ACTIONS:
         schema = _schema_of(name)
         definitions.update(schema.pop("$defs", {}))
-        definitions[name] = schema
-        content: dict[str, Any] = {"$ref": f"#/$defs/{name}"}
-        if not schema.get("required"):
-            content = {"anyOf": [content, {"type": "null"}]}
-        if "children" in schema["properties"] and schema.get("required", ["children"]) == ["children"]:
-            content = {"anyOf": [content, {"$ref": "#/$defs/Actions"}]}
-        actions.append(_single(name, content, schema.get("description")))
-    definitions["Actions"] = {"type": "array", "items": {"anyOf": actions}}
-    root = {
-        "anyOf": [
-            {"$ref": "#/$defs/Actions"},
-            {
-                "type": "object",
-                "properties": {"deprecated": {"type": "string"}, "children": {"$ref": "#/$defs/Actions"}},
-                "required": ["children"],
-                "additionalProperties": False,
-            },
-        ]
-    }
+        definitions[name] = _shortened(schema)
+        actions[name] = {"$ref": f"#/$defs/{name}"}
+    for name, definition in definitions.items():
+        definitions[name] = with_rules(name, with_hyphens(definition, name))
+    definitions["Action"] = with_hyphens(_action(actions), "Action")
+    definitions["Actions"] = {"type": "array", "items": {"$ref": "#/$defs/Action"}}
     return {
         "$schema": _DRAFT,
         "title": "Launch file",
         "description": "A ROS 2 launch file in YAML, with Orchestra's extensions.",
         "type": "object",
-        "properties": {"launch": root},
+        "properties": {"launch": _root()},
         "required": ["launch"],
         "additionalProperties": False,
         "$defs": dict(sorted(definitions.items())),
     }
 
 
-def _single(name: str, content: dict[str, Any], description: str | None) -> dict[str, Any]:
-    """Return the schema of a list item: a mapping with the action's name as its one key."""
+def _root() -> dict[str, Any]:
+    """Return the schema of what stands behind `launch`."""
     return {
-        "type": "object",
-        "description": description or name,
-        "properties": {name: content},
-        "required": [name],
+        "description": "The actions of the file, in order.",
+        "type": ["array", "object"],
+        "items": {"$ref": "#/$defs/Action"},
+        "properties": {
+            name: {"description": entry.description, **_ROOT_KEYS[name]}
+            for name, entry in Launch.model_fields.items()
+        },
+        "required": ["children"],
         "additionalProperties": False,
     }
+
+
+def _action(actions: dict[str, Any]) -> dict[str, Any]:
+    """Return the schema of a list item: a mapping with the action's name as its one key."""
+    return {
+        "description": "An action: its name, and below it its keys.",
+        "type": "object",
+        "minProperties": 1,
+        "maxProperties": 1,
+        "properties": actions,
+        "additionalProperties": False,
+    }
+
+
+def _shortened(schema: dict[str, Any]) -> dict[str, Any]:
+    """Return the schema of an action that may be empty, or a bare list of actions, where it may be."""
+    required = schema.get("required", [])
+    if not required:
+        return {**schema, "type": ["object", "null"]}
+    if required == ["children"]:
+        return {**schema, "type": ["object", "array"], "items": {"$ref": "#/$defs/Action"}}
+    return schema
 
 
 class _WithoutTitles(GenerateJsonSchema):
@@ -76,15 +96,16 @@ def _schema_of(name: str) -> dict[str, Any]:
     for entry in (schema, *schema.get("$defs", {}).values()):
         entry.pop("title", None)
         for key, value in entry.get("properties", {}).items():
-            entry["properties"][key] = _without_null(value)
+            entry["properties"][key] = told_apart(_without_null(value))
     if "children" in schema["properties"]:
         schema["properties"]["children"].update({"$ref": "#/$defs/Actions"})
     return schema
 
 
 def _without_null(schema: dict[str, Any]) -> dict[str, Any]:
+    """Return the schema of a key without the null and the default that say that it may be left out."""
     alternatives = [item for item in schema.get("anyOf", ()) if item != {"type": "null"}]
-    if not alternatives:
-        return schema
     rest = {key: value for key, value in schema.items() if key not in {"anyOf", "default"}}
+    if not alternatives:
+        return rest
     return {**alternatives[0], **rest} if len(alternatives) == 1 else {"anyOf": alternatives, **rest}

@@ -11,8 +11,8 @@ from orchestra.description.fields import Flag, Text
 class AppendEnv(Action):
     """Add to an environment variable for every process that follows in this scope; set it where it is unset."""
 
-    name: Text
-    value: Text
+    name: Text = Field(description="Name of the variable.")
+    value: Text = Field(description="What is added.")
     prepend: Flag | None = Field(default=None, description="Whether it goes in front instead of behind.")
     separator: Text | None = Field(
         default=None, description="What stands between the old and the new; a colon where absent."

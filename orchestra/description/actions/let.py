@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pydantic import Field
+
 from orchestra.description.entity import Action
 from orchestra.description.fields import Text
 
@@ -9,5 +11,5 @@ from orchestra.description.fields import Text
 class Let(Action):
     """Set the variable that `$(var NAME)` reads."""
 
-    name: Text
-    value: Text
+    name: Text = Field(description="Name of the variable.")
+    value: Text = Field(description="Its value from here on.")

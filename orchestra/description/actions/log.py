@@ -16,7 +16,7 @@ LEVELS = ("debug", "info", "warning", "error")
 class Log(Action):
     """Print a message when the run starts, or when the timer around it goes off."""
 
-    message: Text
+    message: Text = Field(description="The text; may have substitutions.")
     level: Annotated[Template, PlainValidator(word(*LEVELS)), worded(*LEVELS)] | None = Field(
         default=None, description="How much it matters; `info` where absent."
     )

@@ -11,5 +11,5 @@ from orchestra.description.fields import Text
 class SetRemap(Action):
     """Add a remapping rule to every node that follows in this scope, before the node's own rules."""
 
-    from_: Text = Field(alias="from")
-    to: Text
+    from_: Text = Field(alias="from", description="The name that nodes use.")
+    to: Text = Field(description="The name that they shall use instead.")

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pydantic import Field
+
 from orchestra.description.entity import Action
 from orchestra.description.fields import Flag
 
@@ -9,4 +11,4 @@ from orchestra.description.fields import Flag
 class SetUseSimTime(Action):
     """Let `ros_timer` go by simulated time. Nodes are not concerned: they take `set_parameter`."""
 
-    value: Flag
+    value: Flag = Field(description="Whether it goes by simulated time.")

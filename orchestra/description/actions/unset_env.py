@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pydantic import Field
+
 from orchestra.description.entity import Action
 from orchestra.description.fields import Text
 
@@ -9,4 +11,4 @@ from orchestra.description.fields import Text
 class UnsetEnv(Action):
     """Remove an environment variable for every process that follows in this scope."""
 
-    name: Text
+    name: Text = Field(description="Name of the variable.")
