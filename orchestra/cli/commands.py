@@ -33,7 +33,8 @@ COMMANDS: Final[dict[str, Command]] = {
     "format": Command("orchestra.cli.format", "write launch files and parameter files in one form"),
     "convert": Command("orchestra.cli.convert", "write a launch file in another language"),
     "schema": Command(
-        "orchestra.cli.schema", "print the JSON Schema of launch files, plans, events or problems"
+        "orchestra.cli.schema",
+        "print the JSON Schema of launch or parameter files, plans, events or problems",
     ),
     "completion": Command(
         "orchestra.cli.completion", "print what makes a shell complete these command lines"

@@ -14,7 +14,9 @@ if TYPE_CHECKING:
 
 def parser() -> CommandParser:
     """Return what the command understands."""
-    made = CommandParser("schema", "Print the JSON Schema of launch files, plans, events or problems.")
+    made = CommandParser(
+        "schema", "Print the JSON Schema of launch files, parameter files, plans, events or problems."
+    )
     made.add_argument(
         "name", nargs="?", choices=sorted(SCHEMAS), default="launch", help="which one (default: launch)"
     )

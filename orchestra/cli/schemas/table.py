@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.cli.schemas.parameters import parameters_schema
 from orchestra.cli.schemas.records import record_schema
 from orchestra.errors import Problem
 from orchestra.events import Event
@@ -27,6 +28,7 @@ def _plan() -> dict[str, Any]:
 
 SCHEMAS: Final[dict[str, Callable[[], dict[str, Any]]]] = {
     "launch": _launch,
+    "params": parameters_schema,
     "plan": _plan,
     "event": lambda: record_schema(Event),
     "problem": lambda: record_schema(Problem),
