@@ -97,13 +97,18 @@ def collect(path: str, inputs: Inputs, problems: Problems, *, load: LoadFile = l
 
 @contextmanager
 def opened(
-    path: str, inputs: Inputs, problems: Problems, *, load: LoadFile = load
+    path: str,
+    inputs: Inputs,
+    problems: Problems,
+    *,
+    load: LoadFile = load,
+    packages: InstalledPackages | None = None,
 ) -> Iterator[Launch | None]:
     """Resolve and plan a launch file, whose code can be called as long as the context lasts.
 
     What is wrong is in `problems`. None where the file itself cannot be read as a launch file.
     """
-    packages = InstalledPackages(inputs.environment)
+    packages = packages or InstalledPackages(inputs.environment)
     with _loading(path, inputs, load, packages, problems) as isolation:
         with _collector_paused():
             run = begin(inputs, problems, load=load, packages=packages, run_command=run_command)

@@ -17,6 +17,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
 from orchestra.cli import colour, launch_prefix
+from orchestra.cli.problems.formats import FORMATS
 from orchestra.errors import DescriptionError, RunError, UsageError
 
 if TYPE_CHECKING:
@@ -50,7 +51,9 @@ class Telling:
         words = [word for word in getattr(options, "words", ()) if ":=" in word]
         files = [f"--params-file {file}" for file in getattr(options, "params_file", ())]
         given = " ".join([*words, *launch_prefix.words(options), *files])
-        return cls(command, getattr(options, "format", "text"), given, getattr(options, "debug", False))
+        asked = getattr(options, "format", "text")
+        told = asked if asked in FORMATS else "text"  # a plan has forms that problems have not
+        return cls(command, told, given, getattr(options, "debug", False))
 
 
 def guarded(work: Callable[[], _ResultT], telling: Telling) -> _ResultT | int:

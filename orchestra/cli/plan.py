@@ -1,34 +1,115 @@
-"""`orchestra plan`: show what a launch file would start, and start nothing."""
+"""`orchestra plan`: show what a launch file would start, compare it, explain it, and start nothing."""
 
 from __future__ import annotations
 
+import os
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
-from orchestra.cli import boundary, inputs
+from orchestra.cli import boundary, colour, inputs
 from orchestra.cli.parser import CommandParser
+from orchestra.errors import UsageError
 
 if TYPE_CHECKING:
     from argparse import Namespace
 
+    from orchestra.cli.planning.sources import Made
 
-FORMATS = ("json", "text")
+
+FORMATS: Final = ("text", "json", "yaml", "sh", "mermaid", "dot", "svg")
+_OF_ANSWERS: Final = ("text", "json")
+_DIFFERENT: Final = 1
+_EPILOG = f"""\
+{inputs.EPILOG}
+A plan that `--format json` or `--format yaml` has written may stand for the launch file.
+
+words after --diff, up to the next option:
+  FILE [NAME:=VALUE ...]  another launch file, the same one with other arguments, or a plan that has been saved
+  NAME:=VALUE ...         the same launch file with these arguments instead
+  REV | REV:PATH          the launch file as it was in a git revision, with all that it includes
+What is shown is what would happen to a run of that plan for it to become one of the first.
+
+subjects of --explain: NODE, NODE.PARAMETER, NODE:TOPIC, NODE$VARIABLE
+"""
 
 
 def parser() -> CommandParser:
     """Return what the command understands."""
-    made = CommandParser("plan", "Show what a launch file would start, and start nothing.", inputs.EPILOG)
+    made = CommandParser("plan", "Show what a launch file would start, and start nothing.", _EPILOG)
     made.add_argument("--format", choices=FORMATS, default="text", help="how to show it (default: text)")
+    made.add_argument(
+        "--node",
+        action="append",
+        default=[],
+        metavar="GLOB",
+        help="only these processes and components: names, patterns, namespaces as /robot1/; may be repeated",
+    )
+    made.add_argument(
+        "--portable", action="store_true", help="symbols for paths of this machine: for snapshots"
+    )
+    made.add_argument("--host", action="store_true", help="show what a run adds to the environment here")
+    asking = made.add_mutually_exclusive_group()
+    asking.add_argument("--diff", nargs="+", metavar="WORD", help="compare with another plan, see below")
+    asking.add_argument(
+        "--explain", action="append", metavar="SUBJECT", help="show where values come from, see below"
+    )
+    made.add_argument("--exit-code", action="store_true", help="with --diff: end with 1 where they differ")
     inputs.add_to(made)
     return made
 
 
 def run(options: Namespace) -> int:
     """Print the plan on standard output; its warnings, in text, and all errors go to standard error."""
-    from orchestra.plan.render import formats  # noqa: PLC0415 - heavy, and `--help` does not need it
+    _check(options)
+    from orchestra.cli.planning import sources  # noqa: PLC0415 - heavy, and `--help` does not need it
 
-    plan = inputs.plan_from(options, launching=False)
-    if options.format == "text":  # in JSON they are part of the plan
-        inputs.warn(plan, options)
-    sys.stdout.write(formats.FORMATS[options.format](plan))
+    made = sources.made(options)
+    if options.format not in ("json", "yaml"):  # in these they are part of the plan
+        inputs.warn(made.plan, options)
+    paint = colour.painter(enabled=colour.wanted(sys.stdout, os.environ))
+    if options.explain:
+        from orchestra.cli.planning.explanation import explained  # noqa: PLC0415 - only this needs it
+
+        _print(explained(options, made.plan, paint))
+        return boundary.OK
+    if options.diff:
+        from orchestra.cli.planning.comparison import compared  # noqa: PLC0415 - only this needs it
+
+        text, different = compared(options, made, paint)
+        _print(text)
+        return _DIFFERENT if different and options.exit_code else boundary.OK
+    _print(_shown(options, made, paint))
     return boundary.OK
+
+
+def _check(options: Namespace) -> None:
+    """Refuse options that have nothing to do with each other. Raises `UsageError`."""
+    if (options.explain or options.diff) and options.format not in _OF_ANSWERS:
+        asked = "--explain" if options.explain else "--diff"
+        raise UsageError(f"{asked} answers as text or json, not as {options.format}")
+    if options.exit_code and not options.diff:
+        raise UsageError("--exit-code goes with --diff")
+    if options.host and options.format not in ("text", "sh"):
+        raise UsageError(f"--host is for text; a plan as {options.format} is that of every machine")
+    if options.diff and not options.words:
+        raise UsageError("a launch file is missing: --diff takes all words behind it, so it stands last")
+
+
+def _shown(options: Namespace, made: Made, paint: colour.Paint) -> str:
+    from orchestra.cli.planning import host  # noqa: PLC0415 - heavy, and `--help` does not need it
+    from orchestra.cli.planning.choice import chosen  # noqa: PLC0415 - as above
+    from orchestra.plan.portable import portable  # noqa: PLC0415 - as above
+    from orchestra.plan.render.formats import FORMATS as RENDERERS  # noqa: PLC0415 - as above
+    from orchestra.plan.render.setting import Setting  # noqa: PLC0415 - as above
+
+    plan = chosen(made.plan, options.node)
+    if options.portable:
+        plan = portable(plan, host.symbols(plan))
+    added = host.additions(made.files) if options.host or options.format == "sh" else None
+    return RENDERERS[options.format](plan, Setting(paint, added))
+
+
+def _print(text: str) -> None:
+    """Print what may have bytes in it that are no Unicode, as words of a command line may."""
+    sys.stdout.flush()
+    sys.stdout.buffer.write(text.encode(errors="surrogateescape"))

@@ -1,34 +1,41 @@
-"""What was resolved, with paths below one folder made symbolic."""
+"""Texts rewritten wherever they stand in a value, as paths that are made symbolic."""
 
 from __future__ import annotations
 
 import dataclasses
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 _T = TypeVar("_T")
 
 
 def relocated(value: _T, folder: str, symbol: str) -> _T:
     """Return a value with a folder replaced by its symbol in every text; what has none stays the same."""
-    changed: _T = _relocated(value, folder, symbol)
+    return rewritten(value, lambda text: text.replace(folder, symbol) if folder in text else text)
+
+
+def rewritten(value: _T, change: Callable[[str], str]) -> _T:
+    """Return a value with every text in it changed; what has none that changes stays the same."""
+    changed: _T = _rewritten(value, change)
     return changed
 
 
-def _relocated(value: Any, folder: str, symbol: str) -> Any:  # noqa: ANN401 - any part of it
-    if isinstance(value, str):
-        return value.replace(folder, symbol) if folder in value else value
+def _rewritten(value: Any, change: Callable[[str], str]) -> Any:  # noqa: ANN401 - any part of it
+    if type(value) is str:  # words of an enumeration are none that anybody has written
+        return change(value)
     if isinstance(value, tuple | list):
-        items = [_relocated(item, folder, symbol) for item in value]
+        items = [_rewritten(item, change) for item in value]
         return value if all(map(_same, items, value)) else type(value)(items)
     if isinstance(value, dict):
-        changed = {
-            _relocated(key, folder, symbol): _relocated(item, folder, symbol) for key, item in value.items()
-        }
-        return value if all(map(_same, changed.values(), value.values())) else changed
+        changed = {_rewritten(key, change): _rewritten(item, change) for key, item in value.items()}
+        same = all(map(_same, changed, value)) and all(map(_same, changed.values(), value.values()))
+        return value if same else changed
     if dataclasses.is_dataclass(value) and type(value).__module__.startswith("orchestra."):
         record: Any = value
         fields = {entry.name: getattr(record, entry.name) for entry in dataclasses.fields(record)}
-        changed = {name: _relocated(item, folder, symbol) for name, item in fields.items()}
+        changed = {name: _rewritten(item, change) for name, item in fields.items()}
         same = all(map(_same, changed.values(), fields.values()))
         return value if same else dataclasses.replace(record, **changed)
     return value

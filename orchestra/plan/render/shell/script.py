@@ -33,7 +33,7 @@ echo "run directory: $run" >&2
 mkdir -p "$run/params" "$run/logs/ros" "$run/files" || exit
 """
 _FUNCTIONS = """\
-pids=() ended=() wanted=() signals=() failed=0 began=${EPOCHREALTIME/[.,]/}
+pids=() ended=() names=() wanted=() signals=() failed=0 began=${EPOCHREALTIME/[.,]/}
 
 # A pause that a signal ends.
 pause() {
@@ -58,7 +58,7 @@ look_after() {
   status=$?
   ended[$1]=$status
   ((status == 0)) || failed=1
-  echo "process $1 has ended with status $status" >&2
+  echo "${names[$1]} has ended with status $status" >&2
 }
 
 # wait_for N SECONDS PROBE: until the probe succeeds; 0 seconds are without end.
@@ -242,7 +242,8 @@ def _section(
     process: Process, numbers: dict[str, int], plan: Plan, additions: Additions, delay: float | None
 ) -> list[str]:
     number = numbers[process.id]
-    starting = [f"signals[{number}]={(process.stop or Stop()).signal.removeprefix('SIG')}"]
+    starting = [f"names[{number}]={word(process.id)}"]
+    starting += [f"signals[{number}]={(process.stop or Stop()).signal.removeprefix('SIG')}"]
     starting += [f"wanted[{number}]=1"] if process.required else []
     starting += one.start(process, number, additions)
     others = {other.id: other for other in plan.processes}

@@ -1,0 +1,1 @@
+"""What `orchestra plan` does besides showing a plan: choosing, comparing, explaining."""

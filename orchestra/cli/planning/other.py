@@ -1,0 +1,60 @@
+"""The plan that another one is compared with: what the words behind `--diff` mean."""
+
+from __future__ import annotations
+
+import copy
+import os
+from typing import TYPE_CHECKING
+
+from orchestra import pipeline
+from orchestra.cli.planning import revisions, sources
+from orchestra.errors import UsageError
+from orchestra.location import is_file
+
+if TYPE_CHECKING:
+    from argparse import Namespace
+    from collections.abc import Sequence
+
+    from orchestra.cli.planning.sources import Made
+
+
+def other(words: Sequence[str], options: Namespace, first: Made) -> Made:
+    """Make the plan that is meant: a file, a saved plan, a git revision, or other arguments of the same file.
+
+    Arguments are taken from the first plan where there are none behind `--diff`; but the same file is then meant
+    without any, since otherwise nothing could differ. Raises `UsageError` and `DescriptionError`.
+    """
+    names = [word for word in words if ":=" not in word]
+    arguments = [word for word in words if ":=" in word]
+    if len(names) == 1 and sources.is_saved(names[0]):
+        _refuse(arguments, names[0])
+        return sources.saved(names[0])
+    if not names:
+        return sources.from_file(_launch_file(first), _given(options, arguments))
+    own = arguments or [word for word in options.words if ":=" in word]
+    if len(names) == 1 and not is_file(names[0]):
+        found = revisions.find(names[0], first.file)
+        if found is not None:
+            return revisions.made(found, _given(options, own))
+    file, _ = pipeline.find_launch_file(names)
+    if not arguments and first.file is not None and os.path.realpath(file) == os.path.realpath(first.file):
+        own = []
+    return sources.from_file(file, _given(options, own))
+
+
+def _launch_file(first: Made) -> str:
+    if first.file is None:
+        raise UsageError("a saved plan has no other arguments: --diff needs a file")
+    return first.file
+
+
+def _refuse(arguments: Sequence[str], path: str) -> None:
+    if arguments:
+        raise UsageError(f"{path} is a saved plan, which takes no {arguments[0]}")
+
+
+def _given(options: Namespace, arguments: Sequence[str]) -> Namespace:
+    """Return the options with these arguments instead; the word before them stands for the launch file."""
+    changed = copy.copy(options)
+    changed.words = [options.words[0], *arguments]
+    return changed

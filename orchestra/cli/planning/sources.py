@@ -1,0 +1,97 @@
+"""Where a plan comes from: a launch file with arguments, or a plan that has been saved."""
+
+from __future__ import annotations
+
+import dataclasses
+import os
+import re
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from orchestra import pipeline
+from orchestra.cli import inputs, leaving
+from orchestra.errors import DescriptionError, Problems, UsageError
+from orchestra.location import displayed, is_file
+from orchestra.plan import codec
+from orchestra.plan.model import Plan
+from orchestra.plan.render import yaml_text
+
+if TYPE_CHECKING:
+    from argparse import Namespace
+
+    from orchestra.resolve.packages import InstalledPackages
+
+# A saved plan begins with its version, in JSON and in YAML.
+_SAVED = re.compile(r"\s*(?:\{\s*\"version\"|version)\s*:\s*\d+\s*,?\s*\"?file\"?\s*:")
+_BEGINNING = 200
+
+
+@dataclass(frozen=True, slots=True)
+class Made:
+    """A plan, what it is of, the launch file (None for a saved plan), and the files that code has written for it.
+
+    `files` are by their path in the plan, below `${run}`.
+    """
+
+    plan: Plan
+    label: str
+    file: str | None
+    files: dict[str, bytes] = dataclasses.field(default_factory=dict)
+
+
+def made(options: Namespace) -> Made:
+    """Make the plan that the options ask for. Raises as `inputs.plan_from` does."""
+    if len(options.words) == 1 and is_saved(options.words[0]):
+        return saved(options.words[0])
+    file, _ = inputs.file_and_inputs(options)
+    return from_file(file, options)
+
+
+def from_file(file: str, options: Namespace, packages: InstalledPackages | None = None) -> Made:
+    """Make the plan of a launch file with what else the options say.
+
+    Raises `UsageError`, and `DescriptionError` where there are problems.
+    """
+    _, given = inputs.file_and_inputs(options)
+    problems = Problems()
+    with (
+        leaving.contained(),
+        pipeline.opened(
+            file, dataclasses.replace(given, launching=False), problems, packages=packages
+        ) as launch,
+    ):
+        if launch is None or problems.errors:
+            raise DescriptionError(problems.ordered)
+        if options.strict and launch.plan.problems:
+            raise DescriptionError(inputs.as_errors(launch.plan.problems))
+        files = written(launch.files.folder) if launch.files.used else {}
+        words = [word for word in options.words if ":=" in word]
+        return Made(launch.plan, " ".join([displayed(file), *words]), file, files)
+
+
+def written(folder: str | None) -> dict[str, bytes]:
+    """Return the contents of the temporary files of launch files' code, by their path in a plan."""
+    if folder is None:
+        return {}
+    paths = sorted(path for path in Path(folder).rglob("*") if path.is_file())
+    return {f"{pipeline.FILES}/{path.relative_to(folder)}": path.read_bytes() for path in paths}
+
+
+def is_saved(path: str) -> bool:
+    """Return whether a file is a plan that has been saved."""
+    if not is_file(path):
+        return False
+    with open(path, encoding="utf-8", errors="replace") as file:  # noqa: PTH123 - may be any path
+        return _SAVED.match(file.read(_BEGINNING)) is not None
+
+
+def saved(path: str) -> Made:
+    """Read a plan that `--format json` or `--format yaml` has written. Raises `UsageError` where it is none."""
+    text = Path(path).read_bytes()
+    try:
+        plan = codec.loads(text) if text.lstrip().startswith(b"{") else yaml_text.loads(text)
+    except ValueError as error:
+        first = str(error).partition("\n")[0]
+        raise UsageError(f"{path} cannot be read as a plan: {first}") from error
+    return Made(plan, os.fspath(path), None)

@@ -1,0 +1,1 @@
+"""What lies between two plans: which processes start, stop or restart, what else changes, and why."""
