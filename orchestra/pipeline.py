@@ -106,7 +106,7 @@ def opened(
 ) -> Iterator[Launch | None]:
     """Resolve and plan a launch file, whose code can be called as long as the context lasts.
 
-    What is wrong is in `problems`. None where the file itself cannot be read as a launch file.
+    What is wrong is in `problems`. `load` reads the files. None where the file itself cannot be read as a launch file.
     """
     packages = packages or InstalledPackages(inputs.environment)
     with _loading(path, inputs, load, packages, problems) as isolation:
@@ -141,6 +141,12 @@ class Launch:
         self.plan = plan
         self.files = files
         self._run = run
+
+    @property
+    def left_out(self) -> set[str]:
+        """The files that includes name which conditions left out, as far as that can be told."""
+        hidden = self._run.scope.ledger.hidden
+        return {file for part in hidden for file in part.files if file is not None}
 
     @property
     def deferred(self) -> bool:

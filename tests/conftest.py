@@ -26,6 +26,7 @@ def pytest_configure() -> None:
     os.environ[_SESSION] = uuid.uuid4().hex
     # The control sockets of this session's runs, among which no other's are, nor those of the user.
     os.environ["XDG_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="orchestra-tests-")
+    os.environ["ORCHESTRA_CACHE"] = f"{os.environ['XDG_RUNTIME_DIR']}/cache"
 
 
 def pytest_unconfigure() -> None:

@@ -22,7 +22,7 @@ _LONGEST_FUNCTION = 50
 # Each row may import from its own rooms and from the rows above it: the order of docs/design.md.
 _ROWS = (
     ("errors", "location", "events", "nearest", "values", "wheels"),
-    ("settings",),
+    ("settings", "witness"),
     ("description",),
     ("compat",),
     ("load",),

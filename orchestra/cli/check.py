@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import os
 import sys
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
-from orchestra.cli import boundary
+from orchestra.cli import boundary, severities
 from orchestra.cli.inputs import as_errors
 from orchestra.cli.leaving import contained
 from orchestra.cli.parser import CommandParser
@@ -15,6 +16,8 @@ from orchestra.errors import Severity, UsageError
 
 if TYPE_CHECKING:
     from argparse import Namespace
+
+    from orchestra.cli.checking import Checked
 
 _EPILOG = """\
 A file is checked whatever it is called. In a folder, and the folders below it, these are checked: files whose name
@@ -36,7 +39,42 @@ def parser() -> CommandParser:
     )
     made.add_argument("--format", choices=FORMATS, default="text", help="of the problems (default: text)")
     made.add_argument("--strict", action="store_true", help="take warnings for errors")
+    severities.add_to(made)
+    made.add_argument(
+        "--no-cache", action="store_true", help="look at every file, also at those that have not changed"
+    )
+    made.add_argument(
+        "--jobs", type=_number, metavar="N", help="processes that look at files (default: one a core)"
+    )
+    made.add_argument(
+        "--time-limit",
+        type=_seconds,
+        default=120.0,
+        metavar="SECONDS",
+        help="how long code of one file may take (default: 120)",
+    )
     return made
+
+
+def _number(word: str) -> int:
+    number = int(word)
+    if number < 1:
+        raise ValueError
+    return number
+
+
+def _seconds(word: str) -> float:
+    seconds = float(word)
+    if not 0 < seconds < float("inf"):
+        raise ValueError
+    return seconds
+
+
+def _summary(checked: Checked) -> str:
+    """Return what was looked at, and how much of it has changed."""
+    files = f"{checked.files} file{'s' * (checked.files != 1)}"
+    unchanged = f", {checked.unchanged} unchanged" if checked.unchanged else ""
+    return f"{'looked at' if checked.problems else 'no problems in'} {files}{unchanged}\n"
 
 
 def run(options: Namespace) -> int:
@@ -46,19 +84,21 @@ def run(options: Namespace) -> int:
         raise UsageError("a file or folder is missing")
     words = [word for word in options.words if ":=" in word]
     # All of them are heavy, and `--help` does not need them.
-    from orchestra.cli.checking import problems_in  # noqa: PLC0415
+    from orchestra.cli.checking import Manner, check  # noqa: PLC0415
     from orchestra.cli.places import places  # noqa: PLC0415
     from orchestra.cli.targets import targets  # noqa: PLC0415
-    from orchestra.pipeline import inputs_from  # noqa: PLC0415
+    from orchestra.resolve.command_line import inputs_from  # noqa: PLC0415
     from orchestra.resolve.packages import InstalledPackages  # noqa: PLC0415
 
     found = targets(places(paths, InstalledPackages(os.environ)))
+    inputs = replace(inputs_from(words, environment=os.environ), severity=severities.given(options))
+    jobs = options.jobs or len(os.sched_getaffinity(0))
+    manner = Manner(jobs, options.time_limit, not options.no_cache, options.strict)
     with contained():
-        problems = problems_in(found, inputs_from(words, environment=os.environ))
-    if options.strict:
-        problems = as_errors(problems)
+        checked = check(found, inputs, manner)
+    problems = as_errors(checked.problems) if options.strict else checked.problems
     boundary.show_problems(problems, options.format, sys.stdout, command_line=" ".join(words))
-    if not problems and options.format == "text":
-        sys.stdout.write(f"no problems in {len(found)} file{'s' * (len(found) != 1)}\n")
+    if options.format == "text":
+        sys.stdout.write(_summary(checked))
     faulty = any(problem.severity is Severity.ERROR for problem in problems)
     return boundary.MISTAKE if faulty else boundary.OK

@@ -3,90 +3,149 @@
 from __future__ import annotations
 
 import os
-from dataclasses import replace
-from pathlib import Path
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from orchestra import pipeline
+from orchestra.cli.look.finding import Finding
+from orchestra.cli.look.kept import Kept
+from orchestra.cli.look.pool import Done, Lost, Pool
+from orchestra.cli.targets import Target
 from orchestra.errors import Code, Problem, Problems
-from orchestra.load.files import load
-from orchestra.location import Location, Span, displayed, point
-from orchestra.resolve.mentions import files_named
-from orchestra.resolve.packages import InstalledPackages
-from orchestra.resolve.rcl.files import read_parameter_file
+from orchestra.location import displayed, point
+from orchestra.settings.settle import comments_in, unused
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
-    from orchestra.cli.targets import Target
-    from orchestra.description.launch import Description
     from orchestra.resolve.inputs import Inputs
+    from orchestra.witness.record import Record
 
 _LACKS = (Code.MISSING_ARGUMENT, Code.UNDEFINED_VARIABLE)
 
 
+@dataclass(frozen=True, slots=True)
+class Manner:
+    """How files are looked at: by how many processes, how long one file may take in seconds, whether by what is kept.
+
+    Without `jobs` this process looks by itself, at every file, for as long as it takes. With `strict` comments that
+    silence nothing are told.
+    """
+
+    jobs: int = 0
+    patience: float = 120.0
+    cache: bool = False
+    strict: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """The problems of a set of files; of so many `files` it was known that nothing has changed."""
+
+    problems: tuple[Problem, ...]
+    files: int
+    unchanged: int
+
+
 def problems_in(targets: Sequence[Target], inputs: Inputs) -> tuple[Problem, ...]:
+    """Return the problems of all targets, looked at by this process."""
+    return check(targets, inputs, Manner()).problems
+
+
+def check(targets: Sequence[Target], inputs: Inputs, manner: Manner) -> Checked:
     """Return the problems of all targets.
 
     A launch file that another of them includes is judged by how that one uses it: alone it would lack the arguments
-    and variables that it is given there. Where a condition keeps it from being included, what it lacks is not told.
+    and variables that it is given there. Where a condition keeps it from being included, it is looked at all the same,
+    but what it lacks is not told.
     """
-    given = replace(inputs, launching=False)
-    launch_files = [_LaunchFile(target.path, given) for target in targets if target.kind == "launch"]
+    kept = Kept(inputs, wanted=manner.cache)
+    findings, unchanged = _findings(targets, inputs, manner, kept)
+    behind = _behind(findings)
+    more, _ = _findings(behind, inputs, manner, kept)
+    kept.tidy()
     found = Problems()
-    named = {path for file in launch_files for path in file.named}
-    for file in _outermost(launch_files):
-        lacks = _LACKS if file.path in named else ()
-        found.extend(problem for problem in file.problems if problem.code not in lacks)
-    for target in targets:
-        if target.kind == "parameters":
-            _read_parameters(target.path, found)
-    return found.ordered
+    every = [*findings, *more]
+    named = {path for finding in every for path in finding.named}
+    for finding in _outermost(every):
+        lacks = _LACKS if finding.path in named else ()
+        found.extend(problem for problem in finding.problems if problem.code not in lacks)
+    _judge_comments(targets, every, found, strict=manner.strict)
+    return Checked(found.ordered, len(targets), unchanged)
 
 
-class _LaunchFile:
-    """A launch file that has been taken through all stages that start nothing."""
-
-    def __init__(self, path: str, inputs: Inputs) -> None:
-        self.path = os.path.realpath(path)
-        self.problems = Problems()
-        self.included: set[str] = set()
-        self.named: set[str] = set()
-        self._environment = inputs.environment
-        self._packages = InstalledPackages(inputs.environment)
-        pipeline.collect(str(Path(path).absolute()), inputs, self.problems, load=self._load)
-
-    def _load(
-        self, path: str, problems: Problems, chain: tuple[Span, ...] = (), ending: str | None = None
-    ) -> Description | None:
-        if chain:
-            self.included.add(os.path.realpath(path))
-        description = load(path, problems, chain, ending)
-        if description is not None:
-            files = files_named(description, self._environment, self._packages)
-            self.named.update(map(os.path.realpath, files))
-        return description
+def _findings(
+    targets: Sequence[Target], inputs: Inputs, manner: Manner, kept: Kept
+) -> tuple[list[Finding], int]:
+    """Return what is found in each file, and how much of that was known."""
+    findings = {number: known for number, target in enumerate(targets) if (known := kept.finding(target))}
+    unchanged = len(findings)
+    missing = [number for number in range(len(targets)) if number not in findings]
+    if missing:
+        looks = _looks([targets[number] for number in missing], inputs, manner)
+        for number, (finding, record) in zip(missing, looks, strict=True):
+            findings[number] = finding
+            if record is not None:
+                kept.keep(targets[number], finding, record)
+    return [findings[number] for number in range(len(targets))], unchanged
 
 
-def _outermost(files: Sequence[_LaunchFile]) -> list[_LaunchFile]:
-    """Return the files that no other includes, and of files that include each other in a circle the first."""
-    inner = {path for file in files for path in file.included - {file.path}}
-    chosen = [file for file in files if file.path not in inner]
-    reached = {path for file in chosen for path in (file.path, *file.included)}
-    for file in files:
-        if file.path not in reached:
-            chosen.append(file)
-            reached |= {file.path, *file.included}
+def _looks(targets: Sequence[Target], inputs: Inputs, manner: Manner) -> list[tuple[Finding, Record | None]]:
+    # Here, because it is heavy, and not needed where everything is known.
+    from orchestra.cli.look.looker import Looker  # noqa: PLC0415
+
+    if not manner.jobs:
+        looker = Looker(inputs)
+        return [(looker.look(target)[0], None) for target in targets]
+
+    def begin() -> Callable[[Target], Done[tuple[Finding, Record | None]]]:
+        looker = Looker(inputs)
+        looker.watch()
+
+        def look(target: Target) -> Done[tuple[Finding, Record | None]]:
+            finding, record = looker.look(target)
+            return Done((finding, None if record.unknown else record), last=looker.is_spent)
+
+        return look
+
+    pool: Pool[Target, tuple[Finding, Record | None]]
+    pool = Pool(begin, max(1, min(manner.jobs, len(targets))), manner.patience)
+    found: dict[int, tuple[Finding, Record | None]] = {}
+    for number, result in pool.results(targets):
+        found[number] = (_lost(targets[number], result), None) if isinstance(result, Lost) else result
+    return [found[number] for number in range(len(targets))]
+
+
+def _lost(target: Target, result: Lost) -> Finding:
+    """Return what is to be said of a file whose code has ended the process it was run in, or has not ended itself."""
+    problems, file = Problems(), displayed(target.path)
+    problems.error(Code.USER_CODE, f"code of {file} {result.reason}", point(file))
+    return Finding(os.path.realpath(target.path), problems.ordered)
+
+
+def _behind(findings: Sequence[Finding]) -> list[Target]:
+    """Return the files that only stand behind conditions, and are nobody's target."""
+    known = {path for finding in findings for path in (finding.path, *finding.included)}
+    named = {path for finding in findings for path in finding.named}
+    return [Target(path, "launch") for path in sorted(named - known)]
+
+
+def _outermost(findings: Sequence[Finding]) -> list[Finding]:
+    """Return those of files that no other includes, and of files that include each other in a circle the first."""
+    inner = {path for finding in findings for path in finding.included - {finding.path}}
+    chosen = [finding for finding in findings if finding.path not in inner]
+    reached = {path for finding in chosen for path in (finding.path, *finding.included)}
+    for finding in findings:
+        if finding.path not in reached:
+            chosen.append(finding)
+            reached |= {finding.path, *finding.included}
     return chosen
 
 
-def _read_parameters(path: str, problems: Problems) -> None:
-    file = displayed(path)
-    try:
-        text = Path(path).read_bytes().decode("utf-8-sig")
-    except (OSError, UnicodeDecodeError) as error:
-        problems.error(
-            Code.UNREADABLE_FILE, f"cannot read the parameter file {file}: {error}", Location(point(file))
-        )
-        return
-    read_parameter_file(text, file, problems, ())
+def _judge_comments(
+    targets: Sequence[Target], findings: Sequence[Finding], problems: Problems, *, strict: bool
+) -> None:
+    used = {place for finding in findings for place in finding.silencing}
+    for target, finding in zip(targets, findings, strict=False):
+        if finding.comments:
+            path = os.path.abspath(target.path)  # noqa: PTH100 - pathlib is slow
+            unused(comments_in(path, displayed(target.path)), used, problems, strict=strict)

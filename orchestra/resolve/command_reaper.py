@@ -49,7 +49,7 @@ def _become(argv: list[str], environment: dict[str, str], report: int) -> None:
     """Turn into the command: a session of its own, no input, signals as they are by default."""
     try:
         os.setsid()
-        _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+        end_with_parent()
         os.dup2(os.open(os.devnull, os.O_RDONLY), _CONTROL)
         for number in range(1, signal.NSIG):
             if signal.getsignal(number) == signal.SIG_IGN:
@@ -118,6 +118,11 @@ def set_subreaper(value: int) -> int:
     _prctl(_PR_GET_CHILD_SUBREAPER, ctypes.byref(before))
     _prctl(_PR_SET_CHILD_SUBREAPER, value)
     return before.value
+
+
+def end_with_parent() -> None:
+    """Let this process be killed when the one that has forked it ends, however that happens."""
+    _prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
 
 
 def _prctl(option: int, value: object) -> None:

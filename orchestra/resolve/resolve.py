@@ -14,6 +14,7 @@ from orchestra.resolve.python.performing import perform_opaque
 from orchestra.resolve.resolution import Found, Frame, LoadFile, Resolution
 from orchestra.resolve.scope import Ledger, Scope
 from orchestra.resolve.settling import settled
+from orchestra.witness.variables import copied
 
 if TYPE_CHECKING:
     from orchestra.description.launch import Description
@@ -76,7 +77,7 @@ def begin(
     run_command: CommandRunner,
 ) -> Resolution:
     """Return the state with which a resolution begins: nothing set, nothing found, in no file."""
-    scope = Scope(problems, Ledger(), dict(inputs.environment))
+    scope = Scope(problems, Ledger(), copied(inputs.environment))
     found = Found()
     context = Context(
         problems,

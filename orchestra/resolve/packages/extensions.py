@@ -10,11 +10,17 @@ import sys
 from functools import lru_cache
 from pathlib import Path
 
+from orchestra.witness.observing import observer
+
 _METADATA = (".dist-info", ".egg-info")
 
 
 def extends(group: str) -> bool:
     """Return whether a distribution on the path has an entry point in a group."""
+    return observer().answered(("extends", group), lambda: _is_extended(group))
+
+
+def _is_extended(group: str) -> bool:
     return any(group in _groups(folder, _changed(folder)) for folder in dict.fromkeys(sys.path))
 
 

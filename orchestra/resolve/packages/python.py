@@ -2,11 +2,29 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from importlib.util import find_spec
 from pathlib import Path
+from typing import TYPE_CHECKING
 
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+# Where prefixes keep the Python packages that come with launch files.
+_LIBRARIES = ("lib/python3*/site-packages", "local/lib/python3*/dist-packages", "lib/python3*/dist-packages")
 _NOT_NODES = frozenset({"__init__", "__main__"})
+
+
+def libraries(environment: Mapping[str, str]) -> list[str]:
+    """Return the folders with Python packages in the ament prefixes, for those that are not on the path already."""
+    prefixes = [
+        Path(prefix) for prefix in environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if prefix
+    ]
+    found = [
+        str(path) for prefix in prefixes for pattern in _LIBRARIES for path in sorted(prefix.glob(pattern))
+    ]
+    return [path for path in found if path not in sys.path]
 
 
 def folder(package: str) -> Path | None:

@@ -11,17 +11,15 @@ from typing import TYPE_CHECKING
 
 from orchestra.compat.argv import Arguments
 from orchestra.compat.hook import served
+from orchestra.resolve.packages.python import libraries
 from orchestra.resolve.python.environ import put_environment
 from orchestra.resolve.python.files import Files
+from orchestra.witness.observing import observer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     from orchestra.resolve.python.remaining import Remaining
-
-# Where prefixes keep the Python packages that come with launch files.
-_LIBRARIES = ("lib/python3*/site-packages", "local/lib/python3*/dist-packages", "lib/python3*/dist-packages")
-
 
 class Isolation:
     """The state of a process in which launch files are loaded; `files` are the temporary ones of their code.
@@ -46,10 +44,11 @@ class Isolation:
         from orchestra.resolve.python.temporary import temporary_files  # noqa: PLC0415
 
         enter = self._restoring.enter_context
-        enter(libraries_kept())
-        enter(kept_as_it_is())
-        enter(temporary_files(self.files))
-        self.remaining = enter(nothing_left(launching=self._launching))
+        with observer().aside():
+            enter(libraries_kept())
+            enter(kept_as_it_is())
+            enter(temporary_files(self.files))
+            self.remaining = enter(nothing_left(launching=self._launching))
 
 
 @contextmanager
@@ -63,7 +62,8 @@ def isolated(
     """
     with ExitStack() as restoring:
         restoring.callback(_put_zone, time.tzname)
-        restoring.callback(put_environment, dict(os.environ))
+        with observer().aside():
+            restoring.callback(put_environment, dict(os.environ))
         restoring.callback(os.chdir, Path.cwd())
         restoring.callback(_put_list, sys.path, list(sys.path))
         restoring.callback(setattr, sys, "argv", sys.argv)
@@ -73,7 +73,7 @@ def isolated(
         restoring.callback(_forget_loggers)
         put_environment(environment)
         sys.argv = Arguments(argv)
-        sys.path += _libraries(environment)
+        sys.path += libraries(environment)
         yield Isolation(restoring, launching=launching)
 
 
@@ -100,17 +100,6 @@ def _forget_loggers() -> None:
     module = sys.modules.get("orchestra.compat.launch.logging")
     if module is not None:
         module.reset()
-
-
-def _libraries(environment: Mapping[str, str]) -> list[str]:
-    """Return the folders with Python packages in the prefixes, for those that are not on the path already."""
-    prefixes = [
-        Path(prefix) for prefix in environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep) if prefix
-    ]
-    found = [
-        str(path) for prefix in prefixes for pattern in _LIBRARIES for path in sorted(prefix.glob(pattern))
-    ]
-    return [path for path in found if path not in sys.path]
 
 
 def _put_list(target: list[str], content: list[str]) -> None:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.place import here, is_own, span_in
 from orchestra.resolve.command_reaper import children, kill, set_subreaper
+from orchestra.witness.observing import observer
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -99,8 +100,9 @@ def nothing_left(*, launching: bool) -> Iterator[Remaining]:
                 function()
             except Exception:  # noqa: BLE001 - as the interpreter does at its end
                 sys.excepthook(*sys.exc_info())
-        found.end()
-        set_subreaper(before)
+        with observer().aside():
+            found.end()
+            set_subreaper(before)
 
 
 @contextmanager

@@ -8,6 +8,8 @@ from contextlib import contextmanager
 from itertools import count
 from typing import TYPE_CHECKING
 
+from orchestra.witness.observing import observer
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -29,7 +31,8 @@ def temporary_files(files: Files) -> Iterator[None]:
     finally:
         tempfile.tempdir, tempfile._name_sequence = before  # type: ignore[attr-defined]
         if not files.kept:
-            shutil.rmtree(folder, ignore_errors=True)
+            with observer().aside():
+                shutil.rmtree(folder, ignore_errors=True)
 
 
 class _Names:

@@ -1,0 +1,121 @@
+"""A look at one file: all stages that start nothing, recorded with everything that they go by."""
+
+from __future__ import annotations
+
+import os
+from dataclasses import replace
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from orchestra import pipeline
+from orchestra.cli.look.finding import Finding
+from orchestra.cli.look.questions import RecordedPackages
+from orchestra.cli.look.sharing import SharedLoader
+from orchestra.errors import Code, Problems
+from orchestra.location import Location, displayed, point
+from orchestra.resolve.mentions import files_named
+from orchestra.resolve.rcl.files import read_parameter_file
+from orchestra.settings.comments import MARK
+from orchestra.settings.settle import settle
+from orchestra.witness.observing import observer
+from orchestra.witness.variables import ObservedEnvironment
+
+if TYPE_CHECKING:
+    from orchestra.cli.targets import Target
+    from orchestra.description.launch import Description
+    from orchestra.location import Span
+    from orchestra.resolve.inputs import Inputs
+    from orchestra.witness.record import Record
+
+
+class Looker:
+    """Looks at one file after the other, in a process that does nothing else; what files share is read once."""
+
+    def __init__(self, inputs: Inputs) -> None:
+        self._environment = dict(inputs.environment)
+        self._inputs = replace(
+            inputs, launching=False, environment=ObservedEnvironment(self._environment, observer())
+        )
+        self._packages = RecordedPackages(self._environment)
+        self._loader = SharedLoader()
+
+    def watch(self) -> None:
+        """Begin to watch what this process looks at, without which what a finding depends on is not known."""
+        observer().install()
+
+    @property
+    def is_spent(self) -> bool:
+        """Whether code has loaded into this process what nobody can watch, so that the next file needs another one."""
+        return bool(observer().foreign)
+
+    def look(self, target: Target) -> tuple[Finding, Record]:
+        """Return what is found in a file, and what that depends on."""
+        watching = observer()
+        watching.begin(self._environment)
+        found = self._launch_file(target.path) if target.kind == "launch" else self._parameters(target.path)
+        return found, watching.end()
+
+    def _launch_file(self, path: str) -> Finding:
+        problems = Problems()
+        visit = _Visit(self._loader, self._environment, self._packages)
+        absolute = str(Path(path).absolute())
+        with pipeline.opened(
+            absolute, self._inputs, problems, load=visit.load, packages=self._packages
+        ) as launch:
+            left_out = set() if launch is None else launch.left_out
+        named = visit.named | {os.path.realpath(file) for file in left_out}
+        return Finding(
+            os.path.realpath(path),
+            problems.ordered,
+            frozenset(visit.included),
+            frozenset(named),
+            frozenset(problems.silencing),
+            _has_comments(path),
+        )
+
+    def _parameters(self, path: str) -> Finding:
+        problems = Problems()
+        file = displayed(path)
+        try:
+            text = Path(path).read_bytes().decode("utf-8-sig")
+        except (OSError, UnicodeDecodeError) as error:
+            message = f"cannot read the parameter file {file}: {error}"
+            problems.error(Code.UNREADABLE_FILE, message, Location(point(file)))
+        else:
+            read_parameter_file(text, file, problems, ())
+        settle(problems, str(Path(path).absolute()), self._inputs.severity)
+        silencing = frozenset(problems.silencing)
+        return Finding(
+            os.path.realpath(path), problems.ordered, silencing=silencing, comments=_has_comments(path)
+        )
+
+
+class _Visit:
+    """What one launch file includes and names."""
+
+    def __init__(self, loader: SharedLoader, environment: dict[str, str], packages: RecordedPackages) -> None:
+        self.included: set[str] = set()
+        self.named: set[str] = set()
+        self._loader = loader
+        self._environment = environment
+        self._packages = packages
+
+    def load(
+        self, path: str, problems: Problems, chain: tuple[Span, ...] = (), ending: str | None = None
+    ) -> Description | None:
+        """Read a launch file, as `orchestra.load.files.load` does."""
+        if chain:
+            self.included.add(os.path.realpath(path))
+        description = self._loader.load(path, problems, chain, ending)
+        if description is not None:
+            environment = ObservedEnvironment(self._environment, observer())
+            files = files_named(description, environment, self._packages)
+            self.named.update(map(os.path.realpath, files))
+        return description
+
+
+def _has_comments(path: str) -> bool:
+    try:
+        return MARK.encode() in Path(path).read_bytes()
+    except OSError:
+        return False

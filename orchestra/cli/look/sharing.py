@@ -1,0 +1,66 @@
+"""What the files of one tree share: the files they include, and the packages they ask for, are looked up once."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+from orchestra.compat.seam import connection, is_connected
+from orchestra.errors import Problems
+from orchestra.load.files import PYTHON, load
+from orchestra.witness.looking import signature
+from orchestra.witness.observing import observer
+
+if TYPE_CHECKING:
+    from orchestra.description.launch import Description
+    from orchestra.errors import Problem
+    from orchestra.location import Span
+    from orchestra.witness.record import Record, Signature
+
+
+class _Loaded(NamedTuple):
+    description: Description
+    problems: tuple[Problem, ...]
+    record: Record
+    signature: Signature
+
+
+class SharedLoader:
+    """Loads launch files; what is written in XML or YAML once, however many files include it."""
+
+    def __init__(self) -> None:
+        self._known: dict[tuple[str, str | None], _Loaded] = {}
+
+    def load(
+        self, path: str, problems: Problems, chain: tuple[Span, ...] = (), ending: str | None = None
+    ) -> Description | None:
+        """Read a launch file, as `orchestra.load.files.load` does."""
+        # Code of Python files may have added to the language of the others.
+        if (ending or path).endswith(PYTHON) or _is_extended():
+            return load(path, problems, chain, ending)
+        known = self._known.get((path, ending))
+        if known is None or signature(path) != known.signature:
+            known = self._read(path, ending)
+        if known is None:
+            return load(path, problems, chain, ending)
+        observer().depend(known.record)
+        problems.extend(
+            replace(problem, included_from=(*problem.included_from, *chain)) for problem in known.problems
+        )
+        return known.description
+
+    def _read(self, path: str, ending: str | None) -> _Loaded | None:
+        """Read a file for all who include it; None where it cannot be read, and each has to tell where it names it."""
+        found, before = Problems(), signature(path)
+        with observer().part() as record:
+            description = load(path, found, (), ending)
+        if description is None or before is None or _is_extended():
+            return None
+        loaded = _Loaded(description, tuple(found), record, before)
+        self._known[path, ending] = loaded
+        return loaded
+
+
+def _is_extended() -> bool:
+    """Tell whether somebody has added to the language, or might have: an unknown word has been asked for."""
+    return is_connected() and "front_end" in vars(connection())

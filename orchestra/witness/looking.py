@@ -1,0 +1,120 @@
+"""How things are in the file system, as texts and numbers that can be kept and compared."""
+
+from __future__ import annotations
+
+import os
+import stat
+import time
+from hashlib import blake2b
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from orchestra.witness.record import Signature
+
+# Taken before anybody wraps them.
+_stat, _lstat, _readlink, _access, _scandir, _open = (
+    os.stat,
+    os.lstat,
+    os.readlink,
+    os.access,
+    os.scandir,
+    open,
+)
+
+# Nanoseconds in which a file may be changed twice without a sign: clocks of file systems tick slowly.
+_TICK: Final = 2_000_000_000
+
+
+def digest_of(content: bytes) -> str:
+    """Return a text that stands for a content."""
+    return blake2b(content, digest_size=16).hexdigest()
+
+
+def signature(path: str) -> Signature | None:
+    """Return what changes with the content of a file; None where there is no regular file."""
+    try:
+        found = _stat(path)
+    except (OSError, ValueError):
+        return None
+    if not stat.S_ISREG(found.st_mode):
+        return None
+    return (found.st_mtime_ns, found.st_ctime_ns, found.st_size, found.st_ino, found.st_dev)
+
+
+def settled(found: Signature | None) -> bool:
+    """Tell whether a file was last changed so long ago that another change would show in its signature."""
+    return found is not None and time.time_ns() - max(found[0], found[1]) > _TICK
+
+
+def content(path: str) -> str | None:
+    """Return a digest of a file's content, of the reason where it cannot be read; None where it is no regular file."""
+    try:
+        if not stat.S_ISREG(_stat(path).st_mode):
+            return None
+        with _open(path, "rb") as file:
+            return digest_of(file.read())
+    except (OSError, ValueError) as error:
+        return _reason(error)
+
+
+def mode(path: str) -> Any:
+    """Return kind and permissions of what a path leads to, or why that cannot be told."""
+    return _told(lambda: _stat(path).st_mode)
+
+
+def own_mode(path: str) -> Any:
+    """Return kind and permissions of what is at a path itself, or why that cannot be told."""
+    return _told(lambda: _lstat(path).st_mode)
+
+
+def link(path: str) -> Any:
+    """Return where a link leads to, or why that cannot be told."""
+    return _told(lambda: os.fsdecode(_readlink(path)))
+
+
+def readable(path: str) -> Any:
+    """Return for which accesses there is permission, as a number of three bits."""
+    return _told(lambda: sum(bit for bit in (os.R_OK, os.W_OK, os.X_OK) if _access(path, bit)))
+
+
+def listing(path: str) -> Any:
+    """Return a digest of the names in a folder and of what each is, or why they cannot be listed."""
+
+    def listed() -> str:
+        with _scandir(path) as entries:
+            return digest_of("\0".join(_described(entries)).encode("utf-8", "surrogateescape"))
+
+    return _told(listed)
+
+
+def names_of(names: Iterable[str]) -> str:
+    """Return a text that stands for a set of names."""
+    return digest_of("\0".join(sorted(names)).encode("utf-8", "surrogateescape"))
+
+
+# Each kind of look by its name.
+LOOKS: Final[dict[str, Callable[[str], Any]]] = {
+    "mode": mode,
+    "own_mode": own_mode,
+    "link": link,
+    "access": readable,
+    "listing": listing,
+}
+
+
+def _described(entries: Iterable[os.DirEntry[str]]) -> list[str]:
+    kinds = sorted((entry.name, entry.is_symlink(), entry.is_dir()) for entry in entries)
+    return [f"{name}\1{linked:d}{folder:d}" for name, linked, folder in kinds if name != "__pycache__"]
+
+
+def _told(look: Callable[[], Any]) -> Any:
+    try:
+        return look()
+    except (OSError, ValueError) as error:
+        return _reason(error)
+
+
+def _reason(error: Exception) -> str:
+    return f"! {getattr(error, 'errno', None)}"

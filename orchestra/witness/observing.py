@@ -1,0 +1,288 @@
+"""Watches this process while it computes something, and records what it looks at.
+
+A hook of the interpreter stays for good once it is set, so only processes that end soon are to be watched.
+"""
+
+from __future__ import annotations
+
+import os
+import sys
+import sysconfig
+from contextlib import contextmanager
+from functools import wraps
+from importlib.util import source_from_cache
+from types import CodeType
+from typing import TYPE_CHECKING, Any, Final, TypeVar
+
+from orchestra.witness import looking, unknowable
+from orchestra.witness.record import Record, question
+from orchestra.witness.variables import ObservedData
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from orchestra.witness.record import Signature
+
+_AnswerT = TypeVar("_AnswerT")
+
+_OURS: Final = os.path.dirname(os.path.dirname(os.path.abspath(__file__))) + os.sep
+_PYTHON: Final = tuple(
+    os.path.join(path, "")
+    for name in ("stdlib", "platstdlib")
+    for path in {sysconfig.get_path(name), os.path.realpath(sysconfig.get_path(name))}
+)
+_INSTALLED: Final = tuple(
+    os.path.join(path, "")
+    for name in ("purelib", "platlib")
+    for path in {sysconfig.get_path(name), os.path.realpath(sysconfig.get_path(name))}
+)
+_LOOKING: Final = (("stat", "mode"), ("lstat", "own_mode"), ("readlink", "link"), ("access", "access"))
+_WRITING: Final = os.O_WRONLY | os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_TRUNC
+
+
+class Observer:
+    """Records what this process looks at. There is one per process, `observer()`."""
+
+    def __init__(self) -> None:
+        self.record: Record | None = None
+        self.scratch: str | None = None
+        self.foreign: set[str] = set()
+        self._aside = 0
+        self._seen: dict[str, Signature | None] = {}
+        self._installed: Record = Record()
+        self._of_users = False
+        self._environment: dict[str, str] = {}
+        self._paths: set[tuple[str, ...]] = set()
+        self._installing = False
+
+    @property
+    def active(self) -> bool:
+        """Whether what happens now is recorded."""
+        return self.record is not None and self._aside == 0
+
+    def install(self) -> None:
+        """Begin to watch this process, which cannot be undone."""
+        if not self._installing:
+            self._installing = True
+            sys.addaudithook(self._heard)
+            for name, kind in _LOOKING:
+                function = getattr(os, name)
+                wrapped = self._wrapped(function, kind)
+                setattr(os, name, wrapped)
+                for able in (os.supports_dir_fd, os.supports_fd, os.supports_follow_symlinks):
+                    if function in able:
+                        able.add(wrapped)
+            environ: Any = os.environ
+            environ._data = ObservedData(environ._data, self)  # noqa: SLF001 - there is no other way to it
+
+    def begin(self, environment: dict[str, str]) -> None:
+        """Begin a record; `environment` is the one that counts as being outside."""
+        self.record, self._seen, self._of_users = Record(), {}, False
+        self._environment, self._paths = environment, set()
+
+    def end(self) -> Record:
+        """Return the record, complete with what the files were that have been opened."""
+        record = self.record
+        if record is None:
+            raise AssertionError("nothing has begun")
+        with self.aside():
+            for path, before in self._seen.items():
+                self._complete(record, path, before)
+            if self._of_users:
+                record.absorb(self._installed)
+            if self._of_users and self.foreign:
+                record.unknown = record.unknown or f"code outside Python has been loaded: {min(self.foreign)}"
+        self.record = None
+        return record
+
+    @contextmanager
+    def part(self) -> Iterator[Record]:
+        """Record for a while what belongs to one part of the result, which may serve others; see `depend`."""
+        outer, seen, part = self.record, self._seen, Record()
+        if outer is None:
+            yield part
+            return
+        self.record, self._seen = part, {}
+        try:
+            yield part
+        finally:
+            with self.aside():
+                for path, before in self._seen.items():
+                    self._complete(part, path, before)
+            self.record, self._seen = outer, seen
+
+    def depend(self, part: Record) -> None:
+        """Record that the result has a part that is recorded already."""
+        if self.active and self.record is not None:
+            self.record.absorb(part)
+
+    @contextmanager
+    def aside(self) -> Iterator[None]:
+        """Record nothing for a while: what is looked at decides nothing, or is recorded in another way."""
+        self._aside += 1
+        try:
+            yield
+        finally:
+            self._aside -= 1
+
+    def variable(self, name: str) -> None:
+        """Record that a variable of the environment is read."""
+        if self.active and self.record is not None:
+            self.record.variables.setdefault(name, self._environment.get(name))
+
+    def all_names(self) -> None:
+        """Record that the names of all variables are read."""
+        if self.active and self.record is not None and not self.record.names:
+            self.record.names = looking.names_of(self._environment)
+
+    def file(self, path: str) -> None:
+        """Record that a file is read."""
+        if self.active and path not in self._seen:
+            self._seen[path] = looking.signature(path)
+
+    def answered(self, words: tuple[str, ...], answer: Callable[[], _AnswerT]) -> _AnswerT:
+        """Return the answer to a question, and record it instead of what is looked at for it; it is JSON data."""
+        with self.aside():
+            found = answer()
+        if self.active and self.record is not None:
+            self.record.answers.setdefault(question(*words), found)
+        return found
+
+    def unknown(self, reason: str) -> None:
+        """Record that nobody can say what the result depends on."""
+        if self.active and self.record is not None:
+            self.record.unknown = self.record.unknown or reason
+
+    def _look(self, kind: str, path: str) -> None:
+        if self.record is not None:
+            looks = self.record.looks.setdefault(kind, {})
+            if path not in looks:
+                with self.aside():
+                    looks[path] = looking.LOOKS[kind](path)
+
+    def _complete(self, record: Record, path: str, before: Signature | None) -> None:
+        digest = looking.content(path)
+        if digest is None:
+            record.unknown = record.unknown or f"{path} is no regular file"
+        elif looking.signature(path) != before:
+            record.unknown = record.unknown or f"{path} has changed meanwhile"
+        else:
+            record.files[path] = (digest, before if looking.settled(before) else None)
+
+    def _wrapped(self, function: Any, kind: str) -> Any:
+        @wraps(function)
+        def looked(path: Any, *args: Any, **kwargs: Any) -> Any:
+            if self.record is not None and self._aside == 0:
+                self._looked(kind, path, kwargs)
+            return function(path, *args, **kwargs)
+
+        return looked
+
+    def _looked(self, kind: str, path: Any, options: dict[str, Any]) -> None:
+        if isinstance(path, int):
+            return
+        if options.get("dir_fd") is not None:
+            self.unknown("paths relative to open folders")
+            return
+        if options.get("follow_symlinks") is False:
+            kind = "own_mode"
+        whole = self._whole(path)
+        if whole is not None:
+            self._look(kind, whole)
+
+    def _whole(self, path: Any) -> str | None:
+        """Return the absolute path of something outside; None for what is no path, or ours alone."""
+        try:
+            text = os.fsdecode(path)
+        except TypeError:
+            return None
+        whole = text if text.startswith("/") else os.path.join(os.getcwd(), text)
+        if self.scratch is not None and whole.startswith(self.scratch):
+            return None
+        return None if whole.startswith((_OURS, *_PYTHON, "/proc/self/task")) else whole
+
+    def _heard(self, event: str, args: tuple[Any, ...]) -> None:
+        """Be told of something by the interpreter; called for everything in this process, so it is quick."""
+        if self.record is None or self._aside:
+            return
+        try:
+            self._note(event, args)
+        except Exception as error:  # noqa: BLE001 - it would be raised in whatever is being watched
+            self.unknown(f"{event}: {error}")
+
+    def _note(self, event: str, args: tuple[Any, ...]) -> None:
+        if event == "open":
+            self._opened(*args)
+        elif event in ("os.listdir", "os.scandir"):
+            self._listed(args[0])
+        elif event == "import":
+            self._imports(*args[:3])
+        elif event == "exec":
+            self._executes(args[0])
+        elif event in unknowable.CHANGES:
+            if any(isinstance(path, str | bytes) and self._whole(path) is not None for path in args[:2]):
+                self.unknown(f"{event} changes something")
+        elif unknowable.is_unknowable(event):
+            self.unknown(event)
+
+    def _opened(self, path: Any, mode: str | None, flags: int) -> None:
+        if isinstance(path, int):
+            return
+        whole = self._whole(path)
+        if whole is None or whole == os.devnull:
+            return
+        if (mode and not {"w", "a", "x", "+"}.isdisjoint(mode)) or (mode is None and flags & _WRITING):
+            self.unknown(f"{whole} is written")
+            return
+        if whole.endswith(".pyc"):
+            whole = _source(whole)
+        self.file(whole)
+        if whole.startswith(_INSTALLED) and whole.endswith(".py"):
+            before = looking.signature(whole)
+            with self.aside():
+                self._complete(self._installed, whole, before)
+
+    def _listed(self, path: Any) -> None:
+        if isinstance(path, int):
+            self.unknown("folders that are open")
+            return
+        whole = self._whole("." if path is None else path)
+        if whole is not None:
+            self._look("listing", whole)
+
+    def _imports(self, module: str, file: str | None, path: Any) -> None:
+        top = module.partition(".")[0]
+        if file is not None and not file.startswith(_PYTHON):
+            self.foreign.add(module)
+        if top == "orchestra" or top in sys.stdlib_module_names or not isinstance(path, list):
+            return
+        for folder in path:
+            if isinstance(folder, str) and (whole := self._whole(folder or ".")) is not None:
+                self._look("listing", whole)
+
+    def _executes(self, code: Any) -> None:
+        if not isinstance(code, CodeType) or code.co_filename.startswith((_OURS, "<frozen", *_PYTHON)):
+            return
+        if code.co_filename.startswith(_INSTALLED):
+            return
+        self._of_users = True
+        sign = unknowable.sign_in(code)
+        if sign is not None:
+            self.unknown(f"code uses {sign}")
+
+
+def _source(cached: str) -> str:
+    """Return the source of a file with bytecode, that file where there is none."""
+    try:
+        source = source_from_cache(cached)
+    except ValueError:
+        return cached
+    return source if looking.signature(source) is not None else cached
+
+
+_OBSERVER: Final = Observer()
+
+
+def observer() -> Observer:
+    """Return what watches this process."""
+    return _OBSERVER

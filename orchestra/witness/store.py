@@ -1,0 +1,114 @@
+"""Results in a folder, each with what it depends on; safe with many that read and write at once.
+
+An entry is replaced as a whole, and has a digest of itself: one that is damaged, or of another version, counts as none.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import time
+from contextlib import suppress
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.witness.looking import digest_of
+from orchestra.witness.record import Record
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+_MOST: Final = 64 * 1024 * 1024  # bytes that entries may take together
+_DAY: Final = 86_400
+
+
+class Store:
+    """The entries in one folder, which need not exist."""
+
+    def __init__(self, folder: str, most: int = _MOST) -> None:
+        self._folder = folder
+        self._most = most
+        self._written = 0
+
+    def read(self, key: str) -> tuple[Record, Any] | None:
+        """Return what a result depends on, and the result; None where there is none that can be read."""
+        path = self._path(key)
+        try:
+            with open(path, "rb") as file:
+                digest, _, body = file.read().partition(b"\n")
+                changed = os.fstat(file.fileno()).st_mtime
+            if digest.decode("ascii", "replace") != digest_of(body):
+                return None
+            found = json.loads(body)
+            if found["key"] != key:
+                return None
+            record, result = Record.from_data(found["record"]), found["result"]
+        except (OSError, ValueError, KeyError, TypeError, RecursionError):
+            return None
+        if time.time() - changed > _DAY:
+            with suppress(OSError):  # it was removed meanwhile, or belongs to somebody else
+                os.utime(path)  # those that are used last are kept longest
+        return record, result
+
+    def write(self, key: str, record: Record, result: Any) -> None:
+        """Keep a result, in place of any earlier one. Where the disk refuses, nothing is kept."""
+        if record.unknown:
+            return
+        body = json.dumps({"key": key, "record": record.as_data(), "result": result}).encode(
+            "utf-8", "surrogatepass"
+        )
+        path = self._path(key)
+        own = f"{path}.{os.getpid()}"
+        try:
+            os.makedirs(self._folder, mode=0o700, exist_ok=True)
+            with open(own, "wb") as file:
+                file.write(digest_of(body).encode() + b"\n" + body)
+            os.replace(own, path)
+            self._written += 1
+        except OSError:
+            with suppress(OSError):  # nothing could be written
+                os.unlink(own)
+
+    def prune(self) -> None:
+        """Remove what was not used for longest, if something was written and there is too much."""
+        if not self._written:
+            return
+        try:
+            with os.scandir(self._folder) as found:
+                entries = [
+                    (status.st_mtime, status.st_size, item.path)
+                    for item in found
+                    if (status := _status(item))
+                ]
+        except OSError:
+            return
+        left = sum(size for _, size, _ in entries)
+        for _, size, path in sorted(entries) if left > self._most else []:
+            if left <= self._most // 2:
+                break
+            with suppress(OSError):  # somebody else has removed it
+                os.unlink(path)
+            left -= size
+
+    def _path(self, key: str) -> str:
+        return os.path.join(self._folder, digest_of(key.encode("utf-8", "surrogatepass")))
+
+
+def _status(entry: os.DirEntry[str]) -> os.stat_result | None:
+    try:
+        return entry.stat(follow_symlinks=False)
+    except OSError:
+        return None
+
+
+def folder(environment: Mapping[str, str]) -> str | None:
+    """Return the folder of the user's caches for Orchestra (XDG base directories); None where none can be told."""
+    own = environment.get("ORCHESTRA_CACHE")
+    if own:
+        return own
+    shared = environment.get("XDG_CACHE_HOME")
+    if not (shared and os.path.isabs(shared)):
+        home = os.path.expanduser("~")
+        if home == "~":
+            return None
+        shared = os.path.join(home, ".cache")
+    return os.path.join(shared, "orchestra")

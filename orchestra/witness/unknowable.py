@@ -1,0 +1,78 @@
+"""Signs that a result depends on something that nobody can record: time, chance, other programs, the network."""
+
+from __future__ import annotations
+
+from types import CodeType
+from typing import Final
+
+# Events of the interpreter (docs.python.org, "Audit events table"): a whole name, or its beginning before a dot.
+EVENTS: Final = frozenset(
+    {
+        *("subprocess", "socket", "sqlite3", "ctypes", "urllib", "ftplib", "http", "smtplib", "pty", "fcntl"),
+        *("os.system", "os.exec", "os.fork", "os.forkpty", "os.posix_spawn", "os.spawn", "os.startfile"),
+        *("os.getxattr", "os.listxattr", "os.kill", "os.killpg", "mmap", "signal"),
+        *("syslog", "webbrowser", "nntplib", "poplib", "imaplib", "telnetlib", "winreg"),
+    }
+)
+# Events of what is changed: whoever goes by a kept result does not change it again.
+CHANGES: Final = frozenset(
+    {
+        *(
+            "os.remove",
+            "os.rmdir",
+            "os.rename",
+            "os.mkdir",
+            "os.link",
+            "os.symlink",
+            "os.truncate",
+            "os.chmod",
+        ),
+        *("os.chown", "os.utime", "os.setxattr", "os.removexattr", "os.lockf"),
+        *(
+            "shutil.copyfile",
+            "shutil.copymode",
+            "shutil.copystat",
+            "shutil.copytree",
+            "shutil.move",
+            "shutil.rmtree",
+        ),
+    }
+)
+# Names in code of users through which it learns what no event tells.
+_NAMES: Final = frozenset(
+    {
+        *("time", "datetime", "random", "secrets", "uuid", "socket", "platform", "getpass", "pwd", "grp"),
+        *("psutil", "resource", "multiprocessing", "concurrent", "asyncio", "ctypes", "mmap", "sqlite3"),
+        *("getpid", "getppid", "getuid", "geteuid", "getgid", "getegid", "getlogin", "uname", "cpu_count"),
+        *("sched_getaffinity", "urandom", "getrandom", "getloadavg", "statvfs", "disk_usage", "isatty"),
+        *(
+            "get_terminal_size",
+            "input",
+            "stdin",
+            "getmtime",
+            "getctime",
+            "getatime",
+            "getsize",
+            "stat_result",
+        ),
+        *("st_mtime", "st_mtime_ns", "st_ctime", "st_ctime_ns", "st_atime", "st_atime_ns", "st_size"),
+        *("st_ino", "st_uid", "st_gid", "st_nlink", "st_dev", "environb", "getnode"),
+    }
+)
+
+
+def sign_in(code: CodeType) -> str | None:
+    """Return the name by which code, or code inside it, learns what cannot be recorded; None where there is none."""
+    waiting = [code]
+    while waiting:
+        item = waiting.pop()
+        for name in item.co_names:
+            if name in _NAMES or name.partition(".")[0] in _NAMES:
+                return name
+        waiting += [inner for inner in item.co_consts if isinstance(inner, CodeType)]
+    return None
+
+
+def is_unknowable(event: str) -> bool:
+    """Tell whether an event of the interpreter is such a sign."""
+    return event in EVENTS or event.partition(".")[0] in EVENTS
