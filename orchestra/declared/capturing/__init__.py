@@ -1,0 +1,1 @@
+"""What a running node has told of itself, written as declarations."""
