@@ -24,24 +24,24 @@ _DEFAULT = Restart("no")
 
 def process_details(process: Process) -> Iterator[str]:
     """Yield the lines; a setting that has nothing to say has no line."""
-    yield from _labelled("command", _command(process).split("\n"))
-    yield from _labelled("folder", [process.cwd] if process.cwd else [])
-    yield from _labelled("environment", _environment(process))
-    yield from _labelled(
+    yield from labelled("command", _command(process).split("\n"))
+    yield from labelled("folder", [process.cwd] if process.cwd else [])
+    yield from labelled("environment", _environment(process))
+    yield from labelled(
         "parameters", [f"{name}: {_shortened(scalar(value))}" for name, value in process.parameters.items()]
     )
-    yield from _labelled("files", [file.path for file in process.parameter_files])
-    yield from _labelled("remaps", [f"{old} -> {new}" for old, new in process.remappings])
-    yield from _labelled("output", [_output(process.output)] if process.output else [])
-    yield from _labelled("after", map(dependency_line, process.depends_on))
-    yield from _labelled("ready", ready_lines(process.ready) if process.ready else [])
-    yield from _labelled("alive", alive_lines(process.alive) if process.alive else [])
-    yield from _labelled("restart", [_restart(process.restart)] if process.restart else [])
-    yield from _labelled("stop", [_stop(process.stop)] if process.stop else [])
-    yield from _labelled("limits", _limits(process.limits) if process.limits else [])
-    yield from _labelled("stdin", ["what is typed"] if process.stdin else [])
-    yield from _labelled("lifecycle", [process.lifecycle] if process.lifecycle else [])
-    yield from _labelled("required", ["the run ends with it"] if process.required else [])
+    yield from labelled("files", [file.path for file in process.parameter_files])
+    yield from labelled("remaps", [f"{old} -> {new}" for old, new in process.remappings])
+    yield from labelled("output", [_output(process.output)] if process.output else [])
+    yield from labelled("after", map(dependency_line, process.depends_on))
+    yield from labelled("ready", ready_lines(process.ready) if process.ready else [])
+    yield from labelled("alive", alive_lines(process.alive) if process.alive else [])
+    yield from labelled("restart", [_restart(process.restart)] if process.restart else [])
+    yield from labelled("stop", [_stop(process.stop)] if process.stop else [])
+    yield from labelled("limits", _limits(process.limits) if process.limits else [])
+    yield from labelled("stdin", ["what is typed"] if process.stdin else [])
+    yield from labelled("lifecycle", [process.lifecycle] if process.lifecycle else [])
+    yield from labelled("required", ["the run ends with it"] if process.required else [])
 
 
 def process_kind(process: Process) -> str:
@@ -61,7 +61,8 @@ def _shortened(value: str) -> str:
     return f"{value[:_LONGEST]} ... ({len(value) - _LONGEST} more characters, see --format json)"
 
 
-def _labelled(label: str, values: Iterator[str] | list[str] | map[str]) -> Iterator[str]:
+def labelled(label: str, values: Iterator[str] | list[str] | map[str]) -> Iterator[str]:
+    """Yield values below each other, the label before the first."""
     for value in values:
         yield f"{label:<{_WIDTH}} {value}"
         label = ""

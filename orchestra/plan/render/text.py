@@ -1,4 +1,4 @@
-"""A plan for people: the arguments, a tree of the processes by namespace, what triggers do, what was left out.
+"""A plan for people: arguments, files, a tree of the processes by namespace, what triggers do, what was left out.
 
 The tree is indented and has no lines drawn, so that one node more changes no other node's lines in a comparison.
 The same plan always gives the same text.
@@ -10,50 +10,68 @@ import shlex
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
+from orchestra.location import Span
 from orchestra.plan.model import Process
-from orchestra.plan.render.details import process_details, process_kind, scalar
+from orchestra.plan.render.details import labelled, process_details, process_kind, scalar
 from orchestra.plan.render.setting import Setting
 from orchestra.plan.render.triggers import trigger_lines
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
+    from orchestra.location import Location
     from orchestra.plan.model import Argument, Component, Plan, Skipped
+    from orchestra.plan.render.setting import Additions, Paint
 
 _INDENT = "  "
 
 
 def render(plan: Plan, setting: Setting = Setting(), /) -> str:  # noqa: B008 - it is frozen
     """Return the plan as text."""
-    del setting
+    paint = setting.paint
+    elsewhere = [component for component in plan.components if component.process is None]
     sections = [
-        _heading(plan),
-        _section("arguments", _arguments(tuple(item for item in plan.arguments if not item.given))),
-        _section("processes", _processes(plan.processes)),
-        _section("components", map(_component, plan.components)),
-        _section("triggers", trigger_lines(plan.triggers)),
-        _section("skipped", map(_skipped, plan.skipped)),
+        _heading(plan, paint),
+        _section("host", _host(setting.additions), paint),
+        _section("arguments", _arguments([item for item in plan.arguments if not item.given]), paint),
+        _section("includes", _includes(plan, paint), paint),
+        _section("processes", _processes(plan, paint), paint),
+        _section("components", (_component(item, "") for item in elsewhere), paint),
+        _section("triggers", trigger_lines(plan.triggers), paint),
+        _section("skipped", map(_skipped, plan.skipped), paint),
     ]
     return "\n".join("".join(f"{line}\n" for line in section) for section in sections if section)
 
 
-def _heading(plan: Plan) -> list[str]:
+def _heading(plan: Plan, paint: Paint) -> list[str]:
     counted = [
         (len(plan.processes), "process", "processes"),
         (len(plan.components), "component", "components"),
         (len(plan.triggers), "trigger", "triggers"),
     ]
     counts = ", ".join(f"{n} {one if n == 1 else many}" for n, one, many in counted if n)
-    return [f"{plan.file}: {counts or 'nothing to run'}"]
+    return [f"{paint('strong', plan.file)}: {counts or 'nothing to run'}"]
 
 
-def _section(title: str, lines: Iterator[str]) -> list[str]:
+def _section(title: str, lines: Iterator[str], paint: Paint) -> list[str]:
     """Return the indented lines under their title, nothing where there are none."""
     indented = [f"{_INDENT}{line}" for line in lines]
-    return [title, *indented] if indented else []
+    return [paint("strong", title), *indented] if indented else []
 
 
-def _arguments(arguments: tuple[Argument, ...]) -> Iterator[str]:
+def _host(additions: Additions | None) -> Iterator[str]:
+    """Yield what a run adds to the environment of its processes on this machine."""
+    if additions is None:
+        return
+    for name, value in sorted(additions.variables.items()):
+        yield f"{name}={shlex.quote(value)}"
+    for name, entries in additions.before.items():
+        yield f"{name}: {entries} before what is there"
+    for name, entries in additions.after.items():
+        yield f"{name}: {entries} after what is there"
+
+
+def _arguments(arguments: Sequence[Argument]) -> Iterator[str]:
     width = max((len(argument.name) for argument in arguments), default=0)
     for argument in arguments:
         value = "(no value)" if argument.value is None else shlex.quote(argument.value)
@@ -69,6 +87,42 @@ def _origin(argument: Argument) -> str:
 
 
 @dataclass(slots=True)
+class _Include:
+    """An included file: how many processes and components come out of it, and what it includes in its turn."""
+
+    count: int = 0
+    below: dict[tuple[str, Span], _Include] = field(default_factory=dict)
+
+
+def _includes(plan: Plan, paint: Paint) -> Iterator[str]:
+    """Yield the files that are included, below those that include them, in the order in which they are come upon."""
+    root = _Include()
+    for location in (
+        *(item.location for item in plan.processes),
+        *(item.location for item in plan.components),
+    ):
+        here = root
+        for step in _steps(location):
+            here = here.below.setdefault(step, _Include())
+            here.count += 1
+    yield from _included(root, paint)
+
+
+def _steps(location: Location) -> Iterator[tuple[str, Span]]:
+    """Yield each file on the way to a place, with the place that includes it, outermost first."""
+    places = location.included_from[::-1]
+    files = [*(span.file for span in places[1:]), location.span.file]
+    yield from zip(files, places, strict=True) if places else ()
+
+
+def _included(include: _Include, paint: Paint) -> Iterator[str]:
+    for (file, at), below in include.below.items():
+        told = f"(at {at}, {below.count} node{'s' * (below.count != 1)})"
+        yield f"{file}  {paint('faint', told)}"
+        yield from (_INDENT + line for line in _included(below, paint))
+
+
+@dataclass(slots=True)
 class _Namespace:
     """A namespace of the tree: what is in it, and the namespaces below it, in plan order."""
 
@@ -76,16 +130,16 @@ class _Namespace:
     below: dict[str, _Namespace] = field(default_factory=dict)
 
 
-def _processes(processes: tuple[Process, ...]) -> Iterator[str]:
+def _processes(plan: Plan, paint: Paint) -> Iterator[str]:
     root = _Namespace()
-    outside = [process for process in processes if process.namespace is None]
-    for process in processes:
+    outside = [process for process in plan.processes if process.namespace is None]
+    for process in plan.processes:
         if process.namespace is not None:
             _at(root, process.namespace).processes.append(process)
     for process in outside:
-        yield from _process(process)
+        yield from _process(process, plan, paint)
     if root.processes or root.below:
-        yield from _branch("/", root)
+        yield from _branch("/", root, plan, paint)
 
 
 def _at(root: _Namespace, namespace: str) -> _Namespace:
@@ -96,26 +150,31 @@ def _at(root: _Namespace, namespace: str) -> _Namespace:
     return here
 
 
-def _branch(title: str, namespace: _Namespace) -> Iterator[str]:
-    yield title
+def _branch(title: str, namespace: _Namespace, plan: Plan, paint: Paint) -> Iterator[str]:
+    yield paint("strong", title)
     for process in namespace.processes:
-        yield from (_INDENT + line for line in _process(process))
+        yield from (_INDENT + line for line in _process(process, plan, paint))
     for token, below in namespace.below.items():
-        yield from (_INDENT + line for line in _branch(f"{token}/", below))
+        yield from (_INDENT + line for line in _branch(f"{token}/", below, plan, paint))
 
 
-def _process(process: Process) -> Iterator[str]:
-    yield f"{process.id}  ({process_kind(process)}, {process.location})"
+def _process(process: Process, plan: Plan, paint: Paint) -> Iterator[str]:
+    yield f"{paint('strong', process.id)}  {paint('faint', f'({process_kind(process)}, {process.location})')}"
     yield from (_INDENT + line for line in process_details(process))
+    held = [_component(item, process.id) for item in plan.components if item.process == process.id]
+    yield from (_INDENT + line for line in labelled("components", held))
 
 
-def _component(component: Component) -> str:
+def _component(component: Component, container: str) -> str:
+    """Return a component in one line; its container is told where it does not stand below it."""
     told = {**component.parameters, **component.extra_arguments}
     values = "".join(f" {key}={scalar(value)}" for key, value in told.items())
     remaps = "".join(f" {old}->{new}" for old, new in component.remappings)
-    elsewhere = "" if component.process is not None else " (not of this plan)"
-    place = f"in {component.container}{elsewhere}"
-    return f"{component.id}: {component.package}/{component.plugin} {place}{values}{remaps}"
+    elsewhere = "" if container else f" in {component.container} (not of this plan)"
+    late = " when a trigger loads it" if component.condition == "event" else ""
+    lifecycle = f" brought to {component.lifecycle}" if component.lifecycle else ""
+    plugin = f"{component.package}/{component.plugin}"
+    return f"{component.id}: {plugin}{elsewhere}{late}{lifecycle}{values}{remaps}"
 
 
 def _skipped(skipped: Skipped) -> str:
