@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Any, Protocol
 from orchestra.errors import Code
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import Value
+from orchestra.resolve.impossible.comparisons import check_comparisons
+from orchestra.resolve.impossible.contradictions import check_contradiction, held
 from orchestra.resolve.mentions import hidden, words_in
 from orchestra.resolve.model import ResolvedSkip
 
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
     from orchestra.description.entity import Action, Conditional
     from orchestra.description.launch import Description
     from orchestra.description.text import Template
+    from orchestra.resolve.impossible.held import Held
     from orchestra.resolve.resolution import Resolution
 
 VISITORS: dict[str, str] = {
@@ -79,6 +82,8 @@ def visit(actions: Sequence[Action], run: Resolution) -> None:
             continue
         conditional = action.if_ is not None or action.unless is not None
         run.conditions += conditional
+        outer = run.held
+        run.held = (*outer, *_held(action, run))
         if action.origin is None:
             _visitor(type(action).__name__).visit(action, run)
         else:
@@ -87,6 +92,7 @@ def visit(actions: Sequence[Action], run: Resolution) -> None:
             run.around = around
             run.found.carried_out[id(action.origin)] = action.origin
         run.conditions -= conditional
+        run.held = outer
     run.depth -= 1
 
 
@@ -118,11 +124,14 @@ def wanted(action: Conditional, word: str, run: Resolution) -> bool:
         return True
     value = run.evaluate(template)
     holds = boolean(value.text) if isinstance(value, Value) else None
+    if isinstance(value, Value):
+        check_comparisons(template, run)
     if holds == (action.if_ is not None):
         return True
     part = hidden(action, run.context, run.scope.variables)
     run.scope.ledger.hidden.append(part)
     if holds is not None and isinstance(value, Value):
+        check_contradiction(template, run, truth=action.if_ is not None)
         _skip(action, word, template, value.text, run)
         return False
     if isinstance(value, Value):
@@ -131,6 +140,13 @@ def wanted(action: Conditional, word: str, run: Resolution) -> bool:
     run.found.lost |= words_in(action)
     run.scope.ledger.incomplete |= bool(part.files)
     return False
+
+
+def _held(action: Conditional, run: Resolution) -> tuple[Held, ...]:
+    """Return what the condition of an action that is carried out says."""
+    template = action.if_ if action.if_ is not None else action.unless
+    found = None if template is None else held(template, run, truth=action.if_ is not None)
+    return () if found is None else (found,)
 
 
 def _skip(action: Conditional, word: str, template: Template, value: str, run: Resolution) -> None:

@@ -68,6 +68,16 @@ def names_in(actions: Iterable[Conditional]) -> set[str]:
     return found
 
 
+def variables_in(template: Template) -> set[str] | None:
+    """Return the variables that a text reads; None where one has no fixed name, or code may read others."""
+    parts = list(_performed(template))
+    if any(isinstance(part, Opaque) or part.name == "command" for part in parts):
+        return None
+    names = [part.arguments[0].constant for part in parts if isinstance(part, Call) and part.name == "var"]
+    found = {name for name in names if name is not None}
+    return found if len(found) == len(set(names)) else None
+
+
 def is_of_the_moment(actions: Iterable[Action]) -> bool:
     """Return whether actions say something that only an event knows which is being handled."""
     return any(

@@ -15,6 +15,7 @@ from orchestra.nearest import nearest
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import POISON, Context, Evaluated, Poison, Value
 from orchestra.resolve.evaluate import evaluate
+from orchestra.resolve.impossible.held import Held
 from orchestra.resolve.inputs import Inputs
 from orchestra.resolve.model import (
     FileParameters,
@@ -47,7 +48,7 @@ class Found:
     ROS time were told to go by simulated time. `carried_out` are the objects of Python launch files that were visited,
     `kept` is the code of theirs that is called during the run. `triggers` have been settled so far, `positions` are
     those of each event handler among them, `timed` those of timers that may still be cancelled. `unmet` wait for
-    processes that are not there.
+    processes that are not there. `choices` are those of arguments, of each declaration.
     """
 
     processes: list[ResolvedProcess] = field(default_factory=list)
@@ -64,6 +65,12 @@ class Found:
     positions: dict[int, list[int]] = field(default_factory=dict)
     timed: list[tuple[int, Occasion]] = field(default_factory=list)
     unmet: list[Occasion] = field(default_factory=list)
+    choices: dict[str, set[tuple[str, ...] | None]] = field(default_factory=dict)
+
+    def choices_of(self, argument: str) -> tuple[str, ...] | None:
+        """Return the values that an argument can have, None where any will do or declarations differ."""
+        declared = self.choices.get(argument, ())
+        return next(iter(declared)) if len(declared) == 1 else None
 
 
 @dataclass(frozen=True, slots=True)
@@ -106,6 +113,7 @@ class Resolution:
     steps: int = 0
     conditions: int = 0
     repetitions: int = 0
+    held: tuple[Held, ...] = ()
     descriptions: dict[str, Description | None] = field(default_factory=dict)
     parameter_files: dict[tuple[str, bool], FileParameters | None] = field(default_factory=dict)
     make_engine: Callable[[Resolution], Any] | None = None
@@ -169,6 +177,7 @@ class Resolution:
         message = "actions stand inside each other without end, or too deep"
         self.problems.error(Code.INCLUDE_CYCLE, message, spans[-1] if spans else None)
         self.depth, self.conditions, self.repetitions, self.around, self.occasion = 0, 0, 0, (), None
+        self.held = ()
 
     def at(self, span: Span) -> Location:
         """Return the location of a span of the file that is being visited."""

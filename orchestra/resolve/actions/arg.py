@@ -21,6 +21,7 @@ def visit(action: Arg, run: Resolution) -> None:
     """Declare a launch argument: a value that is already set stays, else the default counts."""
     name, choices, at = _text(action.name), _choices(action), run.at(action.span)
     run.scope.ledger.declared.add(name)
+    run.found.choices.setdefault(name, set()).add(choices)
     declare(action, name, choices, run)
     value = _value(action, name, run)
     _check_default(action, value, choices, run)
