@@ -9,6 +9,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
+from orchestra.location import is_python
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import Value
 
@@ -23,7 +24,8 @@ if TYPE_CHECKING:
 def declare(action: Arg, name: str, choices: Collection[str] | None, run: Resolution) -> None:
     """Report a default that never counts, because the file itself has given the variable another value before.
 
-    One that is none of the `choices` is a mistake of its own.
+    One that is none of the `choices` is a mistake of its own. Code in Python puts lists of declarations together, of
+    which the first counts.
     """
     text = action.default.constant if action.default is not None else None
     variable = run.scope.variables.get(name)
@@ -35,6 +37,8 @@ def declare(action: Arg, name: str, choices: Collection[str] | None, run: Resolu
     ):
         return
     before, here = variable.settled, run.at(action.default.span)
+    if is_python(here):
+        return
     if before is None or before.span.file != here.span.file or before.included_from != here.included_from:
         return
     if (

@@ -14,7 +14,7 @@ from orchestra.errors import Code
 from orchestra.location import Location
 from orchestra.plan.checks.typos import is_typo
 from orchestra.plan.ids import node_name
-from orchestra.resolve.model import FileParameters
+from orchestra.resolve.model import FileParameters, ResolvedProcess
 from orchestra.resolve.rcl.patterns import matches
 
 if TYPE_CHECKING:
@@ -22,10 +22,13 @@ if TYPE_CHECKING:
 
     from orchestra.errors import Problems
     from orchestra.plan.model import Plan
-    from orchestra.resolve.model import Resolved, ResolvedComponent, ResolvedProcess
+    from orchestra.resolve.model import Resolved, ResolvedComponent
     from orchestra.resolve.rcl.sections import Section
 
     _Node: TypeAlias = "ResolvedProcess | ResolvedComponent"
+
+
+_MADE = "${run}/"  # what code of a launch file has written is nothing to show
 
 
 @dataclass(slots=True)
@@ -72,7 +75,7 @@ def _files(nodes: Sequence[_Node]) -> list[_File]:
     for node in nodes:
         name = node_name(node)
         for source in node.parameters:
-            if not isinstance(source, FileParameters) or not source.sections:
+            if not isinstance(source, FileParameters) or not source.sections or _hands_on(node):
                 continue
             place = source.location if source.everywhere else None
             file = files.setdefault((source.path, place), _File(source))
@@ -81,6 +84,13 @@ def _files(nodes: Sequence[_Node]) -> list[_File]:
             else:
                 file.users.setdefault(name, source.location)
     return list(files.values())
+
+
+def _hands_on(node: _Node) -> bool:
+    """Return whether a node may be given files for others: a container has those of its components."""
+    return isinstance(node, ResolvedProcess) and (
+        node.kind == "container" or node.executable.startswith("component_container")
+    )
 
 
 def _check(file: _File, names: _Names, resolved: Resolved, problems: Problems, told: set[object]) -> None:
@@ -98,7 +108,7 @@ def _check(file: _File, names: _Names, resolved: Resolved, problems: Problems, t
             _report(meant, name, _instead(meant, name), file.users[name], problems, told)
         elif not served:
             without.append(name)
-    if without and (not file.source.everywhere or (len(without) == len(file.users) and not file.open)):
+    if len(without) == len(file.users) and not file.open:
         _report_without(file, without, idle, problems, told)
 
 
@@ -136,14 +146,17 @@ def _report(
     problems: Problems,
     told: set[object],
 ) -> None:
-    if section.location.span in told:
+    place = section.location
+    if place.span in told:
         return
-    told.add(section.location.span)
+    told.add(place.span)
+    if place.span.file.startswith(_MADE):
+        place, instead = given_at, None
     message = f"no node is called '{_absolute(section.pattern)}', and '{name}' is given this file"
     notes = [f"it is given at {given_at}"]
     if instead is None:
         notes.append(f"did you mean '{name}'?")
-    problems.warning(Code.UNMATCHED_SECTION, message, section.location, suggestion=instead, notes=notes)
+    problems.warning(Code.UNMATCHED_SECTION, message, place, suggestion=instead, notes=notes)
 
 
 def _report_without(
