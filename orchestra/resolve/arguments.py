@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.description.launch import Description
+    from orchestra.resolve.ledger import Ledger
     from orchestra.resolve.resolution import Resolution
-    from orchestra.resolve.scope import Ledger
 
 # Variables that upstream itself gives a meaning, so that they need no declaration.
 _KNOWN = frozenset(

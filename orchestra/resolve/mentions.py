@@ -18,8 +18,9 @@ from orchestra.description.text import Call, Opaque, Template, Words
 from orchestra.errors import Problems
 from orchestra.resolve.context import CommandResult, Context, Value
 from orchestra.resolve.evaluate import evaluate
+from orchestra.resolve.ledger import Hidden
 from orchestra.resolve.paths import beside
-from orchestra.resolve.scope import Hidden, Variable
+from orchestra.resolve.scope import Variable
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator

@@ -17,6 +17,7 @@ from orchestra.resolve.context import POISON, Context, Evaluated, Poison, Value
 from orchestra.resolve.evaluate import evaluate
 from orchestra.resolve.impossible.held import Held
 from orchestra.resolve.inputs import Inputs
+from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.model import (
     FileParameters,
     ResolvedArgument,
@@ -28,7 +29,7 @@ from orchestra.resolve.model import (
 from orchestra.resolve.occasions import Action as CollectedAction
 from orchestra.resolve.occasions import Occasion
 from orchestra.resolve.packages.extensions import extends
-from orchestra.resolve.scope import Ledger, Scope
+from orchestra.resolve.scope import Scope
 
 if TYPE_CHECKING:
     from orchestra.description.text import Template

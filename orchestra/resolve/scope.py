@@ -13,10 +13,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
-from orchestra.description.entity import Conditional
 from orchestra.errors import Code, Problems
 from orchestra.location import Location, Span
 from orchestra.resolve.context import POISON, Evaluated, Read, Setter, Value
+from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.model import EnvironmentChange, InlineParameter, ParameterSource, ResolvedRemap
 from orchestra.resolve.scalars import flow
 
@@ -45,39 +45,6 @@ class Variable:
     leaked_from: Span | None = None
     setter: Setter = "let"
     settled: Location | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class Hidden:
-    """An action that its condition left out, and the files that includes in it name: None for one that is not known."""
-
-    action: Conditional
-    files: tuple[str | None, ...]
-
-
-@dataclass(slots=True)
-class Ledger:
-    """What a file and the files it includes do with variables.
-
-    `defaulted` are the declared ones left at their default, `missing` those that have neither default nor value,
-    with the place of the declaration. `hidden` are the actions that conditions left out; `incomplete` tells that a
-    file could not be read or found, so that there may be more.
-    """
-
-    read: set[str] = field(default_factory=set)
-    declared: set[str] = field(default_factory=set)
-    defaulted: set[str] = field(default_factory=set)
-    missing: dict[str, Location] = field(default_factory=dict)
-    hidden: list[Hidden] = field(default_factory=list)
-    incomplete: bool = False
-
-    def absorb(self, other: Ledger) -> None:
-        """Take over what an include did; what it lacks is settled where it ends."""
-        self.read |= other.read
-        self.declared |= other.declared
-        self.defaulted |= other.defaulted
-        self.hidden += other.hidden
-        self.incomplete |= other.incomplete
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from orchestra.location import Location
 from orchestra.resolve.context import Context
+from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.reactions import ResolvedDeferred
 from orchestra.resolve.resolution import Frame
-from orchestra.resolve.scope import Ledger, Scope
+from orchestra.resolve.scope import Scope
 
 if TYPE_CHECKING:
     from orchestra.resolve.resolution import Resolution

@@ -12,8 +12,9 @@ from orchestra.location import Location, Span, point
 from orchestra.resolve.commands import run_command
 from orchestra.resolve.context import POISON, Context, Poison, Value
 from orchestra.resolve.evaluate import evaluate
+from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.packages import InstalledPackages
-from orchestra.resolve.scope import Ledger, Scope
+from orchestra.resolve.scope import Scope
 from orchestra.resolve.words import split
 
 if TYPE_CHECKING:
