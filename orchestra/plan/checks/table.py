@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final, Protocol
 
 from orchestra.plan.checks.declared import check_declared
+from orchestra.plan.checks.interfaces import check_interfaces
 from orchestra.plan.checks.sections import check_sections
 
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ class Check(Protocol):
 
 CHECKS: Final[tuple[Check, ...]] = (
     check_declared,
+    check_interfaces,
     check_sections,
 )
 
