@@ -6,6 +6,7 @@ from typing import Annotated, Final
 
 from pydantic import Field, PlainValidator
 
+from orchestra.description.conflict import Conflict
 from orchestra.description.entity import Entity
 from orchestra.description.fields import AnyValue, Argv, Flag, Seconds, Text, word, worded
 from orchestra.description.ranges import COUNT, INTERVAL, RATE, SOME_SECONDS
@@ -72,12 +73,13 @@ class Ready(Entity):
         default=None, description="Seconds between two tries of `tcp`, `http`, `file` and `command`."
     )
 
-    def conflict(self) -> str | None:
+    def conflict(self) -> Conflict | None:
         """Return what is missing beside what stands here."""
         if all(getattr(self, key) is None for key in FACTS):
-            return f"`ready` says what is awaited: one or more of {', '.join(FACTS)}"
+            return Conflict(f"`ready` says what is awaited: one or more of {', '.join(FACTS)}")
         if self.interval is not None and all(getattr(self, key) is None for key in _TRIED):
-            return "`interval` goes with `tcp`, `http`, `file` or `command`: all else is told as it happens"
+            reason = "`interval` goes with `tcp`, `http`, `file` or `command`: all else is told as it happens"
+            return Conflict(reason, ("interval",))
         return None
 
 
@@ -111,14 +113,19 @@ class Alive(Entity):
         default=None, description="Whether what hangs is ended with SIGABRT first, which leaves a core file."
     )
 
-    def conflict(self) -> str | None:
+    def conflict(self) -> Conflict | None:
         """Return what is missing beside what stands here."""
         if self.notify is None and self.message is None and self.min_rate is None and self.command is None:
-            return "`alive` names a sign of life: one or more of `notify`, `message` and `command`"
+            return Conflict("`alive` names a sign of life: one or more of `notify`, `message` and `command`")
         if (self.message is None) != (self.min_rate is None):
-            return "`message` and `min_rate` go together: a topic, and how many messages a second are too few"
+            together = (
+                "`message` and `min_rate` go together: a topic, and how many messages a second are too few"
+            )
+            return Conflict(together, ("message", "min_rate"))
         if self.window is not None and self.message is None:
-            return "`window` goes with `message` and `min_rate`"
+            return Conflict("`window` goes with `message` and `min_rate`", ("window",))
         of_command = {"interval": self.interval, "timeout": self.timeout, "failures": self.failures}
         stray = next((key for key, value in of_command.items() if value is not None), None)
-        return f"`{stray}` goes with `command`" if stray and self.command is None else None
+        if stray is None or self.command is not None:
+            return None
+        return Conflict(f"`{stray}` goes with `command`", (stray,))

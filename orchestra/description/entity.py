@@ -23,6 +23,7 @@ from pydantic import (
 )
 from pydantic_core import ErrorDetails, PydanticCustomError
 
+from orchestra.description.conflict import Conflict
 from orchestra.description.fields import Flag
 from orchestra.description.source import Keyed
 from orchestra.description.text import Template
@@ -37,13 +38,16 @@ _EntityT = TypeVar("_EntityT", bound="Entity")
 class FaultReader(Protocol):
     """The part of a loader that entities talk to."""
 
-    def keys(self, known: frozenset[str], mapping: Keyed) -> Keyed:
-        """Return the mapping with no key but those that are known; others are reported."""
+    def keys(self, known: frozenset[str], mapping: Keyed, required: frozenset[str] = ...) -> Keyed:
+        """Return the mapping with no key but those that are known; others are reported.
+
+        `required` are those of them that cannot be missing.
+        """
 
     def faults(self, mapping: Keyed, errors: Sequence[ErrorDetails]) -> set[str]:
         """Report what is wrong with the values, return the keys that are concerned."""
 
-    def conflict(self, mapping: Keyed, reason: str) -> None:
+    def conflict(self, mapping: Keyed, conflict: Conflict) -> None:
         """Report keys that cannot stand together."""
 
 
@@ -99,7 +103,7 @@ class Entity(BaseModel):
         """The object of a Python launch file that the entity was made from."""
         return self._origin
 
-    def conflict(self) -> str | None:
+    def conflict(self) -> Conflict | None:
         """Return why the keys that stand here cannot stand together, None where they can."""
         return None
 
@@ -127,7 +131,7 @@ class Entity(BaseModel):
             raise TypeError("mappings are read with a loader as the validation context")
         if isinstance(data.read, cls):  # read before, when something beside it was wrong
             return data.read
-        mapping = reader.keys(cls.known_keys(), data)
+        mapping = reader.keys(cls.known_keys(), data, cls.required_keys())
         faulty = mapping.lossy
         try:
             entity = handler(dict(mapping))
@@ -152,10 +156,11 @@ class Conditional(Entity):
     )
     unless: Flag | None = Field(default=None, description="Carry the action out only if this is false.")
 
-    def conflict(self) -> str | None:
+    def conflict(self) -> Conflict | None:
         """Return a conflict between the two conditions."""
-        both = self.if_ is not None and self.unless is not None
-        return "`if` and `unless` cannot stand on one action" if both else None
+        if self.if_ is None or self.unless is None:
+            return None
+        return Conflict("`if` and `unless` cannot stand on one action", ("if", "unless"))
 
 
 class Action(Conditional):
@@ -165,7 +170,7 @@ class Action(Conditional):
 def _sound(entity: _EntityT) -> _EntityT:
     """Refuse an entity whose keys cannot stand together."""
     if (conflict := entity.conflict()) is not None:
-        raise PydanticCustomError("conflict", "{conflict}", {"conflict": conflict})
+        raise PydanticCustomError("conflict", "{conflict}", {"conflict": conflict.reason})
     return entity
 
 

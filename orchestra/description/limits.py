@@ -6,6 +6,7 @@ from typing import Annotated, TypeAlias
 
 from pydantic import Field, PlainValidator, WithJsonSchema
 
+from orchestra.description.conflict import Conflict
 from orchestra.description.entity import Entity
 from orchestra.description.fields import Flag, Text, text_or_list, word, worded
 from orchestra.description.ranges import NICE, PRIORITY
@@ -93,12 +94,13 @@ class Limits(Entity):
     )
     rlimits: Rlimits | None = Field(default=None, description="Limits of getrlimit(2), by their names.")
 
-    def conflict(self) -> str | None:
+    def conflict(self) -> Conflict | None:
         """Return which keys cannot stand without or beside another."""
         if self.exclusive is not None and self.cores is None:
-            return "`exclusive` goes with `cores`"
+            return Conflict("`exclusive` goes with `cores`", ("exclusive",))
         if self.priority is not None and self.scheduler is None:
-            return "`priority` goes with `scheduler: fifo` or `scheduler: rr`"
+            return Conflict("`priority` goes with `scheduler: fifo` or `scheduler: rr`", ("priority",))
         if self.memory_lock is not None and self.rlimits is not None and self.rlimits.memlock is not None:
-            return "`memory_lock` and `memlock` of `rlimits` say the same thing: leave one of them out"
+            reason = "`memory_lock` and `memlock` of `rlimits` say the same thing: leave one of them out"
+            return Conflict(reason, ("memory_lock", "rlimits"))
         return None

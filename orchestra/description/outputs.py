@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from typing import Annotated, Any, TypeAlias
 
-from pydantic import PlainValidator, ValidationInfo, WithJsonSchema
+from pydantic import PlainValidator, ValidationError, ValidationInfo, WithJsonSchema
 from pydantic_core import PydanticCustomError
 
-from orchestra.description.fields import items_of, word
+from orchestra.description.fields import STRAY_KEY, items_of, placed_in, word
 from orchestra.description.text import Template
+from orchestra.nearest import nearest
 
 OUTPUTS = ("screen", "log", "both", "own_log", "full")
 STREAMS = ("stdout", "stderr", "both")
@@ -36,12 +37,26 @@ _SCHEMA: dict[str, Any] = {
 def _output(value: object, info: ValidationInfo) -> Template | dict[str, tuple[Template, ...]]:
     if not isinstance(value, dict):
         return _word(value, info)
-    stray = next((key for key in value if key not in STREAMS), None)
-    if stray is not None or not value:
-        found = f"'{stray}'" if stray is not None else "no key"
-        wanted = {"wanted": ", ".join(STREAMS), "found": found}
+    if not value:
+        wanted = {"wanted": ", ".join(STREAMS), "found": "no key"}
         raise PydanticCustomError("wrong_type", "expected streams ({wanted}), found {found}", wanted)
-    return {stream: _places(places, info) for stream, places in value.items()}
+    return {stream: _stream(stream, places, info) for stream, places in value.items()}
+
+
+def _stream(stream: str, places: object, info: ValidationInfo) -> tuple[Template, ...]:
+    """Read the places of one stream; a fault is one of its key or of its places."""
+    if stream not in STREAMS:
+        facts = {"wanted": ", ".join(STREAMS), "stray": stream, "suggestion": nearest(stream, STREAMS)}
+        error = PydanticCustomError(STRAY_KEY, "expected streams ({wanted}), found '{stray}'", facts)
+        raise placed_in((stream,), error, places)
+    try:
+        return _places(places, info)
+    except PydanticCustomError as error:
+        raise placed_in((stream,), error, places) from None
+    except ValidationError as error:
+        (inner,) = error.errors(include_url=False)
+        again = PydanticCustomError("wrong_type", "{said}", {"said": inner["msg"], **inner.get("ctx", {})})
+        raise placed_in((stream, *inner["loc"]), again, inner["input"]) from None
 
 
 def _places(value: object, info: ValidationInfo) -> tuple[Template, ...]:

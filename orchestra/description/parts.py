@@ -6,6 +6,7 @@ from typing import Annotated, TypeAlias
 
 from pydantic import Field, PlainValidator
 
+from orchestra.description.conflict import Conflict
 from orchestra.description.entity import Entity
 from orchestra.description.fields import AnyValue, Flag, Seconds, Text, word, worded
 from orchestra.description.ranges import BUDGET, GROWTH, SHARE
@@ -25,14 +26,32 @@ VALUE_TYPES = (
     "yaml",
 )
 
-TypeWord: TypeAlias = Annotated[Template, PlainValidator(word(*VALUE_TYPES)), worded(*VALUE_TYPES)]
+# The words of ROS, of C++ and of JSON for these types.
+_TYPES_ELSEWHERE = {
+    "string": "str",
+    "text": "str",
+    "boolean": "bool",
+    "integer": "int",
+    "double": "float",
+    "number": "float",
+    "string_array": "list_of_str",
+    "bool_array": "list_of_bool",
+    "integer_array": "list_of_int",
+    "double_array": "list_of_float",
+    "list_of_string": "list_of_str",
+    "list_of_double": "list_of_float",
+}
+
+TypeWord: TypeAlias = Annotated[
+    Template, PlainValidator(word(*VALUE_TYPES, elsewhere=_TYPES_ELSEWHERE)), worded(*VALUE_TYPES)
+]
 
 
 class Pair(Entity):
     """A name and a value."""
 
-    name: Text
-    value: Text
+    name: Text = Field(description="The name.")
+    value: Text = Field(description="The value.")
 
 
 class Remap(Entity):
@@ -56,16 +75,23 @@ class Param(Entity):
     from_: Text | None = Field(default=None, alias="from", description="A parameter file.")
     allow_substs: Flag | None = Field(default=None, description="Whether `$(...)` in the file is evaluated.")
 
-    def conflict(self) -> str | None:
+    def conflict(self) -> Conflict | None:
         """Return what keeps this from being one of the three forms."""
-        forms = [self.value is not None, self.param is not None, self.from_ is not None]
-        if sum(forms) != 1:
-            return "a param has one of `value`, `param` and `from`"
+        forms = (self.value, self.param, self.from_)
+        if sum(form is not None for form in forms) != 1:
+            none = forms == (None, None, None)
+            return Conflict(
+                "a param has one of `value`, `param` and `from`", () if none else ("value", "param", "from")
+            )
         if (self.name is None) != (self.from_ is not None):
-            return "a param has either a `name` or a file (`from`)"
+            return Conflict(
+                "a param has either a `name` or a file (`from`)",
+                () if self.name is None else ("name", "from"),
+            )
         if self.allow_substs is not None and self.from_ is None:
-            return "`allow_substs` goes with `from`"
-        return "`type` goes with `value`" if self.type is not None and self.value is None else None
+            return Conflict("`allow_substs` goes with `from`", ("allow_substs",))
+        typeless = self.type is not None and self.value is None
+        return Conflict("`type` goes with `value`", ("type",)) if typeless else None
 
 
 class Override(Param):
@@ -89,16 +115,21 @@ class DependsOn(Entity):
         description="Whether it starts only then; else it starts too once that cannot come about.",
     )
 
-    def conflict(self) -> str | None:
+    def conflict(self) -> Conflict | None:
         """Return what keeps this from naming one thing."""
         targets = sum(target is not None for target in (self.node, self.process, self.label))
-        return None if targets == 1 else "a dependency names one of `node`, `process` and `label`"
+        if targets == 1:
+            return None
+        too_many = ("node", "process", "label") if targets else ()
+        return Conflict("a dependency names one of `node`, `process` and `label`", too_many)
 
 
 class Restart(Entity):
     """When an ended process is started again."""
 
-    policy: Annotated[Template, PlainValidator(word(*POLICIES)), worded(*POLICIES)]
+    policy: Annotated[Template, PlainValidator(word(*POLICIES)), worded(*POLICIES)] = Field(
+        description="`no`, after a failure alone, or whenever it ends."
+    )
     delay: Seconds | None = Field(default=None, description="Least delay before a new start, in seconds.")
     max_delay: Seconds | None = Field(
         default=None, description="What the growing delay stops at, in seconds."

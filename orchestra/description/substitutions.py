@@ -69,11 +69,32 @@ SIGNATURES: Final[Mapping[str, Signature]] = MappingProxyType({
     "var": _takes("name", "[default]", summary="a launch argument or variable"),
 })  # fmt: skip
 
-# What people write who come from ROS 1 or from a later distribution.
+# What people write who come from ROS 1, from Python or from a later distribution.
 ELSEWHERE: Final[Mapping[str, str]] = MappingProxyType({
+    "anon_name": "anon",
     "arg": "var",
+    "env_var": "env",
+    "environment_variable": "env",
+    "equals_substitution": "equals",
+    "executable_in_package": "exec-in-pkg",
     "find": "find-pkg-share",
-    "find-pkg": "find-pkg-prefix",
-    "if-else": "if",
+    "find_executable": "find-exec",
+    "find_package": "find-pkg-prefix",
+    "find_package_prefix": "find-pkg-prefix",
+    "find_package_share": "find-pkg-share",
+    "find_pkg": "find-pkg-prefix",
+    "find_share": "find-pkg-share",
+    "if_else": "if",
+    "if_else_substitution": "if",
+    "launch_configuration": "var",
+    "launch_configuration_equals": "equals",
+    "not_equals_substitution": "not-equals",
     "optenv": "env",
+    "parameter": "param",
+    "path_join_substitution": "path-join",
+    "python": "eval",
+    "python_expression": "eval",
+    "string_join_substitution": "string-join",
+    "this_launch_file": "filename",
+    "this_launch_file_dir": "dirname",
 })  # fmt: skip

@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from orchestra.description.source import Keyed, Written
+from orchestra.description.source import Keyed, Listed, Written
+from orchestra.location import Span
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from orchestra.load.offsets import Source
-    from orchestra.location import Span
 
 # Each piece of an attribute's source stands for one character of its value.
 _PIECE = re.compile(r"&[^;]*;|\r\n|.", re.DOTALL)
@@ -94,3 +94,21 @@ def noun(mapping: Keyed, key: str) -> str:
     if not isinstance(mapping, Tagged):
         return f"key '{key}'"
     return f"element <{key}>" if key in mapping.elements else f"attribute '{key}'"
+
+
+def beginning_of(value: Any, head: Span) -> Span:  # noqa: ANN401 - a tree
+    """Return the place to point at for a value; that of its key, which is `head`, where there is nothing to see.
+
+    It is all of a value on one line, else what it begins with: in block form its first key, an element its name.
+    """
+    if isinstance(value, Tagged):
+        return value.head
+    if not isinstance(value, Keyed | Listed | Written) or (isinstance(value, Written) and value.null):
+        return head
+    span = value.span
+    if span.line == span.end_line or isinstance(value, Written):
+        return span
+    first = min(value.keys_at.values(), default=None) if isinstance(value, Keyed) else None
+    if first is not None and (first.line, first.column) == (span.line, span.column):
+        return first
+    return Span(span.file, span.line, span.column, span.line, span.column + 1)

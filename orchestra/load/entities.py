@@ -11,12 +11,14 @@ from orchestra.description.actions import model_of
 from orchestra.description.launch import Description, Launch
 from orchestra.description.source import Keyed, Listed, Written, kind_of, texts_in
 from orchestra.errors import Code
-from orchestra.load.elements import emptied
+from orchestra.load.elements import Tagged, beginning_of, emptied
 from orchestra.load.exposed import exposed_action, exposes_action
 from orchestra.load.keys import action_meant, spelled
 from orchestra.load.reader import Reader
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from orchestra.description.entity import Action, Entity
     from orchestra.location import Span
 
@@ -26,9 +28,10 @@ _EntityT = TypeVar("_EntityT", bound="Entity")
 def describe(tree: Any, path: str, file: str, reader: Reader) -> Description | None:  # noqa: ANN401 - a tree
     """Return the description that a tree holds, None where it is no launch description at all."""
     if not isinstance(tree, Keyed):
-        reader.error(Code.WRONG_TYPE, "a launch file is a mapping with the key 'launch'", tree.span)
+        message = "a launch file is a mapping with the key 'launch'"
+        reader.error(Code.WRONG_TYPE, message, beginning_of(tree, tree.span))
         return None
-    root = reader.keys(frozenset({"launch"}), tree)
+    root = reader.keys(frozenset({"launch"}), tree, frozenset({"launch"}))
     if "launch" not in root:
         if not root.lossy:
             reader.error(Code.MISSING_KEY, "the key 'launch' is missing", tree.span)
@@ -50,13 +53,14 @@ class _Builder:
     def actions(self, items: Any, head: Span) -> tuple[Action, ...]:  # noqa: ANN401 - a tree
         """Return the actions of a list."""
         if not isinstance(items, Listed):
-            self._wrong(f"expected a list of actions, found {kind_of(items)}", _span(items, head))
+            self._wrong(f"expected a list of actions, found {kind_of(items)}", beginning_of(items, head))
             return ()
         built = []
-        for item in items:
+        for item in self._apart(items):
             action = self._action(item)
             if action is None or action.faulty:
                 self.lost.update(texts_in(item))
+                self.lost.update(_repeated_for(item))
             if action is not None:
                 built.append(action)
         return tuple(built)
@@ -72,9 +76,11 @@ class _Builder:
             content = keyed
         if not isinstance(content, Keyed):
             wanted = "a list of actions" if nested else "a mapping"
-            self._wrong(f"expected {wanted}, found {kind_of(content)}", _span(content, at))
+            self._wrong(f"expected {wanted}, found {kind_of(content)}", beginning_of(content, at))
             return None
-        content = self.reader.keys(model.known_keys(), content)
+        if nested and "children" not in content:
+            content = self._listed(content, model.known_keys())
+        content = self.reader.keys(model.known_keys(), content, model.required_keys())
         if nested and "children" in content:
             children = self.actions(content["children"], content.keys_at["children"])
             content = _with_children(content, children)
@@ -91,7 +97,10 @@ class _Builder:
 
     def _action(self, item: Any) -> Action | None:  # noqa: ANN401 - a tree
         if not isinstance(item, Keyed):
-            self._wrong(f"expected an action (one key: its name), found {kind_of(item)}", item.span)
+            found = kind_of(item)
+            self._wrong(
+                f"expected an action (one key: its name), found {found}", beginning_of(item, item.span)
+            )
             return None
         name, content = self._named(item)
         if name is None:
@@ -107,6 +116,41 @@ class _Builder:
             content.meant |= model.required_keys()  # what a guess lacks is not told
         return self.entity(model, content)
 
+    def _apart(self, items: Listed) -> Iterator[Any]:
+        """Yield the items of a list; of several actions in one item, for want of a '- ', each by itself."""
+        for item in items:
+            if not isinstance(item, Keyed) or len(item) == 1 or not all(map(_is_action, item)):
+                yield item
+                continue
+            first = next(iter(item))
+            if isinstance(item[first], Written) or any(map(_keys_of(first).__contains__, item)):
+                yield item
+                continue
+            for name, content in item.items():
+                if name != first:
+                    self._without_dash(name, item.keys_at[name])
+                yield _alone(name, content, item.keys_at[name])
+
+    def _listed(self, content: Keyed, known: frozenset[str]) -> Keyed:
+        """Return a mapping with the actions in it as its children, where they stand as keys; the first is told."""
+        names = [key for key in content if spelled(key) not in known and _is_action(key)]
+        if not names or isinstance(content, Tagged):
+            return content
+        self._without_dash(names[0], content.keys_at[names[0]])
+        read = emptied(content)
+        read.lossy, read.meant = True, content.meant
+        children = Listed(content.span)
+        children.extend(_alone(name, content[name], content.keys_at[name]) for name in names)
+        for key, value in content.items():
+            if key not in names:
+                read.put(key, value, content.keys_at[key])
+        read.put("children", children, content.head)
+        return read
+
+    def _without_dash(self, name: str, at: Span) -> None:
+        message = f"'{name}' is an action: a '- ' is missing before it"
+        self.reader.error(Code.WRONG_TYPE, message, at, suggestion=f"- {name}")
+
     def _named(self, item: Keyed) -> tuple[str | None, Any]:
         """Return the name of an action and what stands behind it.
 
@@ -114,19 +158,22 @@ class _Builder:
         """
         if len(item) == 1:
             return next(iter(item.items()))
-        name = next((key for key, value in item.items() if isinstance(value, Written) and value.null), None)
-        model = model_of(spelled(name)) if name is not None else None
-        if name is None or model is None or len(item) == 0:
+        name = _name_among(item)
+        if name is None:
             keys = ", ".join(f"'{key}'" for key in item)
             found = f"{len(item)} keys: {keys}" if item else "none"
             self._wrong(f"expected an action (one key: its name), found {found}", item.head)
             return None, None
-        content = Keyed(item.span, item.keys_at[name])
-        for key, value in item.items():
-            if key != name:
-                content.put(key, value, item.keys_at[key])
-        first = next(iter(content.keys_at.values()))
-        self._wrong(f"the keys of '{name}' stand beside it: indent them more than its name", first)
+        content, inside = Keyed(item.span, item.keys_at[name]), item[name]
+        beside = [key for key in item if key != name]
+        if isinstance(inside, Keyed):
+            content.update(inside)
+            content.keys_at.update(inside.keys_at)
+        for key in beside:
+            content.put(key, item[key], item.keys_at[key])
+        self._wrong(
+            f"the keys of '{name}' stand beside it: indent them more than its name", item.keys_at[beside[0]]
+        )
         return name, content
 
     def _model(self, name: str, at: Span) -> tuple[type[Action] | None, bool]:
@@ -151,8 +198,39 @@ def _with_children(content: Keyed, children: tuple[Action, ...]) -> Keyed:
     return built
 
 
-def _span(value: Any, head: Span) -> Span:  # noqa: ANN401 - a tree
-    if isinstance(value, Written) and value.null:
-        return head
-    span: Span = value.head if isinstance(value, Keyed) else value.span
-    return span
+def _is_action(name: str) -> bool:
+    return model_of(spelled(name)) is not None
+
+
+def _keys_of(name: str) -> frozenset[str]:
+    """Return the keys that an action knows, none for what is no action."""
+    model = model_of(spelled(name))
+    return frozenset() if model is None else model.known_keys()
+
+
+def _name_among(item: Keyed) -> str | None:
+    """Return the key that is the name of an action whose own keys stand beside it, None where no key is."""
+    names = [key for key in item if _is_action(key)]
+    bare = next((name for name in names if isinstance(item[name], Written) and item[name].null), None)
+    if bare is not None:
+        return bare
+    first = next((name for name in names if isinstance(item[name], Keyed)), None)
+    if first is None:
+        return None
+    others = [spelled(key) for key in item if key != first]
+    fits = all(key in _keys_of(first) and key not in item[first] for key in others)
+    return first if fits else None
+
+
+def _alone(name: str, content: Any, at: Span) -> Keyed:  # noqa: ANN401 - a tree
+    """Return an item that is nothing but one action."""
+    item = Keyed(at, at)
+    item.put(name, content, at)
+    return item
+
+
+def _repeated_for(item: Any) -> Iterator[str]:  # noqa: ANN401 - a tree
+    """Yield the variables that an action is repeated for."""
+    for content in item.values() if isinstance(item, Keyed) else ():
+        repeated = content.get("for_each") if isinstance(content, Keyed) else None
+        yield from repeated if isinstance(repeated, Keyed) else ()

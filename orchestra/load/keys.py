@@ -12,7 +12,7 @@ from orchestra.description.actions import ACTIONS
 from orchestra.errors import Code
 from orchestra.load.elements import emptied, noun
 from orchestra.load.pairs import written_item
-from orchestra.load.words import ELSEWHERE
+from orchestra.load.words import ELSEWHERE, KEYS_ELSEWHERE, snake
 from orchestra.nearest import is_slip, nearest
 
 if TYPE_CHECKING:
@@ -20,27 +20,6 @@ if TYPE_CHECKING:
 
     from orchestra.description.source import Keyed
     from orchestra.location import Span
-
-# Words of the Python launch files and of ROS 1, and how they are spelled here.
-_ELSEWHERE = {
-    "additional_env": "env",
-    "arguments": "args",
-    "command": "cmd",
-    "default_value": "default",
-    "doc": "description",
-    "environment": "env",
-    "executable": "exec",
-    "launch_arguments": "arg",
-    "node_name": "name",
-    "node_namespace": "namespace",
-    "ns": "namespace",
-    "package": "pkg",
-    "parameters": "param",
-    "prefix": "launch_prefix",
-    "remappings": "remap",
-    "ros_arguments": "ros_args",
-    "type": "exec",
-}
 
 
 class Report(Protocol):
@@ -66,15 +45,18 @@ def spelled(key: str) -> str:
 def meant(word: str, known: Iterable[str], elsewhere: Mapping[str, str]) -> tuple[str | None, bool]:
     """Return the known word that another one probably means, and whether it is only a slip."""
     known = frozenset(known)
-    if (other := elsewhere.get(spelled(word))) in known:
-        return other, False
+    for spelling in (spelled(word), snake(word)):
+        if (other := elsewhere.get(spelling)) in known:
+            return other, is_slip(word, other)
     near = nearest(word, known)
     return near, near is not None and is_slip(word, near)
 
 
 def key_meant(word: str, known: Iterable[str]) -> tuple[str | None, bool]:
     """Return the known key that another word probably means, and whether it is only a slip."""
-    return meant(word, known, _ELSEWHERE)
+    known = frozenset(known)
+    other = next((key for key in KEYS_ELSEWHERE.get(snake(word), ()) if key in known), None)
+    return meant(word, known, {} if other is None else {spelled(word): other, snake(word): other})
 
 
 def action_meant(word: str) -> tuple[str | None, bool]:
@@ -82,24 +64,30 @@ def action_meant(word: str) -> tuple[str | None, bool]:
     return meant(word, ACTIONS, ELSEWHERE)
 
 
-def known_keys(known: frozenset[str], mapping: Keyed, report: Report) -> Keyed:
-    """Return the mapping with no keys but known ones; every other key is reported, and so is one that stands twice."""
+def known_keys(
+    known: frozenset[str], mapping: Keyed, report: Report, required: frozenset[str] = frozenset()
+) -> Keyed:
+    """Return the mapping with no keys but known ones; every other key is reported, and so is one that stands twice.
+
+    Where one of the `required` ones lacks, a key that is like no other probably means that one.
+    """
     if mapping.keys() <= known:
         return mapping
     read = emptied(mapping)
     read.lossy, read.meant = mapping.lossy, set(mapping.meant)
     free = known - {spelled(key) for key in mapping}
-    pair = written_item(known, mapping)
+    strangers = _Strangers(known, required & free, mapping)
     for key, value in mapping.items():
         at, name = mapping.keys_at[key], spelled(key)
         if name not in known:
             near, slip = key_meant(key, free)
-            notes = (f"it is written {pair[1]}",) if pair is not None and near is None else ()
-            report(Code.UNKNOWN_KEY, f"unknown {noun(mapping, key)}", at, suggestion=near, notes=notes)
             if near is None or not slip:
+                stands_for = strangers.told(key, at, near, report)
                 read.lossy = True
-                read.meant |= {near} if near is not None else set(pair[0]) if pair is not None else set()
+                read.meant |= stands_for
+                free -= stands_for
                 continue
+            report(Code.UNKNOWN_KEY, f"unknown {noun(mapping, key)}", at, suggestion=_as_written(near, key))
             name, free = near, free - {near}
         if name in read:
             first = f"first at {read.keys_at[name]}"
@@ -107,3 +95,51 @@ def known_keys(known: frozenset[str], mapping: Keyed, report: Report) -> Keyed:
         else:
             read.put(name, value, at)
     return read
+
+
+class _Strangers:
+    """Tells the keys of a mapping that are no slips of known ones; `lacking` are those that it cannot be without."""
+
+    def __init__(self, known: frozenset[str], lacking: frozenset[str], mapping: Keyed) -> None:
+        self.known = known
+        self.lacking = lacking
+        self.mapping = mapping
+        self.pair = written_item(known, mapping)
+
+    def told(self, key: str, at: Span, near: str | None, report: Report) -> frozenset[str]:
+        """Report a key; return the known ones that it stands for, which are not missing then."""
+        message, instead, notes = f"unknown {noun(self.mapping, key)}", near, list[str]()
+        stands_for = frozenset() if near is None else frozenset({near})
+        left, colon, value = key.partition(":")
+        if near is None and colon and spelled(left) in self.known:
+            message, instead = f"a blank is missing behind '{left}:'", f"{left}: {value}"
+            stands_for = frozenset({spelled(left)})
+        elif near is None and self.pair is not None:
+            notes.append(f"it is written {self.pair[1]}")
+            stands_for = frozenset(self.pair[0])
+        elif near is None and self.lacking:
+            instead = _abbreviated(key, self.lacking)
+            notes += [
+                f"the {noun(self.mapping, name)} is missing" for name in sorted(self.lacking) if not instead
+            ]
+            stands_for = frozenset({instead}) if instead is not None else self.lacking
+        self.lacking -= stands_for
+        suggestion = None if instead is None else _as_written(instead, key)
+        report(Code.UNKNOWN_KEY, message, at, suggestion=suggestion, notes=notes)
+        return stands_for
+
+
+def _abbreviated(word: str, known: frozenset[str]) -> str | None:
+    """Return the one known word of which another one has the first letter and others in order: `msg` of `message`."""
+    found = [name for name in known if name[0] == word[0].lower() and _is_within(snake(word), name)]
+    return found[0] if len(found) == 1 else None
+
+
+def _is_within(word: str, name: str) -> bool:
+    letters = iter(name)
+    return all(letter in letters for letter in word)
+
+
+def _as_written(key: str, word: str) -> str:
+    """Return a key with the joint of the word that stands for it."""
+    return key.replace("_", "-") if "-" in word and "_" not in word else key

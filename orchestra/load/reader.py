@@ -6,10 +6,11 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from orchestra.description.entity import REPORTED
+from orchestra.description.fields import STRAY_KEY
 from orchestra.description.source import Keyed, Listed, Written, kind_of
 from orchestra.description.text import Template, Words
 from orchestra.errors import Code, Problems
-from orchestra.load.elements import noun
+from orchestra.load.elements import beginning_of, noun
 from orchestra.load.grammar import parse_template, unescaped
 from orchestra.load.keys import known_keys
 from orchestra.load.pairs import written_list
@@ -19,6 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from pydantic_core import ErrorDetails
+
+    from orchestra.description.conflict import Conflict
 
 
 _WANTED = {
@@ -70,31 +73,40 @@ class Reader:
         """Read a text without substitutions."""
         return unescaped(written.text)
 
-    def keys(self, known: frozenset[str], mapping: Keyed) -> Keyed:
-        """Return the mapping with no key but those that are known; others are reported."""
-        return known_keys(known, mapping, self.error)
+    def keys(self, known: frozenset[str], mapping: Keyed, required: frozenset[str] = frozenset()) -> Keyed:
+        """Return the mapping with no key but those that are known; others are reported.
+
+        `required` are those of them that cannot be missing.
+        """
+        return known_keys(known, mapping, self.error, required)
 
     def faults(self, mapping: Keyed, errors: Sequence[ErrorDetails]) -> set[str]:
         """Report what is wrong with the values of a mapping, return the keys that are concerned.
 
         A key that is missing because it is probably misspelt stays silent, for that has been reported.
         """
+        places = [error["loc"] for error in errors]
         for error in errors:
-            misspelt = error["type"] == "missing" and error["loc"][-1] in mapping.meant
-            if error["type"] != REPORTED and not misspelt:
+            place = error["loc"]
+            misspelt = error["type"] == "missing" and place[-1] in mapping.meant
+            fewer = error["type"] == "too_short" and any(
+                other[: len(place)] == place and other != place for other in places
+            )
+            if error["type"] != REPORTED and not misspelt and not fewer:
                 self._fault(mapping, error)
         return {str(error["loc"][0]) for error in errors if error["loc"]}
 
-    def conflict(self, mapping: Keyed, reason: str) -> None:
-        """Report keys that cannot stand together."""
-        self.error(Code.CONFLICTING_KEYS, reason, mapping.head)
+    def conflict(self, mapping: Keyed, conflict: Conflict) -> None:
+        """Report keys that cannot stand together, at the last that is too many."""
+        too_many = [at for key, at in mapping.keys_at.items() if key in conflict.keys]
+        self.error(Code.CONFLICTING_KEYS, conflict.reason, max(too_many, default=mapping.head))
 
     def _fault(self, mapping: Keyed, error: ErrorDetails) -> None:
         kind = error["type"]
         place = error["loc"]
         if kind == "missing":
             missing = noun(mapping, str(place[-1]))
-            self.error(Code.MISSING_KEY, f"the {missing} is missing", _at(mapping, place[:-1]))
+            self.error(Code.MISSING_KEY, f"the {missing} is missing", _way(mapping, place[:-1])[0])
             return
         if kind in _WANTED:
             message = f"expected {_WANTED[kind]}, found {kind_of(error['input'])}"
@@ -105,11 +117,16 @@ class Reader:
         suggestion = error.get("ctx", {}).get("suggestion")
         instead = written_list(str(place[-1]), error["input"]) if kind in _LISTS else None
         notes = () if instead is None else (f"it is written {instead}",)
-        self.error(Code.WRONG_TYPE, message, _at(mapping, place), suggestion=suggestion, notes=notes)
+        head, value = _way(mapping, place)
+        if kind == STRAY_KEY:
+            self.error(Code.UNKNOWN_KEY, message, head, suggestion=suggestion)
+            return
+        at = beginning_of(value, head)
+        self.error(Code.WRONG_TYPE, message, at, suggestion=suggestion, notes=notes)
 
 
-def _at(mapping: Keyed, place: tuple[int | str, ...]) -> Span:
-    """Return the place of a value inside a mapping; for an empty value that of its key."""
+def _way(mapping: Keyed, place: tuple[int | str, ...]) -> tuple[Span, Any]:
+    """Return what is at the end of a way into a mapping: the place of its key or of its item, and the value."""
     value: Any = mapping
     span = mapping.head
     for step in place:
@@ -118,10 +135,7 @@ def _at(mapping: Keyed, place: tuple[int | str, ...]) -> Span:
             value = value[str(step)]
         elif isinstance(value, Listed) and isinstance(step, int) and step < len(value):
             value = value[step]
+            span = beginning_of(value, span)
         else:
             break
-        if isinstance(value, Written | Listed) and not (isinstance(value, Written) and value.null):
-            span = value.span
-        elif isinstance(value, Keyed):
-            span = value.head
-    return span
+    return span, value

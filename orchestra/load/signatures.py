@@ -5,12 +5,13 @@ from __future__ import annotations
 from functools import cache
 
 from orchestra.description.substitutions import ELSEWHERE, SIGNATURES
+from orchestra.load.words import snake
 from orchestra.nearest import nearest
 
 
 def meant(name: str) -> str | None:
     """Return the substitution that an unknown name probably means."""
-    return ELSEWHERE.get(name) or nearest(name, SIGNATURES)
+    return ELSEWHERE.get(snake(name)) or nearest(name, SIGNATURES)
 
 
 @cache

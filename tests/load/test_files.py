@@ -55,7 +55,7 @@ FAULTS: dict[str, tuple[str | bytes, list[tuple[Code, int, int, str | None]]]] =
         "launch:\n- executable: {cmd: a, launch-prefix: b, launch_prefix: c}",
         [(Code.DUPLICATE_KEY, 2, 42, None)],
     ),
-    "a mapping for a text": ("launch:\n- let: {name: {a: 1}, value: b}", [(Code.WRONG_TYPE, 2, 9, None)]),
+    "a mapping for a text": ("launch:\n- let: {name: {a: 1}, value: b}", [(Code.WRONG_TYPE, 2, 15, None)]),
     "a text for a list": ("launch:\n- node: {exec: a, param: b}", [(Code.WRONG_TYPE, 2, 26, None)]),
     "a word for a number": (
         "launch:\n- timer: {period: soon, children: []}",
@@ -65,7 +65,7 @@ FAULTS: dict[str, tuple[str | bytes, list[tuple[Code, int, int, str | None]]]] =
     "nothing for a text": ("launch:\n- let: {name: a, value: }", [(Code.WRONG_TYPE, 2, 18, None)]),
     "two conditions": (
         "launch:\n- log: {message: a, if: true, unless: true}",
-        [(Code.CONFLICTING_KEYS, 2, 3, None)],
+        [(Code.CONFLICTING_KEYS, 2, 31, None)],
     ),
     "an unknown substitution": (
         'launch:\n- log: {message: "x $(vra a)"}',
@@ -73,7 +73,7 @@ FAULTS: dict[str, tuple[str | bytes, list[tuple[Code, int, int, str | None]]]] =
     ),
     "two actions in one item": (
         "launch:\n- log: {message: a}\n  let: {name: a, value: b}",
-        [(Code.WRONG_TYPE, 2, 3, None)],
+        [(Code.WRONG_TYPE, 3, 3, "- let")],
     ),
     "a tag": ("launch:\n- log: {message: !!python/name:os.system a}", [(Code.SYNTAX, 2, 18, None)]),
     "nothing for a list of actions": ("launch:", [(Code.WRONG_TYPE, 1, 1, None)]),

@@ -92,7 +92,7 @@ FAULTS: dict[str, tuple[str, Code, str, str, str | None]] = {
         Code.DUPLICATE_KEY, "ready", "<ready> stands twice in <node>", None,
     ),
     "nothing to repeat for": ("<group><for_each/></group>", Code.WRONG_TYPE, "for_each", "at least one item", None),
-    "two conditions": ("<log message='a' if='1' unless='0'/>", Code.CONFLICTING_KEYS, "log", "`unless`", None),
+    "two conditions": ("<log message='a' if='1' unless='0'/>", Code.CONFLICTING_KEYS, "unless", "`unless`", None),
     "a condition where none can stand": (
         "<node exec='a'><env name='b' value='c' if='true'/></node>", Code.UNKNOWN_KEY, "if", "unknown attribute", None,
     ),

@@ -161,7 +161,7 @@ ONE_FILE: dict[str, tuple[str, list[tuple[Code, int, str, str | None]]]] = {
         "- node: {name: a, exec: {}}\n"
         "- node: [{name: b}]\n"
         "- executable: {cmd: x, depends_on: [{node: a}, {node: b}]}",
-        [(Code.WRONG_TYPE, 2, "exec", None), (Code.WRONG_TYPE, 3, "[{name: b}]", None)],
+        [(Code.WRONG_TYPE, 2, "{}", None), (Code.WRONG_TYPE, 3, "[{name: b}]", None)],
     ),
     "names with other numbers are no slips": (
         "- include: {file: nope.yaml}\n"
@@ -233,7 +233,7 @@ ONE_FILE: dict[str, tuple[str, list[tuple[Code, int, str, str | None]]]] = {
     ),
     "lists point at their faulty item": (
         "- set_parameter: {name: a, value: [1, {b: c}]}\n- group: {for_each: {r: [x, [y]]}, children: []}",
-        [(Code.WRONG_TYPE, 2, "", None), (Code.WRONG_TYPE, 3, "[y]", None)],
+        [(Code.WRONG_TYPE, 2, "{b: c}", None), (Code.WRONG_TYPE, 3, "[y]", None)],
     ),
     "a default that is no choice": (
         "- let: {name: w, value: a}\n- arg: {name: w, default: c, choices: [a, b]}",

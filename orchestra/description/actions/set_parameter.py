@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pydantic import Field
 
+from orchestra.description.conflict import Conflict
 from orchestra.description.entity import Action
 from orchestra.description.fields import AnyValue, Text
 from orchestra.description.parts import Param, TypeWord
@@ -19,10 +20,11 @@ class SetParameter(Action):
     )
     param: tuple[Param, ...] | None = Field(default=None, description="Nested parameters.")
 
-    def conflict(self) -> str | None:
+    def conflict(self) -> Conflict | None:
         """Return what keeps this from being a value or a group of values."""
         if (self.value is None) == (self.param is None):
-            return "`set_parameter` has one of `value` and `param`"
+            too_many = () if self.value is None else ("value", "param")
+            return Conflict("`set_parameter` has one of `value` and `param`", too_many)
         if self.type is not None and self.value is None:
-            return "`type` goes with `value`"
+            return Conflict("`type` goes with `value`", ("type",))
         return super().conflict()
