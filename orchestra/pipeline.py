@@ -113,7 +113,8 @@ def opened(
         with _collector_paused():
             run = begin(inputs, problems, load=load, packages=packages, run_command=run_command)
             description = load(path, problems, ())
-            take_environment(run, point(displayed(path)))  # code of the file may have changed it
+            if isolation.remaining is not None:  # code of the file may have changed it
+                take_environment(run, point(displayed(path)))
             launch = None
             if description is not None:
                 resolved = _symbolic(carry_through(description, run), isolation.files)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 from orchestra.cli.look.finding import Finding
@@ -18,7 +19,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from orchestra.resolve.inputs import Inputs
-    from orchestra.witness.record import Record
 
 _LACKS = (Code.MISSING_ARGUMENT, Code.UNDEFINED_VARIABLE)
 
@@ -62,7 +62,8 @@ def check(targets: Sequence[Target], inputs: Inputs, manner: Manner) -> Checked:
     findings, unchanged = _findings(targets, inputs, manner, kept)
     behind = _behind(findings)
     more, _ = _findings(behind, inputs, manner, kept)
-    kept.tidy()
+    if unchanged < len(findings):
+        kept.tidy()
     found = Problems()
     every = [*findings, *more]
     named = {path for finding in every for path in finding.named}
@@ -81,38 +82,39 @@ def _findings(
     unchanged = len(findings)
     missing = [number for number in range(len(targets)) if number not in findings]
     if missing:
-        looks = _looks([targets[number] for number in missing], inputs, manner)
-        for number, (finding, record) in zip(missing, looks, strict=True):
-            findings[number] = finding
-            if record is not None:
-                kept.keep(targets[number], finding, record)
+        looks = _looks([targets[number] for number in missing], inputs, manner, kept)
+        findings.update(zip(missing, looks, strict=True))
     return [findings[number] for number in range(len(targets))], unchanged
 
 
-def _looks(targets: Sequence[Target], inputs: Inputs, manner: Manner) -> list[tuple[Finding, Record | None]]:
+def _looks(targets: Sequence[Target], inputs: Inputs, manner: Manner, kept: Kept) -> list[Finding]:
     # Here, because it is heavy, and not needed where everything is known.
     from orchestra.cli.look.looker import Looker  # noqa: PLC0415
 
     if not manner.jobs:
         looker = Looker(inputs)
-        return [(looker.look(target)[0], None) for target in targets]
+        return [looker.look(target)[0] for target in targets]
+    with TemporaryDirectory(prefix="orchestra-check-") as scratch:
 
-    def begin() -> Callable[[Target], Done[tuple[Finding, Record | None]]]:
-        looker = Looker(inputs)
-        looker.watch()
+        def begin() -> Callable[[Target], Done[Finding]]:
+            looker = Looker(inputs)
+            looker.watch(os.path.realpath(scratch))
 
-        def look(target: Target) -> Done[tuple[Finding, Record | None]]:
-            finding, record = looker.look(target)
-            return Done((finding, None if record.unknown else record), last=looker.is_spent)
+            def look(target: Target) -> Done[Finding]:
+                finding, record = looker.look(target)
+                kept.keep(target, finding, record)
+                return Done(finding, last=looker.is_spent)
 
-        return look
+            return look
 
-    pool: Pool[Target, tuple[Finding, Record | None]]
-    pool = Pool(begin, max(1, min(manner.jobs, len(targets))), manner.patience)
-    found: dict[int, tuple[Finding, Record | None]] = {}
-    for number, result in pool.results(targets):
-        found[number] = (_lost(targets[number], result), None) if isinstance(result, Lost) else result
-    return [found[number] for number in range(len(targets))]
+        pool: Pool[Target, Finding]
+        pool = Pool(begin, max(1, min(manner.jobs, len(targets))), manner.patience)
+        found = dict(pool.results(targets))
+    results = [found[number] for number in range(len(targets))]
+    return [
+        _lost(target, result) if isinstance(result, Lost) else result
+        for target, result in zip(targets, results, strict=True)
+    ]
 
 
 def _lost(target: Target, result: Lost) -> Finding:

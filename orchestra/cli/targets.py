@@ -67,7 +67,7 @@ def _behind(path: str) -> list[Target]:
 
 def _kind_of_file(file: Path, *, named: bool = False) -> Kind | None:
     """Return what a file is; one that is named for itself may lack what marks a parameter file."""
-    if file.suffix not in TEXTS:
+    if file.suffix not in TEXTS or is_launch_name(file.name):
         return kind_of(file.name, "")
     try:
         text = file.read_text("utf-8", errors="replace")

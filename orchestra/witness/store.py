@@ -27,7 +27,6 @@ class Store:
     def __init__(self, folder: str, most: int = _MOST) -> None:
         self._folder = folder
         self._most = most
-        self._written = 0
 
     def read(self, key: str) -> tuple[Record, Any] | None:
         """Return what a result depends on, and the result; None where there is none that can be read."""
@@ -63,15 +62,12 @@ class Store:
             with open(own, "wb") as file:
                 file.write(digest_of(body).encode() + b"\n" + body)
             os.replace(own, path)
-            self._written += 1
         except OSError:
             with suppress(OSError):  # nothing could be written
                 os.unlink(own)
 
     def prune(self) -> None:
-        """Remove what was not used for longest, if something was written and there is too much."""
-        if not self._written:
-            return
+        """Remove what was not used for longest, if there is too much."""
         try:
             with os.scandir(self._folder) as found:
                 entries = [

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import gc
 import os
+import tempfile
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -28,6 +30,9 @@ if TYPE_CHECKING:
     from orchestra.witness.record import Record
 
 
+_COLLECTING = 50  # files after which memory is tidied up
+
+
 class Looker:
     """Looks at one file after the other, in a process that does nothing else; what files share is read once."""
 
@@ -38,10 +43,17 @@ class Looker:
         )
         self._packages = RecordedPackages(self._environment)
         self._loader = SharedLoader()
+        self._count = 0
 
-    def watch(self) -> None:
-        """Begin to watch what this process looks at, without which what a finding depends on is not known."""
+    def watch(self, scratch: str) -> None:
+        """Begin to watch what this process looks at, without which what a finding depends on is not known.
+
+        Temporary files of code go below the folder `scratch`: what they are called tells nothing.
+        """
+        tempfile.tempdir = scratch
+        observer().scratch = scratch
         observer().install()
+        gc.disable()
 
     @property
     def is_spent(self) -> bool:
@@ -53,7 +65,12 @@ class Looker:
         watching = observer()
         watching.begin(self._environment)
         found = self._launch_file(target.path) if target.kind == "launch" else self._parameters(target.path)
-        return found, watching.end()
+        record = watching.end()
+        self._count += 1
+        if not gc.isenabled() and self._count % _COLLECTING == 0:
+            gc.collect()
+            gc.freeze()  # what is shared stays; to walk through it each time takes long
+        return found, record
 
     def _launch_file(self, path: str) -> Finding:
         problems = Problems()

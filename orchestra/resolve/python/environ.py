@@ -13,11 +13,21 @@ if TYPE_CHECKING:
 
 def put_environment(environment: Mapping[str, str]) -> None:
     """Make the environment of this process that of a scope."""
+    now = environment_now()
     with observer().aside():
-        if os.environ == environment:
+        if now == environment:
             return
-        for name in os.environ.keys() - environment.keys():
+        for name in now.keys() - environment.keys():
             del os.environ[name]
         for name, value in environment.items():
-            if os.environ.get(name) != value:
+            if now.get(name) != value:
                 os.environ[name] = value
+
+
+def environment_now() -> dict[str, str]:
+    """Return the environment of this process, which nobody counts as reading it."""
+    data = getattr(os.environ, "_data", None)
+    if isinstance(data, dict):  # the table itself: to go through `os.environ` takes ten times as long
+        return {os.fsdecode(name): os.fsdecode(value) for name, value in dict.items(data)}
+    with observer().aside():
+        return dict(os.environ)

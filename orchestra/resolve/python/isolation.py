@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from orchestra.compat.argv import Arguments
 from orchestra.compat.hook import served
 from orchestra.resolve.packages.python import libraries
-from orchestra.resolve.python.environ import put_environment
+from orchestra.resolve.python.environ import environment_now, put_environment
 from orchestra.resolve.python.files import Files
 from orchestra.witness.observing import observer
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
     from orchestra.resolve.python.remaining import Remaining
+
 
 class Isolation:
     """The state of a process in which launch files are loaded; `files` are the temporary ones of their code.
@@ -62,8 +63,7 @@ def isolated(
     """
     with ExitStack() as restoring:
         restoring.callback(_put_zone, time.tzname)
-        with observer().aside():
-            restoring.callback(put_environment, dict(os.environ))
+        restoring.callback(put_environment, environment_now())
         restoring.callback(os.chdir, Path.cwd())
         restoring.callback(_put_list, sys.path, list(sys.path))
         restoring.callback(setattr, sys, "argv", sys.argv)
