@@ -15,9 +15,11 @@ from orchestra.resolve.names import InvalidName, expanded
 if TYPE_CHECKING:
     from collections.abc import Mapping, Sequence
 
-    from orchestra.resolve.model import Resolved, ResolvedDependency, ResolvedProcess
+    from orchestra.resolve.model import Resolved, ResolvedDependency, ResolvedProcess, ResolvedSkip
 
 
+# The actions that start a process.
+_STARTED: Final = frozenset({"node", "lifecycle_node", "node_container", "executable"})
 # What lets a process be waited for until it is ready, by whether it is brought to its active state.
 _CURES: Final = {False: "a `ready`", True: "`ready: {lifecycle: active}`, say"}
 
@@ -116,12 +118,24 @@ def _report_unknown(
     if not is_mistake(name, known, targets.resolved):
         return
     what = {"node": "node", "process": "process", "label": "include with the label"}[written.kind]
+    left_out = _left_out(written, targets.resolved)
+    if left_out is not None:
+        message = f"the {what} '{name}' is left out: its `{left_out.condition}` is {left_out.value}"
+        notes = (f"it is described at {left_out.location}",)
+        problems.error(Code.UNKNOWN_DEPENDENCY, message, written.name.location, notes=notes)
+        return
     problems.error(
         Code.UNKNOWN_DEPENDENCY,
         f"there is no {what} '{name}' to wait for",
         written.name.location,
         suggestion=nearest(name, known),
     )
+
+
+def _left_out(written: ResolvedDependency, resolved: Resolved) -> ResolvedSkip | None:
+    """Return the action of that name which its condition leaves out."""
+    last = written.name.text.rpartition("/")[2]
+    return next((item for item in resolved.skipped if item.action in _STARTED and item.name == last), None)
 
 
 def _report_idle(written: ResolvedDependency, targets: Targets, problems: Problems) -> None:

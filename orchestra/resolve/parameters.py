@@ -113,6 +113,10 @@ def _inline(
     own = run.text(param.name)
     if not isinstance(own, str):
         return [None]
+    if not own:
+        message = "the name of a parameter must not be empty"
+        run.problems.error(Code.BAD_NAME, message, run.at(param.name.span))
+        return [None]
     name = f"{above[-1][0]}.{own}" if above else own
     keys = (*above, (name, run.at(param.name.span)))
     if param.param is not None:

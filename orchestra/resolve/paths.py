@@ -34,6 +34,21 @@ def beside(file: str | None, written: str) -> str | None:
     return _found(folder_of(file), written)
 
 
+def check_folder(value: Value, written: Template, run: Resolution) -> None:
+    """Report a working directory that is not there, where it should be: beside the launch file or in a package."""
+    folder, path = folder_of(run.context.file), _expanded(value.text)
+    prefixes = run.scope.environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    settled = (folder, *(Path(prefix) for prefix in prefixes if prefix))
+    if not value.text or "${" in value.text or run.later or _exists(Path.cwd() / path):
+        return
+    if path.is_absolute() and not any(map(path.is_relative_to, settled)):
+        return  # of the machine that it runs on
+    whole = Path.cwd() / path
+    near = near_path(whole, written.raw)
+    message = f"there is no folder {displayed(str(whole))}: the process cannot be started in it"
+    run.problems.warning(Code.MISSING_FILE, message, value.location, suggestion=near)
+
+
 def may_come(value: Value, run: Resolution) -> bool:
     """Return whether a file that is not there may be written later: none of a package, none beside the launch file."""
     folder, path = folder_of(run.context.file), _expanded(value.text)

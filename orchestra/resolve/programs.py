@@ -11,6 +11,8 @@ from orchestra.location import displayed
 from orchestra.resolve.context import POISON
 from orchestra.resolve.paths import beside, folder_of, near_path
 from orchestra.resolve.refusals import report_missing_executable, report_missing_package
+from orchestra.resolve.runnable import fault_of, program_on_path, programs_on_path
+from orchestra.resolve.typos import is_typo
 
 if TYPE_CHECKING:
     from orchestra.description.actions.node import Node
@@ -25,23 +27,22 @@ def program_words(
     """Return the words that start a program given by name or path.
 
     A bare name is looked up when the process starts. A relative path is one below the working directory or beside
-    the launch file; one that is neither is reported, unless the process runs `elsewhere` and may find it there.
+    the launch file; one that is neither is reported, unless the process runs `elsewhere` and may find it there. What
+    is there and cannot be started is reported too.
     """
-    path = Path(written)
-    if os.sep not in written or path.is_absolute():
+    if os.sep not in written:
+        _check_name(written, location, run)
         return (written,)
-    found = beside(run.context.file, written)
-    if found is None:
-        if elsewhere:
-            return (written,)
-        near = folder_of(run.context.file) / path
-        message, suggestion = f"there is no executable {displayed(str(near))}", near_path(near, written)
-        run.problems.error(Code.MISSING_EXECUTABLE, message, location, suggestion=suggestion)
-        return POISON
-    if not os.access(found, os.X_OK):
-        run.problems.error(Code.MISSING_EXECUTABLE, f"{displayed(found)} is not executable", location)
-        return POISON
-    return (found,)
+    if Path(written).is_absolute():
+        found = written
+    else:
+        near = folder_of(run.context.file) / written
+        found = beside(run.context.file, written) or (str(near) if near.is_dir() else "")
+        if not found and not elsewhere:
+            message, suggestion = f"there is no executable {displayed(str(near))}", near_path(near, written)
+            run.problems.error(Code.MISSING_EXECUTABLE, message, location, suggestion=suggestion)
+            return POISON
+    return (found or written,) if _is_runnable(found, location, run) else POISON
 
 
 def packaged_words(
@@ -57,6 +58,37 @@ def packaged_words(
         report_missing_package(package.text, action.pkg or action.exec, run.context)
         return ("${prefix:" + package.text + "}/lib/" + f"{package.text}/{executable.text}",)
     words = packages.executable(package.text, executable.text)
-    if words is not None:
-        return words
-    return report_missing_executable(executable.text, package.text, action.exec, run.context)
+    if words is None:
+        return report_missing_executable(executable.text, package.text, action.exec, run.context)
+    return words if _is_runnable(words[0], executable.location, run) else POISON
+
+
+def _is_runnable(path: str, location: Location, run: Resolution) -> bool:
+    """Return whether a file can be started; what is there and cannot be is reported.
+
+    What only this machine lacks is a warning where nothing is started: then the file may be for another one.
+    """
+    if not os.path.exists(path):  # noqa: PTH110 - pathlib raises for some paths
+        return True  # it may be made by then, or be on the machine that is started on
+    if os.path.isdir(path) or not os.access(path, os.X_OK):  # noqa: PTH112 - as above
+        told = "a folder" if os.path.isdir(path) else "not executable"  # noqa: PTH112
+        run.problems.error(Code.MISSING_EXECUTABLE, f"{displayed(path)} is {told}", location)
+        return False
+    fault = fault_of(path, run.scope.environment)
+    if fault is None:
+        return True
+    message = f"{displayed(path)} cannot be started: {fault.reason}"
+    report = run.problems.warning if fault.here and not run.inputs.launching else run.problems.error
+    report(Code.UNRUNNABLE_EXECUTABLE, message, location, notes=fault.notes)
+    return fault.here and not run.inputs.launching
+
+
+def _check_name(name: str, location: Location, run: Resolution) -> None:
+    """Report a program that the search path lacks where it has a near one: any other may be there when it starts."""
+    environment = run.scope.environment
+    if not name or "PATH" in run.scope.changes or program_on_path(name, environment) is not None:
+        return
+    meant = sorted(known for known in programs_on_path(environment) if is_typo(name, known))
+    if meant:
+        message = f"there is no program '{name}' on the search path"
+        run.problems.warning(Code.MISSING_EXECUTABLE, message, location, suggestion=meant[0])

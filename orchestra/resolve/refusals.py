@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from pathlib import Path
 from typing import TYPE_CHECKING
 
+from orchestra.description.source import shortened
 from orchestra.errors import Code, Severity
+from orchestra.location import displayed, is_file
 from orchestra.nearest import is_slip, nearest
 from orchestra.resolve.context import POISON
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Iterator
 
     from orchestra.description.text import Template
-    from orchestra.resolve.context import Context, Poison
+    from orchestra.errors import Problems
+    from orchestra.resolve.context import Context, Poison, Read, Value
 
 
 _UNSET = (Code.UNDEFINED_VARIABLE, Code.UNSET_ENVIRONMENT)
+_NAMED = ("variable", "environment", "parameter")
 
 
 def refuse(
@@ -40,6 +45,35 @@ def refuse(
     suggestion = meant if replaceable else None
     context.problems.error(code, told, context.at(written.span), suggestion=suggestion, notes=notes)
     return POISON
+
+
+def refuse_value(
+    value: Value,
+    problems: Problems,
+    code: Code,
+    told: str,
+    *,
+    meant: str | None = None,
+    notes: Iterable[str] = (),
+) -> Poison:
+    """Report an error at a value, and where it was set if it came through a variable.
+
+    What was meant can replace only what stands there as it is.
+    """
+    if meant is not None and not value.verbatim:
+        notes = (*notes, f"did you mean '{meant}'?")
+    suggestion = meant if value.verbatim else None
+    notes = (*notes, *_sources(value.through))
+    problems.error(code, told, value.location, suggestion=suggestion, notes=notes)
+    return POISON
+
+
+def _sources(through: Iterable[Read]) -> Iterator[str]:
+    """Yield where what a value was made of was set, outermost first."""
+    for read in through:
+        if read.location is not None and read.kind in _NAMED:
+            yield f"'{read.name}' is set to '{shortened(read.value)}' at {read.location}"
+        yield from _sources(read.through)
 
 
 def report_missing_package(package: str, written: Template, context: Context) -> Poison:
@@ -78,6 +112,10 @@ def missing_package(package: str, known: Iterable[str], *, launching: bool) -> M
 def report_missing_executable(executable: str, package: str, written: Template, context: Context) -> Poison:
     """Report an executable that a package lacks; `written` is the text that names it."""
     known = context.packages.executables(package)
+    idle = Path(context.packages.prefix(package) or "", "lib", package, executable)
+    if is_file(idle):
+        told = f"{displayed(str(idle))} is not executable"
+        return refuse(written, context, Code.MISSING_EXECUTABLE, told, notes=("`chmod +x` makes it so",))
     notes = (f"it has {', '.join(sorted(known))}",) if known else ("it has no executables",)
     told = f"package {package!r} has no executable {executable!r}"
     return refuse(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
+from orchestra.location import is_python
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import ResolvedRemap
 from orchestra.resolve.names import InvalidName
@@ -30,6 +31,9 @@ def remap(source: Template, target: Template, run: Resolution) -> ResolvedRemap 
         message = f"'{error.name}' cannot be a name: {error.fault.reason}"
         run.problems.error(Code.BAD_NAME, message, value.location)
         return None
+    if source.constant is not None and source.constant == target.constant and not is_python(source.span):
+        message = f"'{left.text}' is remapped to itself"
+        run.problems.warning(Code.IDLE_REMAP, message, right.location)
     return ResolvedRemap(left, right)
 
 

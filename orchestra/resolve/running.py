@@ -13,6 +13,7 @@ from orchestra.errors import Code
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.dependencies import dependencies
+from orchestra.resolve.idle_keys import check_keys
 from orchestra.resolve.limits import limits
 from orchestra.resolve.model import (
     EnvironmentChange,
@@ -23,6 +24,7 @@ from orchestra.resolve.model import (
     ResolvedRemap,
 )
 from orchestra.resolve.outputs import output
+from orchestra.resolve.paths import check_folder
 from orchestra.resolve.policies import restart, stop
 from orchestra.resolve.reactions import ResolvedStart
 from orchestra.resolve.readiness import life, readiness
@@ -34,6 +36,10 @@ if TYPE_CHECKING:
     from orchestra.description.text import Template
     from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
+
+
+_HIGHEST_STATUS = 255
+_HIGHEST_SIGNAL = 64
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -73,6 +79,8 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
     location = run.at(action.span)
     on_exit = sound(run.word(action.on_exit, ON_EXIT))
     places = output(action.output, run, location)
+    again = sound(restart(action, run))
+    check_keys(action, again, run)
     return ResolvedProcess(
         kind=program.kind,
         package=program.package,
@@ -85,13 +93,13 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         ros_arguments=program.ros_arguments,
         prefix=sound(_prefix(action, program, run)) or (),
         shell=sound(run.flag(action.shell)) is True,
-        cwd=sound(run.text(action.cwd)),
+        cwd=sound(_cwd(action, run)),
         environment=sound(_environment(action, run)) or {},
         parameters=program.parameters,
         remaps=program.remaps,
         output=sound(places) if isinstance(places, Poison) else places,
         emulate_tty=sound(_emulate_tty(action, run)),
-        restart=sound(restart(action, run)),
+        restart=again,
         required=sound(run.flag(action.required, default=on_exit is not None)) is True,
         shutdown_on_exit=on_exit is not None,
         success_exit_codes=sound(_codes(action, run)),
@@ -159,12 +167,29 @@ def _stdin(action: Running, run: Resolution) -> Location | Poison | None:
     return run.at(action.stdin.span) if reads else None
 
 
+def _cwd(action: Running, run: Resolution) -> str | Poison | None:
+    value = run.evaluate(action.cwd)
+    if action.cwd is not None and isinstance(value, Value):
+        check_folder(value, action.cwd, run)
+    return value.text if isinstance(value, Value) else value
+
+
 def _codes(action: Running, run: Resolution) -> tuple[int, ...] | Poison | None:
     if action.success_exit_codes is None:
         return None
-    codes = [run.integer(code) for code in action.success_exit_codes]
+    codes = [_code(code, run) for code in action.success_exit_codes]
     sound = tuple(code for code in codes if isinstance(code, int))
     return sound if len(sound) == len(codes) else POISON
+
+
+def _code(written: Template, run: Resolution) -> int | Poison | None:
+    """Return an exit status, or the negative number of a signal (waitpid(2))."""
+    code = run.integer(written)
+    if isinstance(code, int) and not -_HIGHEST_SIGNAL <= code <= _HIGHEST_STATUS:
+        message = f"a process ends with a status from 0 to {_HIGHEST_STATUS}, not with {code}"
+        run.problems.error(Code.BAD_VALUE, message, run.at(written.span))
+        return POISON
+    return code
 
 
 def _prefix(action: Running, program: Program, run: Resolution) -> tuple[str, ...] | Poison:

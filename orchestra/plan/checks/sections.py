@@ -12,10 +12,10 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from orchestra.errors import Code
 from orchestra.location import Location
-from orchestra.plan.checks.typos import is_typo
 from orchestra.plan.ids import node_name
 from orchestra.resolve.model import FileParameters, ResolvedProcess
 from orchestra.resolve.rcl.patterns import matches
+from orchestra.resolve.typos import is_typo
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final, Protocol
 from orchestra.plan.checks.declared import check_declared
 from orchestra.plan.checks.interfaces import check_interfaces
 from orchestra.plan.checks.sections import check_sections
+from orchestra.plan.checks.waits import check_waits
 
 if TYPE_CHECKING:
     from orchestra.errors import Problems
@@ -25,6 +26,7 @@ CHECKS: Final[tuple[Check, ...]] = (
     check_declared,
     check_interfaces,
     check_sections,
+    check_waits,
 )
 
 

@@ -1,0 +1,79 @@
+"""Waits for what never comes: the end of a process that is always started again, a node that nobody starts."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code
+from orchestra.plan.absent import is_mistake
+from orchestra.plan.ids import node_name
+from orchestra.resolve.typos import is_typo
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Iterator
+
+    from orchestra.errors import Problems
+    from orchestra.location import Location
+    from orchestra.plan.conditions import Ready
+    from orchestra.plan.model import Plan, Process
+    from orchestra.resolve.awaited import ResolvedReady
+    from orchestra.resolve.context import Value
+    from orchestra.resolve.model import Resolved
+
+
+def check_waits(resolved: Resolved, plan: Plan, problems: Problems) -> None:
+    """Report dependencies that cannot come about, and facts about nodes whose names are slips."""
+    by_id = {process.id: process for process in plan.processes}
+    for process in plan.processes:
+        for edge in process.depends_on:
+            if edge.required and edge.condition in ("completed", "exited"):
+                _check_end(by_id.get(edge.process), edge.condition, edge.location, problems)
+    nodes = [*resolved.processes, *resolved.components]
+    names = {name for node in nodes if (name := node_name(node)) is not None}
+    for process, written in zip(plan.processes, resolved.processes, strict=True):
+        if process.ready is not None and written.ready is not None:
+            for name, place in _nodes(process.ready, written.ready):
+                _check_node(name, place, names, resolved, problems)
+
+
+def _check_end(awaited: Process | None, condition: str, location: Location, problems: Problems) -> None:
+    """Report the wait for the end of a process that starts again whenever it ends."""
+    restart = None if awaited is None else awaited.restart
+    if awaited is None or restart is None or restart.policy != "always" or restart.budget is not None:
+        return
+    end = "completed" if condition == "completed" else "over"
+    problems.error(
+        Code.NEVER_READY,
+        f"'{awaited.id}' is started again whenever it ends: it is never {end}",
+        location,
+        notes=(f"it is described at {awaited.location}: let it restart on failure, or with a budget",),
+    )
+
+
+def _nodes(ready: Ready, written: ResolvedReady) -> Iterator[tuple[str | None, Value | None]]:
+    """Yield the nodes that readiness asks for, by their full names, with what is written."""
+    yield ready.node, written.node
+    if ready.parameter is not None and written.parameter is not None:
+        yield ready.parameter.node, written.parameter.node
+    if ready.lifecycle is not None and written.lifecycle is not None:
+        yield ready.lifecycle.node, written.lifecycle.node
+
+
+def _check_node(
+    name: str | None, place: Value | None, names: Collection[str], resolved: Resolved, problems: Problems
+) -> None:
+    """Report a node that is not of the plan where a near name is: others may be started elsewhere."""
+    if not name or place is None or name in names or not is_mistake(name, names, resolved):
+        return
+    meant = sorted(known for known in names if _is_near(name, known))
+    if meant:
+        message = f"no node of this plan is called '{name}'"
+        problems.warning(Code.UNKNOWN_DEPENDENCY, message, place.location, suggestion=meant[0])
+
+
+def _is_near(name: str, known: str) -> bool:
+    namespace, _, last = name.rpartition("/")
+    there, _, its = known.rpartition("/")
+    if last == its:
+        return is_typo(namespace, there) or not namespace
+    return namespace == there and is_typo(last, its)

@@ -1,0 +1,67 @@
+"""Keys of a process that do nothing because of others beside them, or because others are missing."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code
+from orchestra.location import is_python
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from orchestra.description.running import Running
+    from orchestra.description.text import Template
+    from orchestra.resolve.resolution import Resolution
+    from orchestra.values import Restart
+
+
+def check_keys(action: Running, restart: Restart | None, run: Resolution) -> None:
+    """Report keys that never act. Calls in Python give arguments in bulk, so that theirs are left alone."""
+    if is_python(action.span):
+        return
+    for written, message in _idle(action, restart, run):
+        run.problems.warning(Code.IDLE_KEY, message, run.at(written.span))
+
+
+def _idle(action: Running, restart: Restart | None, run: Resolution) -> Iterator[tuple[Template, str]]:
+    yield from _without_respawn(action)
+    yield from _beside_stop(action)
+    yield from _never_restarted(action, restart)
+    if restart is None or restart.policy != "always" or restart.budget is not None:
+        return
+    again = "`respawn`" if action.respawn is not None else "`restart: always`"
+    if action.on_exit is not None:
+        yield (
+            action.on_exit,
+            f"`on_exit` ends the run whenever the process ends: {again} beside it never acts",
+        )
+    elif action.required is not None and run.flag(action.required) is True:
+        yield action.required, f"{again} starts the process again whenever it ends: `required` never acts"
+
+
+def _without_respawn(action: Running) -> Iterator[tuple[Template, str]]:
+    if action.respawn is not None or action.restart is not None:
+        return
+    for name in ("respawn_delay", "respawn_max_retries"):
+        written = getattr(action, name)
+        if written is not None:
+            yield written, f"`{name}` does nothing without `respawn: true`"
+
+
+def _beside_stop(action: Running) -> Iterator[tuple[Template, str]]:
+    if action.stop is None:
+        return
+    for name, other in (("sigterm_timeout", "timeout"), ("sigkill_timeout", "kill_timeout")):
+        written = getattr(action, name)
+        if written is not None and getattr(action.stop, other) is not None:
+            yield written, f"`{name}` does nothing beside `{other}` of `stop`, which says the same"
+
+
+def _never_restarted(action: Running, restart: Restart | None) -> Iterator[tuple[Template, str]]:
+    if restart is None or action.restart is None or restart.policy != "no":
+        return
+    for name in ("delay", "max_delay", "min_uptime", "growth", "jitter", "budget"):
+        written = getattr(action.restart, name)
+        if written is not None:
+            yield written, f"`{name}` does nothing with the policy `no`"
