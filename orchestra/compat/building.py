@@ -11,6 +11,7 @@ from orchestra.compat.launch.condition import Condition
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.compat.literals import item_span
 from orchestra.compat.place import Place, here
+from orchestra.compat.wrong import WrongType
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -24,7 +25,10 @@ def model_of(entity: LaunchDescriptionEntity) -> Model:
     from orchestra.description.actions.opaque import OpaqueAction  # noqa: PLC0415 - pydantic, only where files are read
 
     if isinstance(entity, ModelledAction) and entity._is_as_described():
-        return entity._to_model(conditioned(entity))
+        model = entity._to_model(conditioned(entity))
+        if entity._refused:
+            model._faulty = True
+        return model
     place: Place | None = getattr(entity, "_place", None)
     if isinstance(entity, Action) and type(entity).visit is Action.visit:
         if place is None:
@@ -72,7 +76,7 @@ def conditioned(action: Action) -> dict[str, Any]:
     """Return the fields that every model of an action has. Raises `TypeError` for what is no condition."""
     if action.condition is None:
         return {"origin": action}
-    return {"origin": action, **condition_fields(action.condition, action._place.span)}
+    return {"origin": action, **condition_fields(action.condition, action._place.at("condition"))}
 
 
 def condition_fields(condition: Any, span: Span) -> dict[str, Any]:
@@ -81,4 +85,5 @@ def condition_fields(condition: Any, span: Span) -> dict[str, Any]:
         return condition._fields(span)
     if callable(getattr(condition, "evaluate", None)):  # one that derives from nothing, as upstream
         return Condition(predicate=condition.evaluate)._fields(span)
-    raise TypeError(f"a condition is made by IfCondition or UnlessCondition, this is {told(condition)}")
+    told_so = f"a condition is made by IfCondition or UnlessCondition, this is {told(condition)}"
+    raise WrongType(told_so, condition, at=span)

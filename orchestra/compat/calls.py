@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.compat.launch.launch_context import LaunchContext
+    from orchestra.compat.place import Step
     from orchestra.description.text import Part
     from orchestra.location import Span
 
@@ -38,8 +39,17 @@ class CallSubstitution(Substitution):
         return context._engine.evaluate(Template((self._call(),), self._raw(), self._place.span))
 
     def _call(self) -> Call:
-        span = self._place.span
-        return Call(self._name, tuple(template(argument, span) for argument in self._arguments()), span)
+        place, paths = self._place, self._paths()
+        given = enumerate(self._arguments())
+        arguments = (
+            template(argument, place.at(*paths[index]) if index < len(paths) else place.span)
+            for index, argument in given
+        )
+        return Call(self._name, tuple(arguments), place.span)
+
+    def _paths(self) -> Sequence[tuple[Step, ...]]:
+        """Return where the arguments of the call stand among those of the constructor."""
+        return [(name,) for name in getattr(self, "_parameters", ())]
 
     def _parts(self, span: Span) -> tuple[Part, ...]:
         call = self._call()

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING
 from orchestra.compat.ament_index_python.packages import PackageNotFoundError
 from orchestra.compat.explanation import Explanation, in_their_words
 from orchestra.compat.place import Place, is_own, shown
+from orchestra.compat.refusing import Refusing
 from orchestra.compat.seam import debugging
+from orchestra.compat.wrong import WrongValue
 from orchestra.errors import Code, Problem
 from orchestra.location import Span
 
@@ -22,14 +24,6 @@ if TYPE_CHECKING:
 _PYTHON = sysconfig.get_path("stdlib")
 _INSTALLED = tuple({sysconfig.get_path("purelib"), sysconfig.get_path("platlib")})
 _MOST_CALLS = 8
-
-
-class ReportedError(RuntimeError):
-    """Stops user code for a fault that has been reported, or will be with `problems`."""
-
-    def __init__(self, message: str, problems: tuple[Problem, ...] = ()) -> None:
-        super().__init__(message)
-        self.problems = problems
 
 
 def report(error: BaseException, problems: Problems, chain: tuple[Span, ...], fallback: Span) -> None:
@@ -91,6 +85,12 @@ def _explained(error: BaseException, call: TracebackType | None) -> Explanation:
     found = None if call is None else _better(error, call)
     if found is not None:
         return found
+    if isinstance(error, WrongValue):
+        # Here, because only mistakes need it, and what it imports.
+        from orchestra.compat.suggestions import whole  # noqa: PLC0415
+
+        span = None if error.at is None else whole(error.at)
+        return Explanation(in_their_words(" ".join(str(error).split())), error.code, span, error.suggestion)
     code = Code.SYNTAX if isinstance(error, SyntaxError) else Code.USER_CODE
     return Explanation(_message(error), code)
 
@@ -109,7 +109,7 @@ def _better(error: BaseException, call: TracebackType) -> Explanation | None:
             return refused_calls.explained(error, frame, place) or too_early.explained(error)
         case NameError() if call.tb_next is None:
             return unknown_names.unbound(error, frame, place)
-        case AttributeError() if call.tb_next is None or isinstance(error.obj, ModuleType):
+        case AttributeError() if call.tb_next is None or isinstance(error.obj, ModuleType | Refusing):
             return unknown_names.no_attribute(error, place)
         case _:
             return None

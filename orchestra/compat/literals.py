@@ -1,83 +1,144 @@
-"""Where the values of keywords stand in the user's code: in the literals of the call, as deep as they go."""
+"""Where the values of arguments stand in the user's code: in the literals of the call, as deep as they go."""
 
 from __future__ import annotations
 
 import ast
-import linecache
-from functools import lru_cache
-from typing import TYPE_CHECKING
+import inspect
+from typing import TYPE_CHECKING, Any
 
-from orchestra.compat.place import span_in
+from orchestra.compat.place import Key, ValueOf
+from orchestra.compat.syntax_trees import Tree, node_span, tree_of
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Sequence
 
-    from orchestra.compat.place import Place
+    from orchestra.compat.place import Place, Step
     from orchestra.location import Span
+
+_LISTS = ("list", "tuple", "sorted", "set")
+_Parameter = inspect.Parameter
 
 
 def keyword(place: Place, name: str) -> Literal:
     """Return where the value of a keyword of the call at a place stands; the whole call where it cannot be told."""
-    call = call_at(place)
-    found = None if call is None else next((item.value for item in call.keywords if item.arg == name), None)
-    return Literal(place.file, found, place.span)
+    return argument(place, (name,))
+
+
+def argument(place: Place, path: Sequence[Step]) -> Literal:
+    """Return where an argument of the call at a place stands, or what it holds; what is around it where that has none."""
+    tree, call = tree_of(place.file), call_at(place)
+    node = None if call is None or tree is None else _argument(call, str(path[0]), place, tree)
+    found = Literal(place.file, node, place.span, tree)
+    for step in path[1:] if node is not None else ():
+        found = found.step(step)
+    return found
 
 
 def call_at(place: Place) -> ast.Call | None:
     """Return the call at a place, None where there is none."""
-    return _calls(place.file, _text(place.file)).get(place.span)
+    tree = tree_of(place.file)
+    found = None if tree is None else tree.expression(place.file, place.span)
+    return found if isinstance(found, ast.Call) else None
 
 
 def item_span(place: Place, index: int, count: int) -> Span:
     """Return where an item stands of the list, of so many, that the call at a place takes; else the whole call."""
-    call = call_at(place)
+    call, tree = call_at(place), tree_of(place.file)
     arguments = [] if call is None else [*call.args, *(item.value for item in call.keywords)]
-    lists = [node for node in arguments if isinstance(node, ast.List | ast.Tuple) and len(node.elts) == count]
-    return Literal(place.file, lists[0] if lists else None, place.span).item(index, count).span
+    for node in arguments:
+        listed = Literal(place.file, node, place.span, tree)
+        if listed.holds(count):
+            return listed.item(index, count).span
+    return place.span
 
 
 def argument_span(place: Place, text: str) -> Span | None:
     """Return where a text stands as an argument of the call at a place, None where it comes from elsewhere."""
-    call = call_at(place)
-    for node in () if call is None else (*call.args, *(item.value for item in call.keywords)):
+    call, tree = call_at(place), tree_of(place.file)
+    for written in () if call is None else (*call.args, *(item.value for item in call.keywords)):
+        node = written if tree is None else tree.meaning(written)
         if isinstance(node, ast.Constant) and node.value == text:
-            return _span(place.file, node)
+            return node_span(place.file, node)
     return None
 
 
-def keyword_span(place: Place, keyword: ast.keyword) -> Span:
-    """Return where the name of a keyword stands."""
-    return _span(place.file, keyword)
+def keyword_span(place: Place, name: str) -> Span | None:
+    """Return where the name of a keyword stands, in the call or in the literal of a mapping that it spreads."""
+    call, tree = call_at(place), tree_of(place.file)
+    for item in () if call is None else call.keywords:
+        if item.arg == name:
+            return node_span(place.file, item)
+        if item.arg is None:
+            found = Literal(place.file, item.value, place.span, tree).entry(name)[0]
+            if found is not None:
+                return node_span(place.file, found)
+    return None
 
 
 class Literal:
     """An expression of the user's code, or what is around it where there is none of its own."""
 
-    __slots__ = ("_file", "_node", "span")
+    __slots__ = ("_tree", "file", "node", "span")
 
-    def __init__(self, file: str, node: ast.expr | None, around: Span) -> None:
-        self._file = file
-        self._node = node
-        self.span = around if node is None else _span(file, node)
+    def __init__(self, file: str, node: ast.expr | None, around: Span, tree: Tree | None = None) -> None:
+        self.file = file
+        self._tree = tree
+        self.node = node
+        self.span = around if node is None else node_span(file, node)
+
+    @property
+    def whole(self) -> Span:
+        """The place of the expression, of a text with its quotes."""
+        return self.span if self.node is None else node_span(self.file, self.node, quotes=True)
+
+    @property
+    def texts(self) -> dict[str, Span]:
+        """The texts of the expression and of those that its names stand for, and where each first stands."""
+        found: dict[str, Span] = {}
+        if self.node is not None and self._tree is not None:
+            for text in _texts_in(self.node, self._tree):
+                found.setdefault(str(text.value), node_span(self.file, text))
+        return found
+
+    def step(self, step: Step) -> Literal:
+        """Return where the value of a key stands, or an item, or a key."""
+        if isinstance(step, str):
+            return self.value(step)
+        if isinstance(step, Key | ValueOf):
+            pair = self._pair(step)
+            return self._inside(pair[isinstance(step, ValueOf)] if pair is not None else None)
+        return self.item(step, None)
 
     def key(self, key: str) -> Span:
         """Return where a key of a dictionary stands."""
-        found = self._entry(key)[0]
-        return self.span if found is None else _span(self._file, found)
+        found = self.entry(key)[0]
+        return self.span if found is None else node_span(self.file, found)
 
     def value(self, key: str) -> Literal:
-        """Return where the value of a key stands."""
-        return Literal(self._file, self._entry(key)[1], self.span)
+        """Return where the value of a key stands; dots may lead to dictionaries inside of it."""
+        found = self.entry(key)[1]
+        if found is None:
+            for begin, _, rest in _split(key):
+                inner = self.entry(begin)[1]
+                if inner is not None:
+                    return self._inside(inner).value(rest)
+        return self._inside(found)
 
-    def item(self, index: int, count: int) -> Literal:
-        """Return where an item of a list stands that has so many."""
-        node = self._node
-        items = node.elts if isinstance(node, ast.List | ast.Tuple | ast.Set) else []
-        known = index < len(items) == count and not any(isinstance(item, ast.Starred) for item in items)
-        return Literal(self._file, items[index] if known else None, self.span)
+    def item(self, index: int, count: int | None) -> Literal:
+        """Return where an item of a list stands that has so many, or the value of the entry of a dictionary."""
+        items = self._items()
+        if items is None or (count is not None and len(items) != count):
+            return self._inside(None)
+        return self._inside(items[index] if index < len(items) else None)
 
-    def _entry(self, key: str) -> tuple[ast.expr | ast.keyword | None, ast.expr | None]:
-        node = self._node
+    def holds(self, count: int) -> bool:
+        """Return whether this is a list of so many items."""
+        node = self._meaning()
+        return isinstance(node, ast.List | ast.Tuple) and len(self._items() or ()) == count
+
+    def entry(self, key: str) -> tuple[ast.expr | ast.keyword | None, ast.expr | None]:
+        """Return key and value of an entry of a dictionary, None for what is not written there."""
+        node = self._meaning()
         if isinstance(node, ast.Dict):
             for written, value in zip(node.keys, node.values, strict=True):
                 if isinstance(written, ast.Constant) and written.value == key:
@@ -86,30 +147,102 @@ class Literal:
             for item in node.keywords:
                 if item.arg == key:
                     return item, item.value
+        if isinstance(node, ast.List | ast.Tuple):  # pairs
+            for pair in node.elts:
+                match pair:
+                    case ast.Tuple(elts=[first, value]) | ast.List(elts=[first, value]):
+                        if isinstance(first, ast.Constant) and first.value == key:
+                            return first, value
         return None, None
 
+    def _pair(self, index: int) -> tuple[ast.expr | None, ast.expr] | None:
+        """Return name and value of the entry of a number, None where they are not written there."""
+        node = self._meaning()
+        items = self._items() or ()
+        if index >= len(items):
+            return None
+        if isinstance(node, ast.Dict):
+            return node.keys[index], node.values[index]
+        match items[index]:
+            case ast.Tuple(elts=[name, value]) | ast.List(elts=[name, value]):
+                return name, value
+        return items[index], items[index]
 
-def _span(file: str, node: ast.expr | ast.keyword) -> Span:
-    """Return the place of an expression; of a text without its quotes, of a keyword without its value."""
-    end_line, begin, end = node.end_lineno or node.lineno, node.col_offset, node.end_col_offset or 0
-    if isinstance(node, ast.keyword):
-        end_line, end = node.lineno, begin + len((node.arg or "").encode())
-    elif isinstance(node, ast.Constant) and isinstance(node.value, str) and end_line == node.lineno:
-        inside = len(node.value.encode("utf-8", "surrogatepass"))
-        if end - begin == inside + 2:  # else it has escapes or a prefix
-            begin, end = begin + 1, end - 1
-    return span_in(file, (node.lineno, end_line, begin, end))
+    def _inside(self, node: ast.expr | None) -> Literal:
+        return Literal(self.file, node, self.span, self._tree)
+
+    def _meaning(self) -> ast.expr | None:
+        """Return the literal that the expression comes to, as far as that is written somewhere."""
+        node = self.node
+        while node is not None:
+            known = node if self._tree is None else self._tree.meaning(node)
+            match known:
+                case ast.Call(func=ast.Attribute(value=inner, attr="items" | "copy"), args=[]):
+                    node = inner
+                case ast.Call(func=ast.Name(id=name), args=[inner], keywords=[]) if name in (*_LISTS, "dict"):
+                    node = inner
+                case _:
+                    return known
+        return None
+
+    def _items(self) -> Sequence[ast.expr] | None:
+        """Return the items of a list, the values of a dictionary; None where they cannot be told apart."""
+        node = self._meaning()
+        match node:
+            case ast.Dict(values=values):
+                return None if None in node.keys else values
+            case ast.List(elts=items) | ast.Tuple(elts=items) | ast.Set(elts=items):
+                return None if any(isinstance(item, ast.Starred) for item in items) else items
+            case ast.BinOp(left=left, op=ast.Add(), right=right):
+                parts = self._inside(left)._items(), self._inside(right)._items()
+                return None if parts[0] is None or parts[1] is None else [*parts[0], *parts[1]]
+        return None
 
 
-def _text(file: str) -> str:
-    return "".join(linecache.getlines(file))
+def _texts_in(node: ast.AST, tree: Tree) -> Iterator[ast.Constant]:
+    """Yield the texts of an expression, and of those that its names stand for."""
+    seen: set[int] = set()
+    waiting = [node]
+    while waiting:
+        found = waiting.pop(0)
+        if isinstance(found, ast.Name):
+            found = tree.meaning(found)
+        if id(found) in seen:
+            continue
+        seen.add(id(found))
+        if isinstance(found, ast.Constant) and isinstance(found.value, str):
+            yield found
+        if not isinstance(found, ast.FormattedValue):
+            waiting.extend(ast.iter_child_nodes(found))
 
 
-@lru_cache(maxsize=16)
-def _calls(file: str, text: str) -> Mapping[Span, ast.Call]:
-    """Return the calls in a file by their place."""
-    try:
-        tree = ast.parse(text)
-    except (SyntaxError, ValueError):  # it has changed since it was loaded
-        return {}
-    return {_span(file, node): node for node in ast.walk(tree) if isinstance(node, ast.Call)}
+def _split(key: str) -> Iterator[tuple[str, str, str]]:
+    """Yield the ways to split a key at a dot."""
+    for index, character in enumerate(key):
+        if character == ".":
+            yield key[:index], ".", key[index + 1 :]
+
+
+def _argument(call: ast.Call, name: str, place: Place, tree: Tree) -> ast.expr | None:
+    """Return the expression of an argument: by its keyword, in a mapping that is spread, or by its position."""
+    if name.startswith("*"):
+        index = int(name[1:])
+        return call.args[index] if index < len(call.args) else None
+    for item in call.keywords:
+        if item.arg == name:
+            return item.value
+    for item in call.keywords:
+        if item.arg is None:
+            found = Literal(place.file, item.value, place.span, tree).entry(name)[1]
+            if found is not None:
+                return found
+    index = None if place.kind is None else position(place.kind, name)
+    known = index is not None and not any(isinstance(item, ast.Starred) for item in call.args[: index + 1])
+    return call.args[index] if known and index is not None and index < len(call.args) else None
+
+
+def position(kind: type[Any], name: str) -> int | None:
+    """Return the position of an argument of a class, None where it has none."""
+    parameters = list(inspect.signature(kind.__init__).parameters.values())[1:]
+    by_place = [item.name for item in parameters if item.kind is _Parameter.POSITIONAL_OR_KEYWORD]
+    return by_place.index(name) if name in by_place else None

@@ -5,28 +5,42 @@ from __future__ import annotations
 import linecache
 import os
 import sys
+from dataclasses import dataclass, field
 from functools import lru_cache
 from itertools import islice
-from typing import TYPE_CHECKING, TypeAlias
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from orchestra.location import Span, displayed
 
 if TYPE_CHECKING:
     from types import CodeType, FrameType
 
+Step: TypeAlias = str | int
 _OWN = os.path.join(os.path.dirname(os.path.dirname(__file__)), "")  # noqa: PTH118, PTH120 - compared with file names of code
 _Positions: TypeAlias = tuple[int | None, int | None, int | None, int | None]
 
 
+class Key(int):
+    """The name in an entry of a dictionary, or in one of several pairs, by the entry's number: it ends a path."""
+
+
+class ValueOf(int):
+    """The value in such an entry."""
+
+
 class Place:
-    """A point in the user's code. The span is worked out when it is asked for, which few objects are."""
+    """A point in the user's code. The span is worked out when it is asked for, which few objects are.
 
-    __slots__ = ("_code", "_instruction", "_span")
+    `kind` is the class of what was made there, where something was.
+    """
 
-    def __init__(self, code: CodeType, instruction: int) -> None:
+    __slots__ = ("_code", "_instruction", "_span", "kind")
+
+    def __init__(self, code: CodeType, instruction: int, kind: type[Any] | None = None) -> None:
         self._code = code
         self._instruction = instruction
         self._span: Span | None = None
+        self.kind = kind
 
     @property
     def file(self) -> str:
@@ -40,6 +54,31 @@ class Place:
             self._span = span_of(self._code, self._instruction)
         return self._span
 
+    def at(self, *path: Step) -> Argument:
+        """Return the place of an argument of the call, or of what it holds: a keyword, then keys and indexes."""
+        span = self.span
+        return Argument(span.file, span.line, span.column, span.end_line, span.end_column, path, self)
+
+
+@dataclass(frozen=True, slots=True)
+class Argument(Span):
+    """The range of a call, and which of its arguments is meant: `orchestra.compat.literals` finds it in the source.
+
+    That takes a syntax tree, so that it is done for what people are told of, not for every value.
+    """
+
+    path: tuple[Step, ...]
+    place: Place = field(compare=False, repr=False)
+
+    def inside(self, *steps: Step) -> Argument:
+        """Return the place of something that the argument holds."""
+        return self.place.at(*self.path, *steps)
+
+
+def within(span: Span, *steps: Step) -> Span:
+    """Return the place of something inside of what is at a place, where it is known which argument that is."""
+    return span.inside(*steps) if isinstance(span, Argument) else span
+
 
 def here(made: object = None) -> Place:
     """Return the place in the user's code that led to this call: where `made` was made, by whatever subclass."""
@@ -49,7 +88,7 @@ def here(made: object = None) -> Place:
         outermost, frame = frame, frame.f_back
     found = frame or outermost
     assert found is not None  # noqa: S101 - whoever calls has a frame
-    return Place(found.f_code, found.f_lasti)
+    return Place(found.f_code, found.f_lasti, None if made is None else type(made))
 
 
 def _is_constructor(frame: FrameType, made: object) -> bool:

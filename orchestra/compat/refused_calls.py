@@ -8,51 +8,61 @@ import re
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.explanation import Explanation
-from orchestra.compat.literals import call_at, keyword_span
+from orchestra.compat.keywords import keyword_meant, parameters_of, shown
+from orchestra.compat.literals import argument, call_at, keyword_span
 from orchestra.errors import Code
-from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
     from types import FrameType
 
     from orchestra.compat.place import Place
 
-_UNEXPECTED: Final = re.compile(r"unexpected keyword argument '(\w+)'")
+_UNEXPECTED: Final = re.compile(r"(\w+)\(\) got an unexpected keyword argument '(\w+)'")
+_TWICE: Final = re.compile(r"got multiple values for (?:keyword )?argument '(\w+)'")
 _NAME: Final = re.compile(r"'\w+'")
 _Parameter = inspect.Parameter
 
 
 def explained(error: TypeError, frame: FrameType, place: Place) -> Explanation | None:
-    """Return what is wrong with the arguments of a call of ours; None where the fault is another."""
+    """Return what is wrong with the arguments of a call; None where the fault is another."""
     call = call_at(place)
     called = None if call is None else _value_of(call.func, frame)
-    if call is None or not _is_ours(called):
+    if call is None or not _is_about(error, called):
         return None
     name: str = getattr(called, "__name__", "it")
-    parameters = {parameter.name: parameter for parameter in _parameters(called)}
-    unknown = next((item for item in call.keywords if item.arg not in (None, *parameters)), None)
-    if unknown is not None and unknown.arg is not None:
-        return _unknown(name, unknown.arg, parameters, place, unknown)
+    twice = _TWICE.search(str(error))
+    if twice is not None:
+        span = keyword_span(place, twice[1]) or place.span
+        return Explanation(f"{name} is given '{twice[1]}' twice", Code.CONFLICTING_KEYS, span)
+    parameters = {parameter.name: parameter for parameter in parameters_of(called)}
+    keywords = [item.arg for item in call.keywords if item.arg is not None]
+    unknown = next((item for item in keywords if item not in parameters), None)
     unexpected = _UNEXPECTED.search(str(error))
     if unexpected is not None:
-        return _unknown(name, unexpected[1], parameters, place, None)
+        return _unknown(name, unknown or unexpected[2], parameters, place)
     return _missing(error, name, parameters, place)
 
 
-def _is_ours(called: Any) -> bool:
-    return (getattr(called, "__module__", None) or "").startswith("orchestra.compat.")
+def _is_about(error: TypeError, called: Any) -> bool:
+    """Return whether it is this call that failed, and not one inside of it."""
+    if called is None:
+        return False
+    if (getattr(called, "__module__", None) or "").startswith("orchestra.compat."):
+        return True
+    name = getattr(called, "__qualname__", None)
+    return (
+        callable(called) and name is not None and str(error).startswith((f"{name}()", f"{name}.__init__()"))
+    )
 
 
-def _unknown(
-    name: str, key: str, parameters: dict[str, Any], place: Place, written: ast.keyword | None
-) -> Explanation:
-    meant = nearest(key, parameters)
-    if written is None:  # it comes out of a mapping
+def _unknown(name: str, key: str, parameters: dict[str, Any], place: Place) -> Explanation:
+    meant = keyword_meant(key, parameters, ())
+    span = keyword_span(place, key)
+    message = f"{name} has no argument '{key}'"
+    if span is None:  # it comes out of a mapping that is made elsewhere
         notes = () if meant is None else (f"did you mean '{meant}'?",)
-        return Explanation(f"{name} has no argument '{key}'", Code.UNKNOWN_KEY, notes=notes)
-    span = keyword_span(place, written)
-    return Explanation(f"{name} has no argument '{key}'", Code.UNKNOWN_KEY, span, meant)
+        return Explanation(message, Code.UNKNOWN_KEY, notes=notes)
+    return Explanation(message, Code.UNKNOWN_KEY, span, meant)
 
 
 def _missing(error: TypeError, name: str, parameters: dict[str, Any], place: Place) -> Explanation | None:
@@ -63,36 +73,10 @@ def _missing(error: TypeError, name: str, parameters: dict[str, Any], place: Pla
         return Explanation(f"{name} needs {words}", Code.MISSING_KEY, place.span)
     if "positional argument" in text:
         by_place = sum(item.kind is _Parameter.POSITIONAL_OR_KEYWORD for item in parameters.values())
-        shown = ", ".join(f"{item}=..." for item in list(parameters)[:2])
         message = f"{name} takes {by_place or 'no'} argument{'s' * (by_place != 1)} without a name"
-        notes = (f"it is written {name}({shown})",)
-        return Explanation(message, Code.WRONG_TYPE, place.span, notes=notes)
+        notes = (f"it is written {name}({shown(parameters)})",)
+        return Explanation(message, Code.WRONG_TYPE, argument(place, (f"*{by_place}",)).span, notes=notes)
     return None
-
-
-def _parameters(called: Any) -> Iterator[inspect.Parameter]:
-    """Return what a function or a class takes: with `**kwargs` what the class takes that it derives from, too."""
-    if not isinstance(called, type):
-        yield from inspect.signature(called).parameters.values()
-        return
-    seen: set[str] = set()
-    for kind in called.__mro__:
-        constructor = vars(kind).get("__init__")
-        if constructor is None:
-            continue
-        parameters = list(inspect.signature(constructor).parameters.values())[1:]
-        open_ended = any(parameter.kind is _Parameter.VAR_KEYWORD for parameter in parameters)
-        for parameter in parameters:
-            named = parameter.kind not in (_Parameter.VAR_KEYWORD, _Parameter.VAR_POSITIONAL)
-            if named and not parameter.name.startswith("_") and parameter.name not in seen:
-                seen.add(parameter.name)
-                yield parameter
-        yield from (
-            _Parameter(key, _Parameter.KEYWORD_ONLY, default=None)
-            for key in vars(kind).get("_more_keywords", ())
-        )
-        if not open_ended:
-            return
 
 
 def _value_of(expression: ast.expr, frame: FrameType) -> Any:
@@ -102,7 +86,8 @@ def _value_of(expression: ast.expr, frame: FrameType) -> Any:
     """
     if ast.unparse(expression) == "super().__init__":
         made = frame.f_locals.get(frame.f_code.co_varnames[0])
-        return next((kind for kind in type(made).__mro__ if _is_ours(kind)), None)
+        kinds = type(made).__mro__
+        return next((kind for kind in kinds if kind.__module__.startswith("orchestra.compat.")), None)
     if isinstance(expression, ast.Attribute):
         return getattr(_value_of(expression.value, frame), expression.attr, None)
     if not isinstance(expression, ast.Name):

@@ -1,35 +1,105 @@
-"""Suggestions for Python files: what stands at a place is a whole expression there, of which one text is wrong."""
+"""Problems of Python files at the text that is wrong: what stands at a place is a whole expression there."""
 
 from __future__ import annotations
 
+import ast
+import re
 from dataclasses import replace
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
+from orchestra.compat.literals import Literal, argument
+from orchestra.compat.place import Argument
 from orchestra.compat.source_text import quoted_in, text_at
+from orchestra.compat.syntax_trees import tree_of
+from orchestra.errors import Code
 from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from orchestra.errors import Problem
     from orchestra.location import Span
 
+_BETWEEN: Final = re.compile(r"[\s()$]+")
+
 
 def in_place(problem: Problem) -> Problem:
-    """Return a problem whose suggestion can stand in place of its span; a note says it where no such text is found."""
+    """Return a problem at the text that is wrong, and whose suggestion can stand in place of it.
+
+    Where no such text is found it stays at the expression, and a note says what was meant.
+    """
     span, meant = problem.span, problem.suggestion
-    if meant is None or span is None or not span.file.endswith(".py"):
+    if span is None or not span.file.endswith(".py"):
         return problem
-    wrong = _wrong(span, meant)
+    found = _found(span)
+    if isinstance(span, Argument):
+        problem = replace(problem, span=found.span)
+    if meant is None:
+        return (
+            replace(problem, span=_missing(problem, found)) if problem.code is Code.MISSING_FILE else problem
+        )
+    wrong = _wrong(found, meant)
     if wrong is None:
         return replace(problem, suggestion=None, notes=(*problem.notes, f"did you mean '{meant}'?"))
-    return replace(problem, span=wrong)
+    return replace(problem, span=wrong[0], suggestion=wrong[1])
 
 
-def _wrong(span: Span, meant: str) -> Span | None:
-    """Return where the text stands that something else was meant by: nearest to it in the source text."""
+def whole(span: Span) -> Span:
+    """Return where an argument stands, a text with its quotes; any other place as it is."""
+    return argument(span.place, span.path).whole if isinstance(span, Argument) else span
+
+
+def _found(span: Span) -> Literal:
+    """Return the expression at a place."""
+    if isinstance(span, Argument):
+        return argument(span.place, span.path)
     file = str(Path(span.file).absolute())
-    if text_at(file, span).replace(".", "").isidentifier():
-        return span
-    quoted = quoted_in(file, span)
-    text = nearest(meant, quoted)
-    return None if text is None else quoted[text]
+    tree = tree_of(file)
+    node = None if tree is None else tree.expression(file, span)
+    is_name = isinstance(node, ast.Name | ast.Attribute)  # what is told of is the name itself
+    return Literal(file, None if is_name else node, span, tree)
+
+
+def _missing(problem: Problem, found: Literal) -> Span:
+    """Return where the last part of the path stands that a message tells of."""
+    name = problem.message.rpartition("/")[2].rpartition(" ")[2].strip("'")
+    return found.texts.get(name, found.span)
+
+
+def _wrong(found: Literal, meant: str) -> tuple[Span, str] | None:
+    """Return where the text stands that something else was meant by, and what should stand there."""
+    if found.node is None:  # a name, or the part of something
+        named = text_at(found.file, found.span).replace(".", "").isidentifier()
+        return (
+            (found.span, meant) if named else next(_replaced(quoted_in(found.file, found.span), meant), None)
+        )
+    if isinstance(found.node, ast.Constant):
+        text = str(found.node.value)
+        whole = "$(" not in meant and text.count("/") == meant.count("/")
+        return (found.span, meant) if whole else next(_replaced({text: found.span}, meant), None)
+    return next(_replaced(found.texts, meant), None)
+
+
+def _replaced(texts: dict[str, Span], meant: str) -> Iterator[tuple[Span, str]]:
+    """Yield what should stand in place of which text, the likeliest first.
+
+    `meant` may be a whole path, of which a text is a part.
+    """
+    near = nearest(meant, texts)
+    if near is not None:
+        yield texts[near], meant
+    for text, place in texts.items():
+        if text in meant:
+            continue
+        part = nearest(text, _parts(meant, text.count("/")))
+        if part is not None:
+            yield place, part
+
+
+def _parts(meant: str, slashes: int) -> Iterator[str]:
+    """Yield the parts of a path, or of a text with substitutions, that have so many slashes."""
+    for token in _BETWEEN.split(meant):
+        steps = token.split("/")
+        for begin in range(len(steps) - slashes):
+            yield "/".join(steps[begin : begin + slashes + 1])

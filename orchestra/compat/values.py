@@ -6,7 +6,9 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.place import Key, ValueOf, within
 from orchestra.compat.text import Sub, template
+from orchestra.compat.wrong import WrongType
 from orchestra.description.parts import Pair
 
 if TYPE_CHECKING:
@@ -40,15 +42,18 @@ def words(given: Any, name: str) -> list[Any]:
 
 def pairs(items: Iterable[tuple[Sub, Sub]], span: Span) -> tuple[Pair, ...]:
     """Return names with their values. Raises `TypeError` for anything else."""
-    return tuple(_pair(item, span) for item in items)
+    return tuple(_pair(item, span, index) for index, item in enumerate(items))
 
 
-def _pair(item: tuple[Sub, Sub], span: Span) -> Pair:
+def _pair(item: tuple[Sub, Sub], span: Span, index: int) -> Pair:
     try:
         name, value = item
     except (TypeError, ValueError):
-        raise TypeError(f"a name and its value are expected, not {item!r}: ('name', 'value')") from None
+        told = f"a name and its value are expected, not {item!r}: ('name', 'value')"
+        raise WrongType(told, item, at=within(span, index)) from None
     try:
-        return Pair.at(span, name=template(name, span), value=template(value, span))
+        at, value_at = within(span, Key(index)), within(span, ValueOf(index))
+        return Pair.at(span, name=template(name, at), value=template(value, value_at))
     except TypeError as error:
-        raise TypeError(f"{name if isinstance(name, str) else 'a name'}: {error}") from None
+        told = f"{name if isinstance(name, str) else 'a name'}: {error}"
+        raise WrongType(told, value, at=within(span, ValueOf(index))) from None

@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.compat import faults
 from orchestra.compat.explanation import told
 from orchestra.compat.launch.launch_description import LaunchDescription
+from orchestra.compat.refusing import collecting, is_lost
 from orchestra.compat.seam import connection
 from orchestra.description.actions.opaque import OpaqueAction
 from orchestra.description.launch import Description
@@ -50,16 +51,19 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
         return None
     try:
         connection().prepare()
-        module = load_module(path)
-        at = _definition(module, at)
-        with _in_place(module):
-            made = _made(module)
+        with collecting(problems, included_from):
+            module = load_module(path)
+            at = _definition(module, at)
+            with _in_place(module):
+                made = _made(module)
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # noqa: BLE001 - the boundary of user code
         found = Problems()
         faults.report(error, found, included_from, at)
         problems.extend(found if included_from else map(_grave, found))
+        return None
+    if is_lost(made):
         return None
     if isinstance(made, LaunchDescription):
         at = point(file)

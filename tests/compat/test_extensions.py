@@ -368,7 +368,7 @@ FAULTS = [
     ("depends_on=[{'node': 'b', 'timeout': -1}]", "-1", "expected a number of seconds, found '-1'", None),
     (
         "depends_on=[{'node': 'b', 'label': 'c'}]",
-        "{'node': 'b', 'label': 'c'}",
+        "label",
         "a dependency names one of `node`, `process` and `label`",
         None,
     ),
@@ -378,7 +378,7 @@ FAULTS = [
     ("ready={'message': None}", "message", "expected text, found nothing", None),
     ("ready={'message': 3j}", "message", "expected text, found complex", None),
     ("restart={'policy': 'ever'}", "ever", "expected one of no, on-failure, always, found 'ever'", None),
-    ("ready={'command': [['b'], 3j]}", "[['b'], 3j]", "expected text, found complex", None),
+    ("ready={'command': [['b'], 3j]}", "command", "expected text, found complex", None),
     ("ready={'parameter': {'name': 'p', 'value': [1, 'a']}}", "[1, 'a']", _MIXED, None),
     ("ready={'tf': 'map'}", "map", "expected a mapping, found 'map'", None),
     ("ready={'lifecycle': {'node': 'b'}}", "{'node': 'b'}", "the key 'state' is missing", None),

@@ -62,17 +62,17 @@ _CALLS = {
         "[Node(**TALKER, «requird»=True)]", "Node has no argument 'requird'", Code.UNKNOWN_KEY, "required"
     ),
     "a keyword out of a mapping": Mistake(
-        "[«Node(**{'package': 'demo', 'exectuable': 'talker'}, executable='talker')»]",
+        "[Node(**{'package': 'demo', '«exectuable»': 'talker'}, executable='talker')]",
         "Node has no argument 'exectuable'",
         Code.UNKNOWN_KEY,
-        note="did you mean 'executable'?",
+        "executable",
     ),
     "a keyword of a class of the file's own": Mistake(
-        "class Talker(Node):\n    def __init__(self, **more):\n        «super().__init__(**TALKER, **more)»\n"
-        "return LaunchDescription([Talker(naem='a')])",
+        "class Talker(Node):\n    def __init__(self, **more):\n        super().__init__(**TALKER, **more)\n"
+        "return LaunchDescription([Talker(«naem»='a')])",
         "Node has no argument 'naem'",
         Code.UNKNOWN_KEY,
-        note="did you mean 'name'?",
+        "name",
     ),
     "a keyword of a declaration": Mistake(
         "[DeclareLaunchArgument('a', «default»='x')]",
@@ -98,13 +98,13 @@ _CALLS = {
         "[«LifecycleNode(**TALKER)»]", "LifecycleNode needs 'name' and 'namespace'", Code.MISSING_KEY
     ),
     "an argument without a name": Mistake(
-        "[«Node('demo', 'talker')»]",
+        "[Node(«'demo'», 'talker')]",
         "Node takes no arguments without a name",
         Code.WRONG_TYPE,
         note="it is written Node(executable=..., package=...)",
     ),
     "two arguments instead of a list": Mistake(
-        "return «LaunchDescription(Node(**TALKER), Node(**TALKER))»",
+        "return LaunchDescription(Node(**TALKER), «Node(**TALKER)»)",
         "LaunchDescription takes 1 argument without a name",
         Code.WRONG_TYPE,
     ),
@@ -235,8 +235,9 @@ _ENTITIES = {
         "[«GroupAction(Node(**TALKER))»]", "a list of actions is expected here, this is a Node"
     ),
     "a node among components": Mistake(
-        "[«LoadComposableNodes(target_container='/c', composable_node_descriptions=[Node(**TALKER)])»]",
+        "[LoadComposableNodes(target_container='/c', composable_node_descriptions=[«Node(**TALKER)»])]",
         "composable_node_descriptions are of the class ComposableNode, this is a Node",
+        Code.WRONG_TYPE,
     ),
     "an action that does not begin as one": Mistake(
         "class Own(Action):\n    def __init__(self): pass\nreturn «LaunchDescription([Own()])»",
@@ -246,28 +247,38 @@ _ENTITIES = {
 
 _VALUES = {
     "a truth value in a condition": Mistake(
-        "[Node(**TALKER, condition=«IfCondition(True)»)]", "expected a text or a substitution"
+        "[Node(**TALKER, condition=IfCondition(«True»))]",
+        "expected a text or a substitution",
+        Code.WRONG_TYPE,
     ),
     "a truth value as a condition": Mistake(
-        "[«Node(**TALKER, condition=True)»]",
+        "[Node(**TALKER, condition=«True»)]",
         "a condition is made by IfCondition or UnlessCondition, this is True",
+        Code.WRONG_TYPE,
     ),
     "a substitution as a component's condition": Mistake(
-        "[«LoadComposableNodes(target_container='/c', composable_node_descriptions=["
-        "ComposableNode(package='demo', plugin='P', condition=LaunchConfiguration('a'))])»]",
+        "[LoadComposableNodes(target_container='/c', composable_node_descriptions=["
+        "ComposableNode(package='demo', plugin='P', condition=«LaunchConfiguration('a')»)])]",
         "a condition is made by IfCondition or UnlessCondition, this is a LaunchConfiguration",
+        Code.WRONG_TYPE,
     ),
     "a remapping that is a list": Mistake(
-        "[«Node(**TALKER, remappings=[['a', 'b']])»]", "a remapping is a tuple of two names, not ['a', 'b']"
+        "[Node(**TALKER, remappings=[«['a', 'b']»])]",
+        "a remapping is a tuple of two names, not ['a', 'b']",
+        Code.WRONG_TYPE,
     ),
     "parameters that are no list": Mistake(
-        "[«Node(**TALKER, parameters={'a': 1})»]", "'parameters' of a Node is a list, not dict: {'a': 1}"
+        "[Node(**TALKER, parameters=«{'a': 1}»)]",
+        "'parameters' of a Node is a list, not dict: {'a': 1}",
+        Code.WRONG_TYPE,
     ),
     "a parameter without a value": Mistake(
-        "[«Node(**TALKER, parameters=[{'a': None}])»]", "parameter 'a': None is no value of a parameter"
+        "[Node(**TALKER, parameters=[{'a': «None»}])]",
+        "parameter 'a': None is no value of a parameter",
+        Code.WRONG_TYPE,
     ),
     "a parameter that no node can have": Mistake(
-        "[«Node(**TALKER, parameters=[{'a': {'b': [1, 'c']}}])»]",
+        "[Node(**TALKER, parameters=[{'a': {'b': «[1, 'c']»}}])]",
         "parameter 'a.b': a list must hold values of one type, not 1 and 'c'",
         Code.PARAMETER_TYPE,
     ),
@@ -278,21 +289,27 @@ _VALUES = {
         note="ParameterValue(..., value_type=str) keeps it a text",
     ),
     "an environment that is a list": Mistake(
-        "[«Node(**TALKER, additional_env=[('a', 'b')])»]",
+        "[Node(**TALKER, additional_env=«[('a', 'b')]»)]",
         "an environment is a dict of names and values, this is a list",
+        Code.WRONG_TYPE,
     ),
     "a variable that is a number": Mistake(
-        "[«Node(**TALKER, additional_env={'LEVEL': 5})»]",
+        "[Node(**TALKER, additional_env={'LEVEL': «5»})]",
         "the value of 'LEVEL' in an environment: expected a text or a substitution (or several in a list), found int",
+        Code.WRONG_TYPE,
     ),
-    "a command that is one text": Mistake("[«ExecuteProcess(cmd='ls -l')»]", "cmd is a list of words"),
+    "a command that is one text": Mistake(
+        "[ExecuteProcess(cmd=«'ls -l'»)]", "cmd is a list of words", Code.WRONG_TYPE
+    ),
     "an argument of an include that is one text": Mistake(
-        "[«IncludeLaunchDescription('inner.launch.py', launch_arguments=['a:=b'])»]",
+        "[IncludeLaunchDescription('inner.launch.py', launch_arguments=[«'a:=b'»])]",
         "a name and its value are expected, not 'a:=b'",
+        Code.WRONG_TYPE,
     ),
     "an argument of an include that is a number": Mistake(
-        "[«IncludeLaunchDescription('inner.launch.py', launch_arguments={'a': 5}.items())»]",
+        "[IncludeLaunchDescription('inner.launch.py', launch_arguments={'a': «5»}.items())]",
         "a: expected a text or a substitution (or several in a list), found int: 5",
+        Code.WRONG_TYPE,
     ),
     "a substitution added to a text": Mistake(
         "[LogInfo(msg=«'a' + LaunchConfiguration('b')»)]",
@@ -314,11 +331,11 @@ _THINGS = {
         "robot_name",
     ),
     "a name of a launch argument that is not written there": Mistake(
-        "name = 'robot_nme'\nreturn LaunchDescription([DeclareLaunchArgument('robot_name', default_value='a'), "
-        "LogInfo(msg=«LaunchConfiguration(name)»)])",
+        "name = '«robot_nme»'\nreturn LaunchDescription([DeclareLaunchArgument('robot_name', default_value='a'), "
+        "LogInfo(msg=LaunchConfiguration(name))])",
         "no launch argument or variable 'robot_nme' is set here",
         Code.UNDEFINED_VARIABLE,
-        note="did you mean 'robot_name'?",
+        "robot_name",
     ),
     "a package": Mistake(
         "[Node(package='«demmo»', executable='talker')]",
@@ -348,7 +365,7 @@ _THINGS = {
         "needed",
     ),
     "a name of a transition": Mistake(
-        "[«LifecycleTransition(lifecycle_node_names=['a'], transition_ids=['configure'])»]",
+        "[LifecycleTransition(lifecycle_node_names=['a'], transition_ids=['«configure»'])]",
         "expected a whole number, found 'configure'",
         Code.WRONG_TYPE,
     ),

@@ -39,7 +39,12 @@ _CASES = [pytest.param(case, id=case.name) for path in sorted(FOLDER.iterdir()) 
 def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return the prefix of a package `demo`; the working directory has files to include and to read."""
     prefix = tmp_path / "install"
-    for folder in ("share/ament_index/resource_index/packages", "lib/demo", "share/demo/launch", "share/demo/config"):
+    for folder in (
+        "share/ament_index/resource_index/packages",
+        "lib/demo",
+        "share/demo/launch",
+        "share/demo/config",
+    ):
         (prefix / folder).mkdir(parents=True)
     (prefix / "share/ament_index/resource_index/packages/demo").touch()
     for program in ("talker", "component_container"):
@@ -73,8 +78,14 @@ def test_a_mistake_is_told(workspace: Path, case: Case) -> None:
         for problem in problems
         if problem.span is not None and problem.span.file in case.files
     ]
-    elsewhere = [problem.suggestion for problem in problems if problem.span is None or problem.span.file not in case.files]
-    shown = "\n".join(f"{problem.span}: {problem.code} {problem.message} {problem.notes}" for problem in problems)
+    elsewhere = [
+        problem.suggestion
+        for problem in problems
+        if problem.span is None or problem.span.file not in case.files
+    ]
+    shown = "\n".join(
+        f"{problem.span}: {problem.code} {problem.message} {problem.notes}" for problem in problems
+    )
     assert sorted(found, key=str) == sorted(case.told, key=str), shown
     assert elsewhere == case.suggestions, shown
     assert "orchestra" not in shown

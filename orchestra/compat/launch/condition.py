@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.described import said
+from orchestra.compat.refusing import Refusing
 from orchestra.description.text import Opaque, Template
 
 if TYPE_CHECKING:
@@ -14,7 +15,7 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 
-class Condition:
+class Condition(Refusing):
     """A predicate on the context; without one it never holds. Users derive from it or hand a callable in."""
 
     def __init__(self, *, predicate: Callable[[LaunchContext], bool] | None = None) -> None:

@@ -9,6 +9,7 @@ from orchestra.compat.building import models_of
 from orchestra.compat.explanation import told
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.compat.place import here
+from orchestra.compat.refusing import Refusing
 from orchestra.description.handlers import Handler
 
 if TYPE_CHECKING:
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from orchestra.compat.launch.launch_context import LaunchContext
 
 
-class BaseEventHandler:
+class BaseEventHandler(Refusing):
     """The base of all event handlers: users derive from it and write `handle(event, context)`.
 
     With `handle_once` it waits no more after the first event.

@@ -4,13 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Literal
 
+from orchestra.compat.refusing import Refusing
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from orchestra.compat.launch.launch_context import LaunchContext
 
 
-class LaunchDescriptionEntity:
+class LaunchDescriptionEntity(Refusing):
     """Something that is visited. `_role` tells those apart that a search for declared arguments meets."""
 
     _role: Literal["other", "declaration", "include", "reset"] = "other"

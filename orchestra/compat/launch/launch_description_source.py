@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, ClassVar
 
 from orchestra.compat.launch.event_handler import is_of_ours
 from orchestra.compat.launch.launch_context import LaunchContext
+from orchestra.compat.place import here
+from orchestra.compat.refusing import Refusing
 from orchestra.compat.text import Sub, normalized, template
 
 if TYPE_CHECKING:
@@ -16,7 +18,7 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 
-class LaunchDescriptionSource:
+class LaunchDescriptionSource(Refusing):
     """A launch description; `location` and `method` tell people where it comes from.
 
     Subclasses read it from the file at `location`, once. Users' own have `_get_launch_description(location)`, or
@@ -33,6 +35,7 @@ class LaunchDescriptionSource:
         location: Sub = "<string>",
         method: str = "unspecified mechanism from a script",
     ) -> None:
+        self._place = here(self)
         self.__launch_description = launch_description
         self.__location: list[Substitution] = normalized(location)
         self.__expanded: str | None = None
@@ -92,6 +95,6 @@ class LaunchDescriptionSource:
         known = is_of_ours(self, "get_launch_description") and is_of_ours(self, "_get_launch_description")
         return self._is_file and known
 
-    def _file(self, span: Span) -> Template:
-        """Return the location as written."""
-        return template(self.__location, span)
+    def _file(self, given: Span | None = None) -> Template:
+        """Return the location as written; `given` is where it stands if that is not in a call for the source."""
+        return template(self.__location, given or self._place.at("launch_file_path"))

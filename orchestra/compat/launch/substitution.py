@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.described import said
 from orchestra.compat.place import here
+from orchestra.compat.refusing import Refusing
 from orchestra.description.text import Call, Opaque, Template, Words
 from orchestra.description.written import called, escaped
 
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 
-class Substitution:
+class Substitution(Refusing):
     """The base that users derive from: they write `perform(context)`, and `describe()` if they like.
 
     What a subclass performs is only known to it, so it stands in templates as an `Opaque` part. A subclass of ours

@@ -6,8 +6,10 @@ from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any, get_args, get_origin
 
 from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 from orchestra.compat.launch_ros.utilities.exact import Exact
+from orchestra.compat.place import within
 from orchestra.compat.text import template
 from orchestra.description.parts import Override, Param, Remap
 from orchestra.description.text import Constant, Template
@@ -22,20 +24,20 @@ if TYPE_CHECKING:
 def params(parameters: Iterable[Any], span: Span) -> tuple[Param, ...]:
     """Return the parts for normalised parameters; what has no place of its own is at `span`."""
     found: list[Param] = []
-    for item in parameters:
+    for index, item in enumerate(parameters):
         if isinstance(item, Mapping):
-            found += params_of(item, span)
+            found += params_of(item, within(span, index))
         elif isinstance(item, Parameter):
             found.append(_override(item))
         elif isinstance(item, ParameterFile):
-            found.append(_file(item))
+            found.append(_file(item, within(span, index)))
     return tuple(found)
 
 
 def params_of(parameters: Mapping[Any, Any], span: Span) -> tuple[Param, ...]:
     """Return the parts for a normalised dictionary."""
     return tuple(
-        Param.at(span, name=template(name, span), **value_fields(value, span))
+        Param.at(span, name=template(name, span), **value_fields(value, within(span, *_step(name))))
         for name, value in parameters.items()
     )
 
@@ -50,24 +52,37 @@ def value_fields(value: Any, span: Span) -> dict[str, Any]:
 def remaps(rules: Iterable[tuple[Any, Any]], span: Span) -> tuple[Remap, ...]:
     """Return the parts for remapping rules."""
     return tuple(
-        Remap.at(span, from_=template(source, span), to=template(target, span)) for source, target in rules
+        Remap.at(
+            span,
+            from_=template(source, within(span, index, 0)),
+            to=template(target, within(span, index, 1)),
+        )
+        for index, (source, target) in enumerate(rules)
     )
+
+
+def _step(name: Any) -> tuple[str, ...]:
+    """Return where the value of a normalised name stands in the dictionary, as far as the name is a text."""
+    texts = [item.text if isinstance(item, TextSubstitution) else None for item in name]
+    known = [text for text in texts if text is not None]
+    return ("".join(known),) if len(known) == len(texts) else ()
 
 
 def _override(parameter: Parameter) -> Override:
     name, value = parameter._written
-    span = parameter._place.span
-    return Override.at(span, name=template(name, span), **_typed(value))
+    place = parameter._place
+    return Override.at(place.span, name=template(name, place.at("name")), **_typed(value))
 
 
-def _file(file: ParameterFile) -> Param:
-    span = file._place.span
+def _file(file: ParameterFile, given: Span) -> Param:
+    """Return the part for a file; one that was given as a path stands where that does."""
+    span = file._place.at("param_file") if file._place.kind is ParameterFile else given
     allowed: dict[str, Any] = {"allow_substs": template("true", span)} if file.allow_substs else {}
     return Param.at(span, from_=template(file._written, span), **allowed)
 
 
 def _typed(value: ParameterValue) -> dict[str, Any]:
-    span = value._place.span
+    span = value._place.at("value")
     word = _word(value.value_type)
     written = value._written
     if isinstance(written, list) and not _is_text(written):

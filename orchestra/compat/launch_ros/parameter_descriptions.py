@@ -15,6 +15,7 @@ from orchestra.compat.launch.utilities.type_utils import (
     perform_typed_substitution,
 )
 from orchestra.compat.place import here
+from orchestra.compat.refusing import Refusing
 from orchestra.compat.text import normalized
 
 if TYPE_CHECKING:
@@ -22,7 +23,7 @@ if TYPE_CHECKING:
     from orchestra.compat.text import Sub
 
 
-class ParameterValue:
+class ParameterValue(Refusing):
     """A value. What comes from substitutions is converted to `value_type`, else read as YAML.
 
     Raises `TypeError` for a literal that is not of the type.
@@ -60,7 +61,7 @@ class ParameterValue:
         return self.__evaluated
 
 
-class Parameter:
+class Parameter(Refusing):
     """A name and a value."""
 
     def __init__(self, name: Sub, value: Any, *, value_type: Any = None) -> None:
@@ -101,7 +102,7 @@ class Parameter:
         return name, value
 
 
-class ParameterFile:
+class ParameterFile(Refusing):
     """A parameter file, in which `$(...)` is evaluated with `allow_substs`."""
 
     def __init__(

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import os
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 from orchestra.compat import faults
+from orchestra.compat.refusing import collecting
 from orchestra.location import Location
-from orchestra.resolve.python.environ import put_environment
+from orchestra.resolve.python.environ import environment_now, put_environment
+from orchestra.witness.observing import observer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -22,7 +23,8 @@ def user_code(run: Resolution, span: Span) -> Iterator[None]:
     """Run code of a launch file, which `span` led to. What it raises is reported and does not get out."""
     put_environment(run.scope.environment)
     try:
-        yield
+        with collecting(run.problems, run.context.included_from):
+            yield
     except KeyboardInterrupt:
         raise
     except BaseException as error:  # noqa: BLE001 - the boundary of user code
@@ -44,12 +46,13 @@ def our_code(run: Resolution, span: Span) -> Iterator[None]:
 
 def take_environment(run: Resolution, span: Span) -> None:
     """Make what user code has done to the environment of this process part of the scope."""
-    environment, now = run.scope.environment, dict(os.environ)
-    if now == environment:
-        return
-    location = Location(span, run.context.included_from)
-    for name in environment.keys() - now.keys():
-        run.scope.change(name, None, location)
-    for name, value in now.items():
-        if environment.get(name) != value:
-            run.scope.change(name, value, location)
+    environment, now = run.scope.environment, environment_now()
+    with observer().aside():
+        if now == environment:
+            return
+        location = Location(span, run.context.included_from)
+        for name in environment.keys() - now.keys():
+            run.scope.change(name, None, location)
+        for name, value in now.items():
+            if environment.get(name) != value:
+                run.scope.change(name, value, location)

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
-from orchestra.compat.faults import ReportedError
 from orchestra.compat.place import here
+from orchestra.compat.refusing import ReportedError
 from orchestra.location import Location
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import InlineParameter

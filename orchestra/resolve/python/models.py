@@ -7,6 +7,7 @@ from contextlib import contextmanager
 from functools import reduce
 from importlib import import_module
 from importlib.util import find_spec
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.seam import connection, is_connected
@@ -26,8 +27,8 @@ if TYPE_CHECKING:
 def named_class(module: str, name: str, value: Value, written: Template, run: Resolution) -> Any:
     """Return the object `name` of a module, which is imported; None where there is none (which has been reported).
 
-    Modules beside the launch file are found too, after all others. What the module does while it is imported is undone
-    as what launch files in Python do.
+    Modules beside the launch file are found too, after all others, and forgotten again, since those beside other launch
+    files may be called the same. What the module does while it is imported is undone as what launch files in Python do.
     """
     if is_connected():
         connection().prepare()
@@ -53,10 +54,15 @@ def named_class(module: str, name: str, value: Value, written: Template, run: Re
 
 @contextmanager
 def _path_with(folder: str) -> Iterator[None]:
+    before = set(sys.modules)
     sys.path.append(folder)
     try:
         yield
     finally:
+        for name in set(sys.modules) - before:
+            file = getattr(sys.modules[name], "__file__", None)
+            if file is not None and Path(file).is_relative_to(folder):
+                del sys.modules[name]
         if folder in sys.path:  # the code that was imported may have taken it away
             sys.path.reverse()
             sys.path.remove(folder)

@@ -15,6 +15,8 @@ from orchestra.compat.launch.launch_description import LaunchDescription
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.compat.literals import item_span
 from orchestra.compat.misplaced import misplaced
+from orchestra.compat.place import Argument
+from orchestra.compat.refusing import is_lost
 from orchestra.errors import Code
 from orchestra.location import displayed, point
 from orchestra.resolve.python.calling import user_code
@@ -40,6 +42,9 @@ def visit_entities(entities: Iterable[Any], run: Resolution, place: Place | None
 
 def visit_entity(entity: Any, run: Resolution, place: Place | None = None) -> None:
     """Visit an entity, by its model where it has one; `place` is that of what holds it."""
+    if is_lost(entity):
+        run.scope.ledger.incomplete = True
+        return
     try:
         model = model_of(entity)
     except ValidationError as error:
@@ -56,6 +61,9 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
     entity = action.target
     if not _is_entity(entity):
         _refuse_other(entity, action.span, run)
+        return
+    if is_lost(entity):
+        run.scope.ledger.incomplete = True
         return
     if isinstance(entity, ModelledAction) and entity._is_as_described():  # its model is faulty
         visit_entity(entity, run)
@@ -92,11 +100,16 @@ def _refuse_other(value: Any, span: Span, run: Resolution) -> None:
 
 
 def _refuse(entity: Any, error: ValidationError, run: Resolution) -> None:
-    """Report values that an action of Python cannot have."""
-    for detail in error.errors(include_url=False, include_input=False):
+    """Report values that an action of Python cannot have, each where it stands."""
+    for detail in error.errors(include_url=False):
         place = ".".join(str(step) for step in detail["loc"])
-        at = run.at(_span(entity, run))
-        run.problems.error(Code.WRONG_TYPE, f"{_name(entity)}: {place}: {detail['msg']}", at)
+        span = getattr(detail["input"], "span", None)
+        if isinstance(span, Argument):
+            place = str(span.path[0])
+        told_so = f"{_name(entity)}: {place}: {detail['msg']}"
+        at = run.at(span if isinstance(span, Argument) else _span(entity, run))
+        suggestion = detail.get("ctx", {}).get("suggestion")
+        run.problems.error(Code.WRONG_TYPE, told_so, at, suggestion=suggestion)
 
 
 def _name(entity: Any) -> str:
@@ -104,6 +117,6 @@ def _name(entity: Any) -> str:
     return f"{getattr(function, '__qualname__', '') or type(entity).__name__}"
 
 
-def _span(entity: Any, run: Resolution, around: Place | None = None) -> Span:
-    place: Place | None = getattr(entity, "_place", around)
+def _span(entity: Any, run: Resolution, around: Place | None = None, path: tuple[Step, ...] = ()) -> Span:
+    place: Place | None = getattr(entity, "__dict__", {}).get("_place", around)
     return place.span if place is not None else point(displayed(run.context.file or ""))

@@ -306,9 +306,9 @@ _FAULTS = {
     "an import that fails": ("import no_such_module_at_all\n", Code.USER_CODE, 1, "no Python module"),
     "a wrong type": (
         "def generate_launch_description():\n    return LaunchDescription([\n        LogInfo(msg=5)])\n",
-        Code.USER_CODE,
+        Code.WRONG_TYPE,
         3,
-        "TypeError",
+        "expected a text",
     ),
     "a function that raises": (
         "def f(context):\n    x = 1\n    raise KeyError('k')\ndef generate_launch_description():\n    return LaunchDescription([OpaqueFunction(function=f)])\n",

@@ -43,10 +43,10 @@ class AppendEnvironmentVariable(SettingAction):
         return self.__separator
 
     def _fields(self) -> dict[str, Any]:
-        span = self._place.span
-        separator = template(self.separator, span)
+        place = self._place
+        separator = template(self.separator, place.at("separator"))
         return {
             **super()._fields(),
-            "prepend": None if self.prepend is False else scalar(self.prepend, span),
+            "prepend": None if self.prepend is False else scalar(self.prepend, place.at("prepend")),
             "separator": None if separator.constant == os.pathsep else separator,
         }

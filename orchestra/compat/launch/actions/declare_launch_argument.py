@@ -7,7 +7,10 @@ from typing import TYPE_CHECKING, Any
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.text import Sub, normalized, template
 from orchestra.compat.values import optional, written
+from orchestra.compat.wrong import WrongRuntime
 from orchestra.description.actions.arg import Arg
+from orchestra.errors import Code
+from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -73,13 +76,16 @@ class DeclareLaunchArgument(ModelledAction):
         return None
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        span = self._place.span
-        choices = None if self.choices is None else tuple(template(choice, span) for choice in self.choices)
+        place = self._place
+        choices = None
+        if self.choices is not None:
+            listed = enumerate(self.choices)
+            choices = tuple(template(choice, place.at("choices", index)) for index, choice in listed)
         return Arg.at(
-            span,
-            name=template(self.name, span),
-            default=optional(self.default_value, span),
-            description=optional(self.__given_description, span),
+            place.span,
+            name=template(self.name, place.at("name")),
+            default=optional(self.default_value, place.at("default_value")),
+            description=optional(self.__given_description, place.at("description")),
             choices=choices,
             **common,
         )
@@ -94,9 +100,14 @@ def _check(name: str, default: Any, choices: list[str] | None) -> None:
     if choices is None:
         return
     if not choices:
-        raise RuntimeError(f"the launch argument '{name}' has no choice at all")
+        raise WrongRuntime(f"the launch argument '{name}' has no choice at all", path=("choices",))
     if isinstance(default, str) and default not in choices:
-        raise RuntimeError(f"the default '{default}' of the launch argument '{name}' is none of {choices}")
+        raise WrongRuntime(
+            f"the default '{default}' of the launch argument '{name}' is none of {choices}",
+            code=Code.NOT_A_CHOICE,
+            path=("default_value",),
+            suggestion=nearest(default, filter(lambda choice: isinstance(choice, str), choices)),
+        )
 
 
 def _described(description: str | None, choices: list[str] | None) -> str:

@@ -13,6 +13,7 @@ from orchestra.compat.launch.event_handlers.on_action_event_base import OnAction
 from orchestra.compat.launch.events.process.process_exited import ProcessExited
 from orchestra.compat.launch.events.process.process_io import ProcessIO
 from orchestra.compat.launch.substitutions.launch_configuration import LaunchConfiguration
+from orchestra.compat.place import within
 from orchestra.compat.text import normalized, template
 from orchestra.compat.values import optional, scalar, written
 from orchestra.description.actions.executable import Executable as ExecutableModel
@@ -173,33 +174,31 @@ class ExecuteLocal(ModelledAction):
 
     def _process_model(self, common: Mapping[str, Any]) -> Model:
         """Return the model of the process alone. Kinds of nodes have models of their own."""
-        span = self._place.span
-        description = self.process_description
-        words = tuple(template(word, span) for word in description.cmd)
-        return ExecutableModel.at(
-            span, cmd=words, name=optional(description.name, span), **self._running_fields(), **common
-        )
+        at, description = self._place.at, self.process_description
+        words = tuple(template(word, at("cmd", index)) for index, word in enumerate(description.cmd))
+        name = optional(description.name, at("name"))
+        return ExecutableModel.at(self._place.span, cmd=words, name=name, **self._running_fields(), **common)
 
     def _running_fields(self) -> dict[str, Any]:
         """Return the fields that the models of all processes share, without the name."""
-        span, ending = self._place.span, self.__ending()
+        span, at, ending = self._place.span, self._place.at, self.__ending()
         explained = ending is not None and ending._has_reason
         fields = {
-            "shell": scalar(self.__shell, span) if self.__shell else None,
-            "emulate_tty": optional(self.__emulate_tty, span),
-            "output": _output_field(self.__output, span),
+            "shell": scalar(self.__shell, at("shell")) if self.__shell else None,
+            "emulate_tty": optional(self.__emulate_tty, at("emulate_tty")),
+            "output": _output_field(self.__output, at("output")),
             "on_exit": template("shutdown", span) if ending is not None and not explained else None,
             "required": scalar(value=True, span=span) if explained else None,
-            "respawn": scalar(self.__respawn, span) if self.__respawn else None,
-            "respawn_delay": optional(_delay(self.__respawn_delay), span),
+            "respawn": scalar(self.__respawn, at("respawn")) if self.__respawn else None,
+            "respawn_delay": optional(_delay(self.__respawn_delay), at("respawn_delay")),
             "respawn_max_retries": None
             if self.__respawn_max_retries == -1
-            else scalar(self.__respawn_max_retries, span),
-            **{name: optional(value, span) for name, value in self.__timeouts.items()},
+            else scalar(self.__respawn_max_retries, at("respawn_max_retries")),
+            **{name: optional(value, at(name)) for name, value in self.__timeouts.items()},
         }
         given = {name: value for name, value in fields.items() if value is not None}
         extensions = self._extension_fields(self.__extensions)
-        return self.process_description._fields(span) | given | extensions
+        return self.process_description._fields(self._place) | given | extensions
 
     def _extension_fields(self, extensions: Mapping[str, Any]) -> dict[str, Any]:
         """Return the fields for Orchestra's own keywords. Kinds of nodes take more of them."""
@@ -270,7 +269,7 @@ def _output_field(output: Any, span: Span) -> Any:
     """Return where the output goes: a word, or places by stream."""
     if not isinstance(output, dict):
         return None if output is None else template(output, span)
-    return {stream: _places(places, span) for stream, places in output.items()}
+    return {stream: _places(places, within(span, stream)) for stream, places in output.items()}
 
 
 def _places(places: Any, span: Span) -> Any:

@@ -91,7 +91,7 @@ class GroupAction(ModelledAction):
             span,
             scoped=None if self.__scoped else scalar(value=False, span=span),
             forwarding=None if self.__forwarding else scalar(value=False, span=span),
-            keep=pairs(self.__launch_configurations.items(), span),
+            keep=pairs(self.__launch_configurations.items(), self._place.at("launch_configurations")),
             children=models_of(self.__actions, self._place),
             **extension_fields(Group, self.__extensions, self._place, children=()),
             **common,

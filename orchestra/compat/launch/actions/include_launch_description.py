@@ -50,6 +50,7 @@ class IncludeLaunchDescription(ModelledAction):
         self.__extensions = taken(kwargs, self._more_keywords)
         super().__init__(**kwargs)
         source = launch_description_source
+        self.__is_path = not isinstance(source, LaunchDescriptionSource)
         if not isinstance(source, LaunchDescriptionSource):
             source = AnyLaunchDescriptionSource(source)
         self.__launch_description_source = source
@@ -112,17 +113,18 @@ class IncludeLaunchDescription(ModelledAction):
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
         try:
-            arguments = pairs(self.launch_arguments, span)
+            arguments = pairs(self.launch_arguments, self._place.at("launch_arguments"))
         except TypeError as error:
-            return self._refused(error, common)
-        file = self.__launch_description_source._file(span)
+            return self._refused_model(error, common)
+        given = self._place.at("launch_description_source") if self.__is_path else None
+        file = self.__launch_description_source._file(given)
         extensions = extension_fields(Include, self.__extensions, self._place, file=file)
         include = Include.at(span, file=file, arg=arguments, **extensions, **common)
         if not self.__launch_description_source._reads_file:
             return include.holding(models_of((_Sourced(self.__launch_description_source),), self._place))
         return include.read_as(self.__launch_description_source._language)
 
-    def _refused(self, error: TypeError, common: Mapping[str, Any]) -> Model:
+    def _refused_model(self, error: TypeError, common: Mapping[str, Any]) -> Model:
         """Return what raises an error once the condition holds: upstream looks at the arguments at the visit."""
         from orchestra.description.actions.opaque import OpaqueAction  # noqa: PLC0415 - pydantic, only where files are read
 

@@ -39,12 +39,14 @@ class Log(ModelledAction):
         return self.__level
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        span = self._place.span
+        span = self._place.at("level")
         level = template(self.level, span)
         word = level.constant
         if word is not None:
             level = Template((Words(word.lower(), span),), word.lower(), span)
-        return LogModel.at(span, message=template(self.msg, span), level=level, **common)
+        return LogModel.at(
+            self._place.span, message=template(self.msg, self._place.at("msg")), level=level, **common
+        )
 
 
 class LogDebug(Log):

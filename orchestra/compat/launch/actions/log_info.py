@@ -29,5 +29,5 @@ class LogInfo(ModelledAction):
         return self.__msg
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        span = self._place.span
-        return Log.at(span, message=template(self.msg, span), **common)
+        message = template(self.msg, self._place.at("msg"))
+        return Log.at(self._place.span, message=message, **common)

@@ -34,7 +34,7 @@ class NamedAction(ModelledAction):
 
     def _fields(self) -> dict[str, Any]:
         """Return the fields of the model that it alone has."""
-        return {"name": template(self.name, self._place.span)}
+        return {"name": template(self.name, self._place.at("name"))}
 
 
 class SettingAction(NamedAction):
@@ -50,4 +50,4 @@ class SettingAction(NamedAction):
         return self.__value
 
     def _fields(self) -> dict[str, Any]:
-        return {**super()._fields(), "value": template(self.value, self._place.span)}
+        return {**super()._fields(), "value": template(self.value, self._place.at("value"))}

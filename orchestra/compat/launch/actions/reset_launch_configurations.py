@@ -30,5 +30,5 @@ class ResetLaunchConfigurations(ModelledAction):
         return self.__launch_configurations
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        span = self._place.span
-        return Reset.at(span, keep=pairs(self.launch_configurations.items(), span), **common)
+        kept = pairs(self.launch_configurations.items(), self._place.at("launch_configurations"))
+        return Reset.at(self._place.span, keep=kept, **common)

@@ -31,6 +31,5 @@ class Shutdown(EmitEvent):
         return template(self.__reason, self._place.span).constant != _NO_REASON
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        span = self._place.span
-        given = template(self.__reason, span) if self._has_reason else None
-        return ShutdownModel.at(span, reason=given, **common)
+        given = template(self.__reason, self._place.at("reason")) if self._has_reason else None
+        return ShutdownModel.at(self._place.span, reason=given, **common)

@@ -88,8 +88,10 @@ class TimerAction(ModelledAction):
         cancelled = self.__cancel_on_shutdown
         return self._model.at(
             span,
-            period=scalar(self.period, span),
-            cancel_on_shutdown=None if cancelled is True else scalar(cancelled, span),
+            period=scalar(self.period, self._place.at("period")),
+            cancel_on_shutdown=None
+            if cancelled is True
+            else scalar(cancelled, self._place.at("cancel_on_shutdown")),
             children=models_of(self.actions, self._place),
             **common,
         )

@@ -9,6 +9,7 @@ from orchestra.compat.launch.condition import Condition
 from orchestra.compat.launch.conditions.evaluate_condition_expression_impl import (
     evaluate_condition_expression,
 )
+from orchestra.compat.place import here
 from orchestra.compat.text import normalized, template
 
 if TYPE_CHECKING:
@@ -25,6 +26,7 @@ class IfCondition(Condition):
 
     def __init__(self, predicate_expression: Sub) -> None:
         self.__expression = normalized(predicate_expression)
+        self._place = here(self)
         super().__init__(predicate=self._predicate_func)
 
     def describe(self) -> str:
@@ -39,4 +41,4 @@ class IfCondition(Condition):
         judging: tuple[Any, ...] = (type(self).evaluate, type(self)._predicate_func)
         if not all(method.__module__.startswith("orchestra.compat.") for method in judging):
             return super()._fields(span)
-        return {self._field: template(self.__expression, span)}
+        return {self._field: template(self.__expression, self._place.at("predicate_expression"))}

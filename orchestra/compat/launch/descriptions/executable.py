@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from orchestra.compat.explanation import told
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.launch_configuration import LaunchConfiguration
+from orchestra.compat.refusing import Refusing
 from orchestra.compat.text import Sub, normalized, template
 from orchestra.compat.values import pairs, words
 
@@ -17,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from orchestra.compat.launch.launch_context import LaunchContext
-    from orchestra.location import Span
+    from orchestra.compat.place import Place
 
 _Subs: TypeAlias = list[Substitution]
 _Pairs: TypeAlias = list[tuple[_Subs, _Subs]]
@@ -25,7 +26,7 @@ _Pairs: TypeAlias = list[tuple[_Subs, _Subs]]
 _COUNT = "prepared_processes"
 
 
-class Executable:
+class Executable(Refusing):
     """Each item of `cmd` and `arguments` is one word of the command line.
 
     `env` is the whole environment, without it the program inherits the one in scope; `additional_env` is added to
@@ -143,13 +144,13 @@ class Executable:
             environment[_performed(name, context)] = _performed(value, context)
         return environment
 
-    def _fields(self, span: Span) -> dict[str, Any]:
+    def _fields(self, place: Place) -> dict[str, Any]:
         """Return the fields of a model that say the same, without the command line and the label."""
         found = {
-            "launch_prefix": None if self.__prefix is None else template(self.__prefix, span),
-            "cwd": None if self.cwd is None else template(self.cwd, span),
-            "env": pairs(self.additional_env or (), span),
-            "env_only": None if self.env is None else pairs(self.env, span),
+            "launch_prefix": None if self.__prefix is None else template(self.__prefix, place.at("prefix")),
+            "cwd": None if self.cwd is None else template(self.cwd, place.at("cwd")),
+            "env": pairs(self.additional_env or (), place.at("additional_env")),
+            "env_only": None if self.env is None else pairs(self.env, place.at("env")),
         }
         return {name: value for name, value in found.items() if value is not None}
 

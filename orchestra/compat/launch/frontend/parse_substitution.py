@@ -28,6 +28,11 @@ class Given:
     """The place of what was made from a text: that of the text."""
 
     span: Span
+    kind = None
+
+    def at(self, *_: Any) -> Span:
+        """Return the place of an argument: the same."""
+        return self.span
 
 
 def parse_substitution(text: str) -> list[Substitution]:

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.compat.launch.substitution import Substitution
+    from orchestra.compat.place import Step
     from orchestra.compat.text import Sub
 
 
@@ -74,6 +75,9 @@ class _OfMany(ParsedSubstitution):
 
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
         return self.args
+
+    def _paths(self) -> Sequence[tuple[Step, ...]]:
+        return [(f"*{index}",) for index in range(len(self.args))]
 
 
 class AnySubstitution(_OfMany):

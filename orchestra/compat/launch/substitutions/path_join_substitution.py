@@ -13,6 +13,7 @@ from orchestra.compat.text import normalized
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
+    from orchestra.compat.place import Step
     from orchestra.compat.text import Sub
 
 
@@ -46,6 +47,9 @@ class PathJoinSubstitution(ParsedSubstitution):
 
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
         return [[item] for item in self.substitutions]
+
+    def _paths(self) -> Sequence[tuple[Step, ...]]:
+        return [("substitutions", index) for index in range(len(self.substitutions))]
 
 
 def _component(item: Sub) -> Substitution:

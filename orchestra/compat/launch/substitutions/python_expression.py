@@ -25,6 +25,7 @@ class PythonExpression(ParsedSubstitution):
     """The `str` of the result. The expression is unrestricted and sees some modules, `math` without a prefix too."""
 
     _name = "eval"
+    _parameters = ("expression", "python_modules")
 
     def __init__(self, expression: Sub, python_modules: Sub = _MATH) -> None:
         super().__init__()

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from orchestra.compat.launch.substitution import Substitution
+    from orchestra.compat.place import Step
     from orchestra.compat.text import Sub
 
 
@@ -49,3 +50,6 @@ class StringJoinSubstitution(ParsedSubstitution):
 
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
         return (self.delimiter, *self.substitutions)
+
+    def _paths(self) -> Sequence[tuple[Step, ...]]:
+        return [("delimiter",), *(("substitutions", index) for index in range(len(self.substitutions)))]

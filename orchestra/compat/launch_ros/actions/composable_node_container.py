@@ -34,6 +34,8 @@ class ComposableNodeContainer(Node):
 
     def _process_model(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
-        components = component_models(self.__composable_node_descriptions or ())
+        components = component_models(
+            self.__composable_node_descriptions or (), self._place.at("composable_node_descriptions")
+        )
         fields = self._node_fields() | self._running_fields()
         return NodeContainer.at(span, composable_node=components, **fields, **common)

@@ -41,6 +41,8 @@ class LifecycleNode(Node):
 
     def _process_model(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
-        autostart = None if self.__autostart is False else scalar(self.__autostart, span)
+        autostart = (
+            None if self.__autostart is False else scalar(self.__autostart, self._place.at("autostart"))
+        )
         fields = self._node_fields() | self._running_fields()
         return LifecycleNodeModel.at(span, autostart=autostart, **fields, **common)

@@ -35,10 +35,11 @@ class LifecycleTransition(ModelledAction):
         self.__transition_ids = [normalized(written(transition)) for transition in transition_ids]
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        span = self._place.span
+        names, ids = self._place.at("lifecycle_node_names"), self._place.at("transition_ids")
+        listed = enumerate(self.__lifecycle_node_names), enumerate(self.__transition_ids)
         return LifecycleTransitionModel.at(
-            span,
-            node=tuple(template(name, span) for name in self.__lifecycle_node_names),
-            transition=tuple(template(transition, span) for transition in self.__transition_ids),
+            self._place.span,
+            node=tuple(template(name, names.inside(index)) for index, name in listed[0]),
+            transition=tuple(template(transition, ids.inside(index)) for index, transition in listed[1]),
             **common,
         )

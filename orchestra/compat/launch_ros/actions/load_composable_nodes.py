@@ -48,13 +48,15 @@ class LoadComposableNodes(ModelledAction):
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
-        components = component_models(self.__composable_node_descriptions)
+        components = component_models(
+            self.__composable_node_descriptions, self._place.at("composable_node_descriptions")
+        )
         if not components:
             return Group.at(span, children=(), **common)
         return LoadComposableNode.at(span, target=self.__target(), composable_node=components, **common)
 
     def __target(self) -> Template:
-        span = self._place.span
+        span = self._place.at("target_container")
         target = self.__target_container
         if isinstance(target, ComposableNodeContainer):
             return Template((Opaque(target, span),), target.describe(), span)

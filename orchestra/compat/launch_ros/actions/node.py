@@ -164,23 +164,24 @@ class Node(ExecuteProcess):
 
     def _node_fields(self) -> dict[str, Any]:
         """Return the fields that the models of all kinds of nodes share."""
-        span = self._place.span
-        package, name, namespace = (optional(item, span) for item in self.__names)
-        arguments = tuple(template(word, span) for word in self.__argument_words)
+        at = self._place.at
+        package, name, namespace = map(optional, self.__names, map(at, ("package", "name", "namespace")))
+        words = enumerate(self.__argument_words)
+        arguments = tuple(template(word, at("arguments", index)) for index, word in words)
         return {
             "pkg": package,
-            "exec": template(self.__node_executable, span),
+            "exec": template(self.__node_executable, at("executable")),
             "name": name,
             "namespace": namespace,
-            "exec_name": optional(self.process_description.name, span),
+            "exec_name": optional(self.process_description.name, at("exec_name")),
             "args": arguments or None,
             "ros_args": self.__ros_words(),
-            "param": params(self.__parameters, span),
-            "remap": remaps(self.__remappings, span),
+            "param": params(self.__parameters, at("parameters")),
+            "remap": remaps(self.__remappings, at("remappings")),
         }
 
     def _extension_fields(self, extensions: Mapping[str, Any]) -> dict[str, Any]:
-        program = template(self.__node_executable, self._place.span)
+        program = template(self.__node_executable, self._place.at("executable"))
         return extension_fields(NodeModel, extensions, self._place, exec=program)
 
     def __words(self) -> list[Sub]:
@@ -196,8 +197,8 @@ class Node(ExecuteProcess):
         appended = self.process_description.cmd[len(self.__words()) :]
         if self.__ros_arguments is None and not appended:
             return None
-        span = self._place.span
-        return tuple(template(word, span) for word in (*(self.__ros_arguments or ()), *appended))
+        words = enumerate((*(self.__ros_arguments or ()), *appended))
+        return tuple(template(word, self._place.at("ros_arguments", index)) for index, word in words)
 
 
 def _refuse_former(kwargs: Mapping[str, Any]) -> None:

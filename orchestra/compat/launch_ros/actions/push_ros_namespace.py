@@ -29,8 +29,8 @@ class PushROSNamespace(ModelledAction):
         return self.__namespace
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        span = self._place.span
-        return PushRosNamespaceModel.at(span, namespace=template(self.namespace, span), **common)
+        namespace = template(self.namespace, self._place.at("namespace"))
+        return PushRosNamespaceModel.at(self._place.span, namespace=namespace, **common)
 
 
 PushRosNamespace = PushROSNamespace

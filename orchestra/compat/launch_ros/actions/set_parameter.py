@@ -41,9 +41,9 @@ class SetParameter(ModelledAction):
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         span = self._place.span
-        name = template(self.name, span)
+        name, at = template(self.name, self._place.at("name")), self._place.at("value")
         if isinstance(self.__value, Mapping):
-            nested = params_of(normalize_parameter_dict(self.__value), span)
+            nested = params_of(normalize_parameter_dict(self.__value), at)
             return SetParameterModel.at(span, name=name, param=nested, **common)
         (value,) = self.__param_dict.values()
-        return SetParameterModel.at(span, name=name, **value_fields(value, span), **common)
+        return SetParameterModel.at(span, name=name, **value_fields(value, at), **common)

@@ -25,5 +25,5 @@ class SetParametersFromFile(ModelledAction):
         self.__filename = normalized(filename)
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        span = self._place.span
-        return SetParametersFromFileModel.at(span, filename=template(self.__filename, span), **common)
+        filename = template(self.__filename, self._place.at("filename"))
+        return SetParametersFromFileModel.at(self._place.span, filename=filename, **common)

@@ -35,5 +35,6 @@ class SetRemap(ModelledAction):
         return self.__dst
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        span = self._place.span
-        return SetRemapModel.at(span, from_=template(self.src, span), to=template(self.dst, span), **common)
+        source, target = self._place.at("src"), self._place.at("dst")
+        names = {"from_": template(self.src, source), "to": template(self.dst, target)}
+        return SetRemapModel.at(self._place.span, **names, **common)

@@ -29,5 +29,5 @@ class SetROSLogDir(ModelledAction):
         return self.__log_dir
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        span = self._place.span
-        return SetRosLogDirModel.at(span, new_log_dir=template(self.log_dir, span), **common)
+        folder = template(self.log_dir, self._place.at("new_log_dir"))
+        return SetRosLogDirModel.at(self._place.span, new_log_dir=folder, **common)

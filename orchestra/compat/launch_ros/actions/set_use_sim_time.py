@@ -30,5 +30,5 @@ class SetUseSimTime(ModelledAction):
         return self.__value
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        span = self._place.span
-        return SetUseSimTimeModel.at(span, value=scalar(self.value, span), **common)
+        value = scalar(self.value, self._place.at("value"))
+        return SetUseSimTimeModel.at(self._place.span, value=value, **common)

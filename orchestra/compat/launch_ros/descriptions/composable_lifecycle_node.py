@@ -24,4 +24,8 @@ class ComposableLifecycleNode(ComposableNode):
         return self.__autostart
 
     def _more(self) -> dict[str, Any]:
-        return {} if self.__autostart is False else {"autostart": scalar(self.__autostart, self._place.span)}
+        return (
+            {}
+            if self.__autostart is False
+            else {"autostart": scalar(self.__autostart, self._place.at("autostart"))}
+        )

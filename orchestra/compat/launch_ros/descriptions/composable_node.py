@@ -4,25 +4,30 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from importlib import import_module
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Any, Final, Self
 
 from orchestra.compat.building import condition_fields
 from orchestra.compat.explanation import told
 from orchestra.compat.launch_ros.models import params, remaps
 from orchestra.compat.launch_ros.utilities.normalize_parameters import normalize_parameters
 from orchestra.compat.launch_ros.utilities.normalize_remap_rule import normalize_remap_rules
-from orchestra.compat.place import here
+from orchestra.compat.place import here, within
+from orchestra.compat.refusing import Refusing
 from orchestra.compat.text import normalized, template
 from orchestra.compat.values import optional
+from orchestra.compat.wrong import WrongType
 from orchestra.description.components import ComposableNode as ComposableNodeModel
 
 if TYPE_CHECKING:
     from orchestra.compat.launch.condition import Condition
     from orchestra.compat.launch.substitution import Substitution
     from orchestra.compat.text import Sub
+    from orchestra.location import Span
+
+_COMPONENTS: Final = "composable_node_descriptions"
 
 
-class ComposableNode:
+class ComposableNode(Refusing):
     """A class of a package, loaded into a container as a node. Raises `TypeError` as `Node` does."""
 
     def __init__(  # noqa: PLR0913 - upstream's signature, and a key of ours
@@ -95,36 +100,38 @@ class ComposableNode:
         return self.__condition
 
     def _to_model(self) -> ComposableNodeModel:
-        span = self._place.span
-        condition = self.condition()
-        return ComposableNodeModel.at(
-            span,
+        at, condition = self._place.at, self.condition()
+        model = ComposableNodeModel.at(
+            self._place.span,
             origin=self,
-            pkg=template(self.package, span),
-            plugin=template(self.node_plugin, span),
-            name=optional(self.node_name, span),
-            namespace=optional(self.node_namespace, span),
-            param=params(self.parameters or (), span),
-            remap=remaps(self.remappings or (), span),
-            extra_arg=params(self.extra_arguments or (), span),
-            params_schema=optional(self.__params_schema, span),
+            pkg=template(self.package, at("package")),
+            plugin=template(self.node_plugin, at("plugin")),
+            name=optional(self.node_name, at("name")),
+            namespace=optional(self.node_namespace, at("namespace")),
+            param=params(self.parameters or (), at("parameters")),
+            remap=remaps(self.remappings or (), at("remappings")),
+            extra_arg=params(self.extra_arguments or (), at("extra_arguments")),
+            params_schema=optional(self.__params_schema, at("params_schema")),
             **self._more(),
-            **({} if condition is None else condition_fields(condition, span)),
+            **({} if condition is None else condition_fields(condition, at("condition"))),
         )
+        if self._refused:
+            model._faulty = True
+        return model
 
     def _more(self) -> dict[str, Any]:
         """Return the fields that a kind of component has beside these."""
         return {}
 
 
-def component_models(components: Any) -> tuple[ComposableNodeModel, ...]:
+def component_models(components: Any, span: Span) -> tuple[ComposableNodeModel, ...]:
     """Return the models of components. Raises `TypeError` for anything else than a list of them."""
     if isinstance(components, ComposableNode | str) or not isinstance(components, Iterable):
-        raise TypeError(f"composable_node_descriptions is a list, this is {told(components)}")
-    return tuple(_component_model(item) for item in components)
-
-
-def _component_model(item: Any) -> ComposableNodeModel:
-    if not isinstance(item, ComposableNode):
-        raise TypeError(f"composable_node_descriptions are of the class ComposableNode, this is {told(item)}")
-    return item._to_model()
+        told_so = f"composable_node_descriptions is a list, this is {told(components)}"
+        raise WrongType(told_so, components, at=span)
+    known = list(components)
+    for index, item in enumerate(known):
+        if not isinstance(item, ComposableNode):
+            told_so = f"{_COMPONENTS} are of the class ComposableNode, this is {told(item)}"
+            raise WrongType(told_so, item, at=within(span, index))
+    return tuple(item._to_model() for item in known)

@@ -1,0 +1,73 @@
+"""The keywords that classes of ours take, and the one that was meant by another."""
+
+from __future__ import annotations
+
+import inspect
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.nearest import nearest
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator, Mapping
+
+_Parameter = inspect.Parameter
+# Words of other languages of launch files, of former releases, and what people write for them.
+_MEANINGS: Final = {
+    "args": ("arguments",),
+    "default": ("default_value", "default"),
+    "env": ("additional_env",),
+    "exec": ("executable",),
+    "file": ("launch_description_source",),
+    "message": ("msg",),
+    "node_executable": ("executable",),
+    "node_name": ("name",),
+    "node_namespace": ("namespace",),
+    "node_plugin": ("plugin",),
+    "ns": ("namespace",),
+    "param": ("parameters",),
+    "params": ("parameters",),
+    "pkg": ("package",),
+    "remap": ("remappings",),
+    "target": ("target_action", "target_container"),
+    "text": ("msg",),
+}
+
+
+def keyword_meant(written: str, known: Mapping[str, inspect.Parameter], given: Iterable[str]) -> str | None:
+    """Return the keyword that was probably meant: first one that the class cannot be without and that is missing."""
+    for meaning in _MEANINGS.get(written, ()):
+        if meaning in known:
+            return meaning
+    have = set(given)
+    missing = [name for name, item in known.items() if item.default is _Parameter.empty and name not in have]
+    return nearest(written, missing) or nearest(written, known)
+
+
+def shown(known: Mapping[str, inspect.Parameter]) -> str:
+    """Return the first keywords as they are written."""
+    return ", ".join(f"{name}=..." for name in list(known)[:2])
+
+
+def parameters_of(called: Any) -> Iterator[inspect.Parameter]:
+    """Yield what a function or a class takes: with `**kwargs` what the class takes that it derives from, too."""
+    if not isinstance(called, type):
+        yield from inspect.signature(called).parameters.values()
+        return
+    seen: set[str] = set()
+    for kind in called.__mro__:
+        constructor = vars(kind).get("__init__")
+        if constructor is None:
+            continue
+        parameters = list(inspect.signature(constructor).parameters.values())[1:]
+        open_ended = any(parameter.kind is _Parameter.VAR_KEYWORD for parameter in parameters)
+        for parameter in parameters:
+            named = parameter.kind not in (_Parameter.VAR_KEYWORD, _Parameter.VAR_POSITIONAL)
+            if named and not parameter.name.startswith("_") and parameter.name not in seen:
+                seen.add(parameter.name)
+                yield parameter
+        yield from (
+            _Parameter(key, _Parameter.KEYWORD_ONLY, default=None)
+            for key in vars(kind).get("_more_keywords", ())
+        )
+        if not open_ended:
+            return

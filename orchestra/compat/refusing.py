@@ -1,0 +1,88 @@
+"""Classes whose objects are made by launch files: wrong arguments are reported where the call stands, and code goes on.
+
+So one mistake does not hide the next. Where code catches exceptions itself, or nobody collects problems, they are raised
+as upstream does.
+"""
+
+from __future__ import annotations
+
+import sys
+from contextlib import contextmanager
+from functools import wraps
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.compat.place import is_own
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from orchestra.errors import Problem, Problems
+    from orchestra.location import Span
+
+_ROOM: Final = __name__.rpartition(".")[0] + "."
+_collectors: list[tuple[Problems, tuple[Span, ...]]] = []
+
+
+class ReportedError(RuntimeError):
+    """Stops user code for a fault that has been reported, or will be with `problems`."""
+
+    def __init__(self, message: str, problems: tuple[Problem, ...] = ()) -> None:
+        super().__init__(message)
+        self.problems = problems
+
+
+@contextmanager
+def collecting(problems: Problems, chain: tuple[Span, ...]) -> Iterator[None]:
+    """Report wrong arguments for a while; `chain` are the includes on the way."""
+    _collectors.append((problems, chain))
+    try:
+        yield
+    finally:
+        _collectors.pop()
+
+
+class Refusing:
+    """The root of such classes. `_refused` objects lack something that was wrong, `_lost` ones cannot be used at all."""
+
+    _refused = False
+
+    def __init_subclass__(cls, **keywords: Any) -> None:
+        super().__init_subclass__(**keywords)
+        constructor = vars(cls).get("__init__")
+        if constructor is not None and cls.__module__.startswith(_ROOM):
+            cls.__init__ = _refusing(constructor)  # type: ignore[misc] # the same signature
+
+    if not TYPE_CHECKING:  # else any attribute would be one
+
+        def __getattr__(self, name: str) -> Any:
+            """Stop code that uses what could not be made. Raises `ReportedError`, else `AttributeError`."""
+            kind = type(self).__name__
+            if "_lost" in vars(self):
+                raise ReportedError(f"this {kind} could not be made, for a reason that is reported")
+            raise AttributeError(f"'{kind}' object has no attribute '{name}'", name=name, obj=self)
+
+
+def is_lost(made: object) -> bool:
+    """Return whether an object could not be made, which has been reported."""
+    return isinstance(made, Refusing) and "_lost" in vars(made)
+
+
+def _refusing(constructor: Callable[..., None]) -> Callable[..., None]:
+    """Return a constructor that reports what is wrong where user code calls it."""
+
+    @wraps(constructor)
+    def construct(self: Any, *arguments: Any, **keywords: Any) -> None:
+        caller = sys._getframe(1)
+        if not _collectors or is_own(caller.f_code.co_filename):
+            constructor(self, *arguments, **keywords)
+            return
+        try:
+            constructor(self, *arguments, **keywords)
+        except Exception as error:
+            # Here, because only mistakes need it, and what it imports.
+            from orchestra.compat.refused_arguments import settled  # noqa: PLC0415
+
+            if not settled(self, constructor, (arguments, keywords), error, caller, *_collectors[-1]):
+                raise
+
+    return construct
