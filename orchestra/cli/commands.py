@@ -32,6 +32,9 @@ COMMANDS: Final[dict[str, Command]] = {
     "check": Command("orchestra.cli.check", "find what is wrong in launch files and parameter files"),
     "format": Command("orchestra.cli.format", "write launch files and parameter files in one form"),
     "convert": Command("orchestra.cli.convert", "write a launch file in another language"),
+    "explain": Command(
+        "orchestra.cli.explain", "explain a code of a problem, with a wrong and a right example"
+    ),
     "schema": Command(
         "orchestra.cli.schema",
         "print the JSON Schema of launch or parameter files, plans, events or problems",
