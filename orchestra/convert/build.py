@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from orchestra.convert.argv import joined, words_of
-from orchestra.convert.comments import Comments
+from orchestra.convert.comments.kept import Comments
 from orchestra.convert.kinds import Kind, key_of, kind_of, short_key
 from orchestra.convert.plain import is_plain, looks_like_text
 from orchestra.convert.refused import why
@@ -36,6 +36,7 @@ Values: TypeAlias = Callable[..., "Node"]
 # What upstream does not know: numbers need no quotes where a text is wanted.
 _LENIENT = (Alive, Limits, Ready, Rlimits, Stop, ParameterFact)
 # Lists of parameters in which quotes of YAML make no text.
+_EVEN_EMPTY = frozenset({"children", "value"})
 _WITHOUT_QUOTES = frozenset({"extra_arg"})
 
 
@@ -82,7 +83,7 @@ class Builder:
         quotes = quotes and not isinstance(entity, SetParameter)
         for field in ordered(entity):
             value = getattr(entity, field)
-            if value is None or (value == () and field != "children"):
+            if value is None or (value == () and field not in _EVEN_EMPTY):
                 continue
             node = self._node(entity, field, value, quotes=quotes)
             yield Entry(key_of(model, field), node, self.comments.of(entity, field))

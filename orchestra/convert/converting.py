@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from orchestra.convert.comments import Comments
+from orchestra.convert.comments.attached import attached
 from orchestra.convert.equality import compared
 from orchestra.convert.moved import moved
 from orchestra.convert.normal import difference, said
@@ -22,6 +22,7 @@ from orchestra.errors import DescriptionError, UsageError
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from orchestra.convert.comments.kept import Comments
     from orchestra.convert.original import Original
 
 ENDINGS = {"python": ".launch.py", "xml": ".launch.xml", "yaml": ".launch.yaml"}
@@ -58,10 +59,11 @@ def convert(
         raise UsageError(f"{path} is in {language} already")
     remarks = Remarks()
     with opened(path, environment) as original:
-        description, comments = _described(original, remarks)
+        description = _described(original, remarks)
         if output is not None:
             there = moved(description.actions, str(Path(original.path).parent), output)
             description = replace(description, actions=there)
+        comments = attached(original, description.actions)
         text = _text(description, comments, remarks, language, partial=partial)
         wanted = said(description)
     mistake = None
@@ -70,13 +72,13 @@ def convert(
     return Converted(text if partial or not remarks.lossy else None, remarks.ordered, remarks.lossy, mistake)
 
 
-def _described(original: Original, remarks: Remarks) -> tuple[Description, Comments]:
+def _described(original: Original, remarks: Remarks) -> Description:
     """Return what a file says, with what its code has made known as far as possible."""
     actions = original.actions
     if original.language == "python":
         actions = unfolded(actions, remarks)
         actions = compared(recovered(actions, original, remarks))
-    return Description(original.path, original.file, actions, original.deprecated), Comments()
+    return Description(original.path, original.file, actions, original.deprecated)
 
 
 def _text(
@@ -98,7 +100,6 @@ def _mistake(
         file.write_text(text, "utf-8")
         try:
             with opened(str(file), environment) as again:
-                description, _ = _described(replace(again, path=path), Remarks())
-                return difference(wanted, said(description))
+                return difference(wanted, said(_described(again, Remarks())))
         except DescriptionError as error:
             return "; ".join(f"{problem.span}: {problem.message}" for problem in error.problems)

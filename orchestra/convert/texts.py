@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Any
 
 from orchestra.convert.remarks import UnsayableError
@@ -67,6 +68,8 @@ def _call(call: Call) -> Iterable[Any]:
     default = _DEFAULTS.get(call.name)
     if default is not None and len(arguments) > 1 and arguments[-1] == (default,):
         arguments.pop()
+    if call.name == "eval" and len(arguments) > 1 and len(arguments[1]) == 1:
+        arguments[1] = (re.sub(r"\s*,\s*", ",", str(arguments[1][0]).strip()),)
     while len(arguments) < _OPTIONAL_ARGUMENTS.get(call.name, 0):
         arguments.append(())
     yield ("log_dir" if call.name == "launch_log_dir" else call.name, *arguments)

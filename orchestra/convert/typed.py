@@ -56,6 +56,8 @@ def meaning(given: Given, word: str | None, *, quotes: bool) -> object:
     value = value_of(given, word, quotes=quotes)
     if value is not None:
         return ("value", repr(value))
+    if given == ():
+        return ("text", word, ("[]",))
     if isinstance(given, tuple):
         return ("list", word, tuple(meaning(item, _element(word), quotes=True) for item in given))
     return ("text", word, normal(given)) if isinstance(given, Template) else ("faulty", repr(given.value))

@@ -13,7 +13,7 @@ from orchestra.description.written import escaped
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from orchestra.convert.comments import Comments
+    from orchestra.convert.comments.kept import Comments
     from orchestra.convert.remarks import Remarks
     from orchestra.description.launch import Description
 

@@ -142,13 +142,21 @@ def _quoted(scalar: Scalar) -> str:
 
 
 def _comments(comments: Iterable[str], indent: str) -> Iterator[str]:
-    for comment in comments:
-        yield f"{indent}{_comment(comment, '')}"
+    """Yield comments that follow each other as one."""
+    lines = list(comments)
+    if len(lines) == 1:
+        yield f"{indent}{_comment(lines[0], '')}"
+    elif lines:
+        yield f"{indent}<!--"
+        yield from (f"{indent}{_INDENT}{_sayable(line)}".rstrip() for line in lines)
+        yield f"{indent}-->"
 
 
 def _comment(text: str, before: str = "  ") -> str:
-    """Return a comment, in which no two dashes can follow each other."""
-    if not text and before:
-        return ""
-    sayable = re.sub("-(?=-)", "- ", _FORBIDDEN.sub("", text))
-    return f"{before}<!-- {sayable}{' ' if sayable else ''}-->"
+    return f"{before}<!-- {_sayable(text)} -->" if text else ""
+
+
+def _sayable(text: str) -> str:
+    """Return the text of a comment, in which no two dashes can follow each other, and none can be the last."""
+    dashed = re.sub("-(?=-)", "- ", _FORBIDDEN.sub("", text))
+    return re.sub("-$", "- ", dashed) if dashed.endswith("-") else dashed

@@ -120,6 +120,9 @@ def _running(name: str) -> Write:
 
 def _arg(writer: Writer, action: Arg) -> Code:
     choices = [*(action.choices or ()), *(choice.value for choice in action.choice or ())]
+    default = None if action.default is None else action.default.constant
+    if choices and default is not None and default not in [choice.constant for choice in choices]:
+        raise UnsayableError("the default is none of the choices", action.span)
     given = action.model_copy(update={"choices": tuple(choices) or None})
     names = {"name": "", "default": "default_value", "description": "description", "choices": "choices"}
     return writer.called("DeclareLaunchArgument", given, names, {"choices": _texts})

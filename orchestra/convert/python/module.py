@@ -11,7 +11,7 @@ from orchestra.convert.python.parts import Parts
 from orchestra.convert.python.texts import Texts
 
 if TYPE_CHECKING:
-    from orchestra.convert.comments import Comments
+    from orchestra.convert.comments.kept import Comments
     from orchestra.convert.remarks import Remarks
     from orchestra.description.launch import Description
 

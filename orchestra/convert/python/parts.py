@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from orchestra.convert.argv import words_of
-from orchestra.convert.comments import Comments
+from orchestra.convert.comments.kept import Comments
 from orchestra.convert.kinds import Kind, key_of, kind_of, short_key
 from orchestra.convert.python.code import Atom, Bracket, Code, Element, a_list, call, flat_text, string
 from orchestra.convert.python.texts import Texts
@@ -58,25 +58,27 @@ class Parts:
                 yield Element(code, "condition=", self.comments.of(entity, field))
 
     def pairs(self, pairs: Iterable[Pair]) -> Bracket:
-        """Return names and values as a dictionary. Raises `UnsayableError` where a name stands twice."""
+        """Return names and values as a dictionary: of those with one name the last counts."""
         elements: dict[str, Element] = {}
         for pair in pairs:
             key = self._key(pair.name)
-            if key in elements:
-                raise UnsayableError("this name stands twice, which a dictionary cannot say", pair.span)
-            elements[key] = Element(self.texts.of(pair.value), f"{key}: ", self.comments.of(pair))
+            elements[key] = Element(self.texts.of(pair.value), f"{key}: ", self.comments.within(pair))
         return Bracket("{", tuple(elements.values()), "}")
 
     def paired(self, pairs: Iterable[Pair]) -> Bracket:
         """Return names and values as a list of pairs, in which a name may stand twice."""
-        items = (Element(self._tuple(pair.name, pair.value), "", self.comments.of(pair)) for pair in pairs)
+        items = (
+            Element(self._tuple(pair.name, pair.value), "", self.comments.within(pair)) for pair in pairs
+        )
         return Bracket("[", tuple(items), "]")
 
     def rules(self, rules: Iterable[Remap]) -> Bracket:
         """Return remapping rules."""
         return Bracket(
             "[",
-            tuple(Element(self._tuple(rule.from_, rule.to), "", self.comments.of(rule)) for rule in rules),
+            tuple(
+                Element(self._tuple(rule.from_, rule.to), "", self.comments.within(rule)) for rule in rules
+            ),
             "]",
         )
 
@@ -85,9 +87,9 @@ class Parts:
         found: list[Element] = []
         for param in params:
             if param.from_ is not None:
-                found.append(Element(self._file(param), "", self.comments.of(param)))
+                found.append(Element(self._file(param), "", self.comments.within(param)))
             elif isinstance(param, Override):
-                found.append(Element(self._override(param), "", self.comments.of(param)))
+                found.append(Element(self._override(param), "", self.comments.within(param)))
             else:
                 for entry in self.nested(param, quotes=quotes):
                     _put(found, entry)
@@ -96,7 +98,7 @@ class Parts:
     def nested(self, param: Param, *, quotes: bool) -> Iterator[Element]:
         """Yield the entries of dictionaries that say a parameter: several where one dictionary cannot hold them."""
         assert param.name is not None  # noqa: S101 - the caller has asked
-        lead, notes = f"{self._key(param.name)}: ", self.comments.of(param)
+        lead, notes = f"{self._key(param.name)}: ", self.comments.within(param)
         if param.param is None:
             assert param.value is not None  # noqa: S101 - the caller has asked
             yield Element(value(param.value, param.type, self.texts, quotes=quotes), lead, notes)

@@ -53,7 +53,8 @@ def value(given: Given, type_of: Template | None, texts: Texts, *, quotes: bool)
         return _faulty(given)
     if given.constant is None:
         return texts.of(given) if word is None else _with_type(texts.of(given), word, texts)
-    return a_list([texts.substitution(given)])
+    looked_at = a_list([texts.substitution(given)])
+    return looked_at if word is None else _with_type(looked_at, word, texts)
 
 
 def _item(item: Template | Constant, element: str | None, texts: Texts) -> Code:

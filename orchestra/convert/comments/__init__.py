@@ -1,0 +1,1 @@
+"""Comments: where they are in each language, and what each stands with."""

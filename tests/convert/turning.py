@@ -1,0 +1,86 @@
+"""Launch files that are converted there and back, and the plans of all that they come through."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from orchestra.convert.converting import ENDINGS, Converted, convert
+from orchestra.convert.original import LANGUAGES, language_of
+from orchestra.errors import Code, Problems
+from orchestra.pipeline import collect, inputs_from
+from orchestra.plan.codec import encode
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+    from pathlib import Path
+
+_PLACES = {"location", "provenance", "line", "column", "end_line", "end_column", "problems"}
+_ENDING = re.compile(r"(\.launch)?\.(ya?ml|xml|py|launch)\b")
+
+
+@dataclass(frozen=True)
+class Seen:
+    """What a launch file comes to, without places and names of languages; and the kinds of its errors."""
+
+    content: Any
+    errors: frozenset[Code]
+
+
+def seen(path: Path, environment: Mapping[str, str], words: Sequence[str] = ()) -> Seen:
+    """Return what a launch file comes to."""
+    problems = Problems()
+    plan = collect(str(path), inputs_from(words, environment=environment), problems)
+    content = None if plan is None else _plain(encode(plan), path.name)
+    codes = frozenset(problem.code for problem in problems.errors)
+    return Seen(content, codes - {Code.DUPLICATE_NODE})  # which is none in Python
+
+
+def turned(path: Path, language: str, environment: Mapping[str, str]) -> Path:
+    """Convert a launch file; return the result, which stands beside it. It fails where something is lost."""
+    found = convert(str(path), language, environment)
+    assert not found.lossy, found.remarks
+    return written(path, language, found)
+
+
+def written(path: Path, language: str, found: Converted) -> Path:
+    """Write what a launch file was converted to, beside it."""
+    assert found.mistake is None, f"{found.mistake}\n{found.text}"
+    assert found.text is not None
+    other = path.with_name(path.name.split(".")[0] + ENDINGS[language])
+    other.write_text(found.text, "utf-8")
+    return other
+
+
+def others(path: Path) -> list[str]:
+    """Return the languages that a launch file is not in."""
+    return [language for language in LANGUAGES if language != language_of(str(path))]
+
+
+def same_everywhere(path: Path, environment: Mapping[str, str], words: Sequence[str] = ()) -> None:
+    """Convert a launch file to both other languages, and each of these to both others again: the plan is the same."""
+    plan = seen(path, environment, words)
+    for language in others(path):
+        there = turned(path, language, environment)
+        assert seen(there, environment, words) == plan, there.read_text("utf-8")
+        for next_language in others(there):
+            back = turned(there, next_language, environment)
+            assert seen(back, environment, words) == plan, back.read_text("utf-8")
+
+
+def _plain(value: Any, name: str) -> Any:
+    if isinstance(value, dict):
+        return {
+            key: _plain(item, name)
+            for key, item in value.items()
+            if key not in _PLACES and not _spelled(key, item)
+        }
+    if isinstance(value, list | tuple):
+        return [_plain(item, name) for item in value]
+    return value.replace(name, _ENDING.sub("", name)) if isinstance(value, str) else value
+
+
+def _spelled(key: str, value: Any) -> bool:
+    """Return whether a value is how something is written: what it comes to stands beside it."""
+    return key == "default" and isinstance(value, str) and "$(" in value
