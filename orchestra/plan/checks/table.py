@@ -4,9 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, Protocol
 
+from orchestra.plan.checks.cores import check_cores
 from orchestra.plan.checks.declared import check_declared
+from orchestra.plan.checks.doubled import check_doubled
 from orchestra.plan.checks.interfaces import check_interfaces
 from orchestra.plan.checks.sections import check_sections
+from orchestra.plan.checks.topics import check_topics
 from orchestra.plan.checks.waits import check_waits
 
 if TYPE_CHECKING:
@@ -27,6 +30,9 @@ CHECKS: Final[tuple[Check, ...]] = (
     check_interfaces,
     check_sections,
     check_waits,
+    check_doubled,
+    check_topics,
+    check_cores,
 )
 
 

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from orchestra.plan.model import Plan, Process
     from orchestra.resolve.awaited import ResolvedReady
     from orchestra.resolve.context import Value
-    from orchestra.resolve.model import Resolved
+    from orchestra.resolve.model import Resolved, ResolvedComponent, ResolvedProcess
 
 
 def check_waits(resolved: Resolved, plan: Plan, problems: Problems) -> None:
@@ -28,7 +28,7 @@ def check_waits(resolved: Resolved, plan: Plan, problems: Problems) -> None:
         for edge in process.depends_on:
             if edge.required and edge.condition in ("completed", "exited"):
                 _check_end(by_id.get(edge.process), edge.condition, edge.location, problems)
-    nodes = [*resolved.processes, *resolved.components]
+    nodes: list[ResolvedProcess | ResolvedComponent] = [*resolved.processes, *resolved.components]
     names = {name for node in nodes if (name := node_name(node)) is not None}
     for process, written in zip(plan.processes, resolved.processes, strict=True):
         if process.ready is not None and written.ready is not None:

@@ -1,0 +1,116 @@
+"""Names of topics that differ only in case or in a slash, between nodes that look meant for each other.
+
+Known are the names that a description writes: what nodes are remapped to, and what is waited for. One is a mistake
+only where nobody else uses it and another node uses the other.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final, TypeAlias
+
+from orchestra.errors import Code
+from orchestra.resolve.context import Value
+from orchestra.resolve.names import InvalidName, expanded
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from orchestra.errors import Problems
+    from orchestra.plan.model import Component, Plan, Process
+    from orchestra.resolve.model import Resolved, ResolvedComponent, ResolvedProcess
+
+    _Planned: TypeAlias = Process | Component
+    _Written: TypeAlias = ResolvedProcess | ResolvedComponent
+
+_GLOBAL: Final = frozenset({"tf", "tf_static", "clock", "rosout", "parameter_events", "diagnostics"})
+# What is told where nodes say which topics they have.
+_KNOWN: Final = frozenset({Code.TOPIC_TYPE, Code.UNFED_TOPIC})
+
+
+@dataclass(frozen=True, slots=True)
+class _Use:
+    """A full name that a node uses, as it is written."""
+
+    name: str
+    written: Value
+    node: str
+    namespace: str
+
+
+def check_topics(resolved: Resolved, plan: Plan, problems: Problems) -> None:
+    """Report names that nobody else uses beside nearly the same one of another node."""
+    uses = list(_uses(resolved, plan))
+    users: dict[str, set[str]] = {}
+    for use in uses:
+        users.setdefault(use.name, set()).add(use.node)
+    told = {problem.span for problem in problems if problem.code in _KNOWN}
+    for alike in _alike(uses):
+        _check(alike, users, told, problems)
+
+
+def _check(uses: Iterable[_Use], users: dict[str, set[str]], told: set[object], problems: Problems) -> None:
+    """Report the last of some names that are nearly the same, of those that nobody else uses."""
+    uses = list(uses)
+    lonely = [use for use in uses if len(users[use.name]) == 1]
+    for use in reversed(lonely):
+        other = next((it for it in uses if it.name != use.name and users[it.name] != {use.node}), None)
+        if other is None or use.written.location.span in told:
+            continue
+        told.add(use.written.location.span)
+        message = f"'{use.name}' is used by '{use.node}' alone, and '{other.name}' by '{other.node}'"
+        problems.warning(
+            Code.SPLIT_TOPIC,
+            message,
+            use.written.location,
+            suggestion=other.written.text if other.namespace == use.namespace else other.name,
+            notes=(f"the other name is at {other.written.location}",),
+        )
+        return
+
+
+def _alike(uses: Iterable[_Use]) -> Iterator[list[_Use]]:
+    """Yield the uses of names that differ only in case or in a slash, where there are several names."""
+    groups: dict[object, list[_Use]] = {}
+    for use in uses:
+        groups.setdefault(use.name.replace("/", "").lower(), []).append(use)
+        bare = use.written.text.removeprefix("/")
+        if use.namespace != "/" and bare not in _GLOBAL and not bare.startswith("~"):
+            groups.setdefault((use.namespace, bare), []).append(use)
+    for group in groups.values():
+        if len({use.name for use in group}) > 1:
+            yield group
+
+
+def _uses(resolved: Resolved, plan: Plan) -> Iterator[_Use]:
+    pairs: list[tuple[_Planned, _Written]] = [
+        *zip(plan.processes, resolved.processes, strict=True),
+        *zip(plan.components, resolved.components, strict=True),
+    ]
+    for planned, written in pairs:
+        if not written.faulty:
+            yield from _remapped(planned, written)
+    for process, item in zip(plan.processes, resolved.processes, strict=True):
+        names = (
+            [(None, None)]
+            if process.ready is None or item.ready is None
+            else [
+                (process.ready.message, item.ready.message),
+                (process.ready.topic, item.ready.topic),
+            ]
+        )
+        for name, value in names:
+            if name is not None and value is not None:
+                yield _Use(name, value, process.id, process.namespace or "/")
+
+
+def _remapped(planned: _Planned, written: _Written) -> Iterator[_Use]:
+    namespace = planned.namespace or "/"
+    for rule in written.remaps:
+        if rule.source.text.rpartition(":")[2].startswith("__"):
+            continue
+        try:
+            name = expanded(rule.target.text, namespace, planned.name or "_")
+        except InvalidName:
+            continue
+        yield _Use(name, rule.target, planned.id, namespace)
