@@ -162,7 +162,12 @@ def _files(
 
 
 def _entities(value: object) -> Iterator[Entity]:
-    if isinstance(value, Entity):
+    kind = type(value)
+    if (
+        kind is Template or kind is str or value is None
+    ):  # most of them; whether one is a model takes long to tell
+        return
+    if kind is not tuple and isinstance(value, Entity):
         yield value
         for name in type(value).model_fields:
             yield from _entities(getattr(value, name))

@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import os
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from orchestra.errors import Code, Problems
+from orchestra.errors import Code, Problems, Severity
 from orchestra.location import displayed
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import FileParameters
 from orchestra.resolve.paths import beside, existing_file, folder_of
 from orchestra.resolve.rcl.files import read_parameter_file, read_plain_file
+from orchestra.resolve.rcl.sections import included
 from orchestra.resolve.rcl.strays import SECTION_KEY
 from orchestra.resolve.substituted import Back, placed_back, substituted
 
 if TYPE_CHECKING:
     from orchestra.description.text import Template
+    from orchestra.errors import Problem
     from orchestra.location import Location
+    from orchestra.resolve.rcl.sections import Section
     from orchestra.resolve.resolution import Resolution
 
 
@@ -93,14 +97,14 @@ def read_file(
         if evaluated is None:
             return None
         text, back = evaluated
-    found = Problems()
     bare = plain and SECTION_KEY not in text
-    sections = (read_plain_file if bare else read_parameter_file)(text, file, found, chain)
+    sections, found = _read(text, file, bare=bare)
     for problem in found:
         span = back(problem.span) if back is not None and problem.span is not None else problem.span
-        run.problems.report(replace(problem, span=span))
-    if found.errors:
+        run.problems.report(replace(problem, span=span, included_from=(*problem.included_from, *chain)))
+    if any(problem.severity is Severity.ERROR for problem in found):
         return None
+    sections = tuple(included(section, chain) for section in sections)
     if back is not None:
         sections = tuple(placed_back(section, back) for section in sections)
     if bare:
@@ -108,6 +112,14 @@ def read_file(
             path, (), location, plain=tuple(item for part in sections for item in part.entries)
         )
     return FileParameters(path, sections, location)
+
+
+@lru_cache(maxsize=64)  # by content: many nodes and files have the same one
+def _read(text: str, file: str, *, bare: bool) -> tuple[tuple[Section, ...], tuple[Problem, ...]]:
+    """Return what a file holds and what is wrong with it, as if no include had led to it."""
+    found = Problems()
+    sections = (read_plain_file if bare else read_parameter_file)(text, file, found, ())
+    return sections, tuple(found)
 
 
 def _text(path: str, location: Location, run: Resolution) -> str | None:

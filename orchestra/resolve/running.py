@@ -30,6 +30,7 @@ from orchestra.resolve.reactions import ResolvedStart
 from orchestra.resolve.readiness import life, readiness
 from orchestra.resolve.sound import Sound
 from orchestra.resolve.words import split
+from orchestra.witness.variables import copied
 
 if TYPE_CHECKING:
     from orchestra.description.running import Running
@@ -139,7 +140,7 @@ def _tell(process: ResolvedProcess, run: Resolution) -> None:
     """Let the object of a Python launch file know what the process is started with: user code asks for it."""
     if process.faulty or not hasattr(process.origin, "_prepared_as"):
         return
-    environment = dict(run.scope.environment) if process.inherit_environment else {}
+    environment = copied(run.scope.environment) if process.inherit_environment else {}
     changed = {name: changes[-1].value for name, changes in process.environment.items()}
     environment |= {name: value for name, value in changed.items() if value is not None}
     name = name_in_launch(process, len(run.found.processes) - 1)

@@ -56,7 +56,7 @@ def content(path: str) -> str | None:
         with _open(path, "rb") as file:
             return digest_of(file.read())
     except (OSError, ValueError) as error:
-        return _reason(error)
+        return reason(error)
 
 
 def mode(path: str) -> Any:
@@ -72,6 +72,11 @@ def own_mode(path: str) -> Any:
 def link(path: str) -> Any:
     """Return where a link leads to, or why that cannot be told."""
     return _told(lambda: os.fsdecode(_readlink(path)))
+
+
+def told(kind: str, found: Any) -> Any:
+    """Return what one of these looks has given, from what the function that was called gave."""
+    return os.fsdecode(found) if kind == "link" else found.st_mode
 
 
 def readable(path: str) -> Any:
@@ -113,8 +118,9 @@ def _told(look: Callable[[], Any]) -> Any:
     try:
         return look()
     except (OSError, ValueError) as error:
-        return _reason(error)
+        return reason(error)
 
 
-def _reason(error: Exception) -> str:
+def reason(error: Exception) -> str:
+    """Return a text for why something cannot be told."""
     return f"! {getattr(error, 'errno', None)}"

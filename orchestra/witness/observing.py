@@ -49,6 +49,7 @@ class Observer:
         self.foreign: set[str] = set()
         self._aside = 0
         self._seen: dict[str, Signature | None] = {}
+        self._digests: dict[str, tuple[Signature | None, str]] = {}
         self._installed: Record = Record()
         self._of_users = False
         self._environment: dict[str, str] = {}
@@ -161,26 +162,38 @@ class Observer:
                     looks[path] = looking.LOOKS[kind](path)
 
     def _complete(self, record: Record, path: str, before: Signature | None) -> None:
-        digest = looking.content(path)
+        known = self._digests.get(path)
+        digest = known[1] if known is not None and known[0] == before else looking.content(path)
         if digest is None:
             record.unknown = record.unknown or f"{path} is no regular file"
         elif looking.signature(path) != before:
             record.unknown = record.unknown or f"{path} has changed meanwhile"
         else:
-            record.files[path] = (digest, before if looking.settled(before) else None)
+            sure = looking.settled(before)
+            record.files[path] = (digest, before if sure else None)
+            if sure:
+                self._digests[path] = (before, digest)
 
     def _wrapped(self, function: Any, kind: str) -> Any:
         @wraps(function)
         def looked(path: Any, *args: Any, **kwargs: Any) -> Any:
-            if self.record is not None and self._aside == 0:
+            if self.record is None or self._aside or isinstance(path, int):
+                return function(path, *args, **kwargs)
+            looks = self.record.looks.setdefault(kind, {})
+            if kwargs or kind == "access" or (whole := self._whole(path)) is None or whole in looks:
                 self._looked(kind, path, kwargs)
-            return function(path, *args, **kwargs)
+                return function(path, *args, **kwargs)
+            try:
+                found = function(path)
+            except (OSError, ValueError) as error:
+                looks[whole] = looking.reason(error)
+                raise
+            looks[whole] = looking.told(kind, found)
+            return found
 
         return looked
 
     def _looked(self, kind: str, path: Any, options: dict[str, Any]) -> None:
-        if isinstance(path, int):
-            return
         if options.get("dir_fd") is not None:
             self.unknown("paths relative to open folders")
             return

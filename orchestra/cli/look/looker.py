@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from orchestra.witness.record import Record
 
 
-_COLLECTING = 50  # files after which memory is tidied up
+_COLLECTING = 200  # files after which memory is tidied up
 
 
 class Looker:
@@ -42,7 +42,7 @@ class Looker:
             inputs, launching=False, environment=ObservedEnvironment(self._environment, observer())
         )
         self._packages = RecordedPackages(self._environment)
-        self._loader = SharedLoader()
+        self._loader = SharedLoader(self._names)
         self._count = 0
 
     def watch(self, scratch: str) -> None:
@@ -74,13 +74,14 @@ class Looker:
 
     def _launch_file(self, path: str) -> Finding:
         problems = Problems()
-        visit = _Visit(self._loader, self._environment, self._packages)
+        visit = _Visit(self._loader)
+        self._loader.named = set()
         absolute = str(Path(path).absolute())
         with pipeline.opened(
             absolute, self._inputs, problems, load=visit.load, packages=self._packages
         ) as launch:
             left_out = set() if launch is None else launch.left_out
-        named = visit.named | {os.path.realpath(file) for file in left_out}
+        named = self._loader.named | {os.path.realpath(file) for file in left_out}
         return Finding(
             os.path.realpath(path),
             problems.ordered,
@@ -89,6 +90,10 @@ class Looker:
             frozenset(problems.silencing),
             _has_comments(path),
         )
+
+    def _names(self, description: Description) -> set[str]:
+        files = files_named(description, self._inputs.environment, self._packages)
+        return set(map(os.path.realpath, files))
 
     def _parameters(self, path: str) -> Finding:
         problems = Problems()
@@ -108,14 +113,11 @@ class Looker:
 
 
 class _Visit:
-    """What one launch file includes and names."""
+    """What one launch file includes."""
 
-    def __init__(self, loader: SharedLoader, environment: dict[str, str], packages: RecordedPackages) -> None:
+    def __init__(self, loader: SharedLoader) -> None:
         self.included: set[str] = set()
-        self.named: set[str] = set()
         self._loader = loader
-        self._environment = environment
-        self._packages = packages
 
     def load(
         self, path: str, problems: Problems, chain: tuple[Span, ...] = (), ending: str | None = None
@@ -123,12 +125,7 @@ class _Visit:
         """Read a launch file, as `orchestra.load.files.load` does."""
         if chain:
             self.included.add(os.path.realpath(path))
-        description = self._loader.load(path, problems, chain, ending)
-        if description is not None:
-            environment = ObservedEnvironment(self._environment, observer())
-            files = files_named(description, environment, self._packages)
-            self.named.update(map(os.path.realpath, files))
-        return description
+        return self._loader.load(path, problems, chain, ending)
 
 
 def _has_comments(path: str) -> bool:

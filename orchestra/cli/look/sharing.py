@@ -12,6 +12,8 @@ from orchestra.witness.looking import signature
 from orchestra.witness.observing import observer
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from orchestra.description.launch import Description
     from orchestra.errors import Problem
     from orchestra.location import Span
@@ -23,12 +25,18 @@ class _Loaded(NamedTuple):
     problems: tuple[Problem, ...]
     record: Record
     signature: Signature
+    named: frozenset[str]
 
 
 class SharedLoader:
-    """Loads launch files; what is written in XML or YAML once, however many files include it."""
+    """Loads launch files; what is written in XML or YAML once, however many files include it.
 
-    def __init__(self) -> None:
+    `names` gives what a description names. `named` collects that for all that has been loaded since it was cleared.
+    """
+
+    def __init__(self, names: Callable[[Description], set[str]]) -> None:
+        self.named: set[str] = set()
+        self._names = names
         self._known: dict[tuple[str, str | None], _Loaded] = {}
 
     def load(
@@ -37,26 +45,36 @@ class SharedLoader:
         """Read a launch file, as `orchestra.load.files.load` does."""
         # Code of Python files may have added to the language of the others.
         if (ending or path).endswith(PYTHON) or _is_extended():
-            return load(path, problems, chain, ending)
+            return self._load(path, problems, chain, ending)
         known = self._known.get((path, ending))
         if known is None or signature(path) != known.signature:
             known = self._read(path, ending)
         if known is None:
-            return load(path, problems, chain, ending)
+            return self._load(path, problems, chain, ending)
         observer().depend(known.record)
+        self.named |= known.named
         problems.extend(
             replace(problem, included_from=(*problem.included_from, *chain)) for problem in known.problems
         )
         return known.description
+
+    def _load(
+        self, path: str, problems: Problems, chain: tuple[Span, ...], ending: str | None
+    ) -> Description | None:
+        description = load(path, problems, chain, ending)
+        if description is not None:
+            self.named |= self._names(description)
+        return description
 
     def _read(self, path: str, ending: str | None) -> _Loaded | None:
         """Read a file for all who include it; None where it cannot be read, and each has to tell where it names it."""
         found, before = Problems(), signature(path)
         with observer().part() as record:
             description = load(path, found, (), ending)
+            named = set() if description is None else self._names(description)
         if description is None or before is None or _is_extended():
             return None
-        loaded = _Loaded(description, tuple(found), record, before)
+        loaded = _Loaded(description, tuple(found), record, before, frozenset(named))
         self._known[path, ending] = loaded
         return loaded
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from orchestra.location import Location
+from orchestra.location import Location, Span
 from orchestra.values import ParameterValue
 
 
@@ -38,6 +38,27 @@ class Section:
     pattern: str
     entries: tuple[Entry, ...]
     location: Location
+
+
+def included(section: Section, chain: tuple[Span, ...]) -> Section:
+    """Return a section of a file that was read for nobody as that of one which includes led to."""
+
+    def at(location: Location) -> Location:
+        return Location(location.span, (*location.included_from, *chain))
+
+    entries = (
+        Entry(
+            item.name,
+            item.value,
+            at(item.location),
+            at(item.key),
+            item.slot,
+            item.opens,
+            tuple(map(at, item.items)),
+        )
+        for item in section.entries
+    )
+    return Section(section.pattern, tuple(entries), at(section.location))
 
 
 def entry(name: str, value: ParameterValue | None, location: Location) -> Entry:
