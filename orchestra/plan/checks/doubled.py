@@ -27,7 +27,8 @@ def check_doubled(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     That values of a file are overruled behind it is how people use files. In Python lists are put together by code.
     """
     del plan
-    for node in (*resolved.processes, *resolved.components):
+    nodes: list[ResolvedProcess | ResolvedComponent] = [*resolved.processes, *resolved.components]
+    for node in nodes:
         _check(node, problems)
 
 

@@ -44,7 +44,7 @@ def check_topics(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     users: dict[str, set[str]] = {}
     for use in uses:
         users.setdefault(use.name, set()).add(use.node)
-    told = {problem.span for problem in problems if problem.code in _KNOWN}
+    told: set[object] = {problem.span for problem in problems if problem.code in _KNOWN}
     for alike in _alike(uses):
         _check(alike, users, told, problems)
 
