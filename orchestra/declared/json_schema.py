@@ -51,15 +51,15 @@ def read_schema(document: Document, problems: Problems) -> ParameterSchema | Non
     plain = read_plain(document.data)
     if plain is not None:
         return DeclaredParameters(plain)
-    from jsonschema.exceptions import SchemaError  # noqa: PLC0415 - few schemas need it
-    from jsonschema.validators import Draft202012Validator, validator_for  # noqa: PLC0415
+    from jsonschema.validators import Draft202012Validator, validator_for  # noqa: PLC0415 - few schemas need it
 
     kind = validator_for(document.data, default=Draft202012Validator)
-    try:
-        kind.check_schema(document.data)
-    except SchemaError as error:
+    faults = list(kind(kind.META_SCHEMA).iter_errors(document.data))
+    for error in faults:
         at = document.at(tuple(error.absolute_path))
-        problems.error(Code.BROKEN_DECLARATION, f"no JSON Schema: {error.message}", at)
+        told = f"no JSON Schema: {error.message}"
+        problems.error(Code.BROKEN_DECLARATION, told, at, suggestion=_meant_word(error))
+    if faults:
         return None
     registry = _registry(document)
     resolver = registry.resolver(document.data.get("$id", "") if isinstance(document.data, dict) else "")
@@ -67,6 +67,12 @@ def read_schema(document: Document, problems: Problems) -> ParameterSchema | Non
         return None
     root = level((document.data, partial(_lookup, resolver)))
     return _Schema(kind(document.data, registry=registry), root)
+
+
+def _meant_word(error: Any) -> str | None:  # noqa: ANN401 - of the library
+    """Return the type that a word of a schema probably means."""
+    is_type = list(error.absolute_path)[-1:] == ["type"] and isinstance(error.instance, str)
+    return nearest(error.instance, (*NUMERIC, "array", "object", "null")) if is_type else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -108,11 +108,15 @@ def _part(schema: Schema, key: str) -> Mapping[str, Any]:
 
 @dataclass(frozen=True, slots=True)
 class Place:
-    """The way to a parameter in the tree, and what is said of it; `known` tells whether anything is."""
+    """The way to a parameter in the tree, and what is said of it; `known` tells whether anything is.
+
+    Of one that is not known, `beside` are the full names of those that are, on the level where it goes wrong.
+    """
 
     way: tuple[str, ...]
     said: Level | None
     known: bool
+    beside: tuple[str, ...] = ()
 
 
 def place(name: str, at: Level) -> Place:
@@ -133,14 +137,16 @@ def place(name: str, at: Level) -> Place:
     if others is not None:
         return Place((name,), others, known=True)
     flat = len(parts) == 1 or any("." in other for other in at.names)
-    return Place((name,) if flat else tuple(parts), None, known=False)
+    return Place((name,) if flat else tuple(parts), None, known=False, beside=at.names)
 
 
 def _inside(head: str, rest: str, inner: Level) -> Place:
     if not rest:
         return Place((head,), inner, known=True)
     found = place(rest, inner)
-    return Place((head, *found.way), found.said, found.known)
+    return Place(
+        (head, *found.way), found.said, found.known, tuple(f"{head}.{other}" for other in found.beside)
+    )
 
 
 def tree(values: Mapping[str, Any], places: Mapping[str, Place]) -> dict[str, Any]:

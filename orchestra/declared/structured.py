@@ -77,7 +77,7 @@ def known_names(at: Level, above: str = "", depth: int = 0) -> Iterator[str]:
         return
     for name in at.names:
         inner = at.below(name)
-        if inner is not None and inner.is_object and inner.names:
+        if inner is not None and inner.is_object:
             yield from known_names(inner, f"{above}{name}.", depth + 1)
         else:
             yield f"{above}{name}"
@@ -85,7 +85,9 @@ def known_names(at: Level, above: str = "", depth: int = 0) -> Iterator[str]:
 
 def undeclared(name: str, found: Structured, *, certain: bool) -> Fault:
     """Return that a name is declared nowhere, with the one that is meant."""
-    fault = misnamed(name, list(known_names(found.root)))
+    place_of_it = found.places.get(name)
+    beside = () if place_of_it is None else place_of_it.beside
+    fault = misnamed(name, list(dict.fromkeys([*known_names(found.root), *beside])))
     return Fault("undeclared", fault.name, fault.told, fault.meant, None, certain)
 
 
