@@ -11,6 +11,8 @@ if TYPE_CHECKING:
 _LEAST_LIKENESS = 0.6
 _LIKENESS_OF_A_SLIP = 0.7
 _CHARACTERS_OF_A_SLIP = 2  # more or less
+_LIKENESS_OF_A_SWAP = 0.8  # two letters in each other's place
+_LETTERS_OF_A_SHORT_WORD = 4
 
 
 def nearest(word: str, candidates: Iterable[str]) -> str | None:
@@ -30,11 +32,27 @@ def is_slip(word: str, meant: str) -> bool:
     """Return whether the word is hardly anything but a slip of the keys: `robot1` is none of `robot2`."""
     if abs(len(word) - len(meant)) > _CHARACTERS_OF_A_SLIP or _digits(word) != _digits(meant):
         return False
-    return SequenceMatcher(None, _folded(word), _folded(meant), autojunk=False).ratio() >= _LIKENESS_OF_A_SLIP
+    one, other = _folded(word), _folded(meant)
+    likeness = SequenceMatcher(None, one, other, autojunk=False).ratio()
+    return likeness >= _LIKENESS_OF_A_SLIP or _is_swapped(one, other)
 
 
 def _digits(text: str) -> str:
     return "".join(character for character in text if character.isdigit())
+
+
+def _is_swapped(word: str, other: str) -> bool:
+    """Return whether two neighbouring letters have changed places."""
+    return len(word) == len(other) and _one_slip(word, other) and sorted(word) == sorted(other)
+
+
+def _one_slip(word: str, other: str) -> bool:
+    """Return whether a letter too many, too few, wrong or in its neighbour's place is the difference."""
+    same = next((at for at, (one, two) in enumerate(zip(word, other, strict=False)) if one != two), None)
+    if same is None:
+        return abs(len(word) - len(other)) == 1
+    one, two = word[same:], other[same:]
+    return one[2:] == two[2:] if one[:2] == two[1::-1] else two[1:] in (one, one[1:]) or one[1:] == two
 
 
 def _folded(word: str) -> str:
@@ -42,9 +60,14 @@ def _folded(word: str) -> str:
 
 
 def _likeness(word: str, candidate: str) -> float:
+    """Return how much alike two words are; between short ones a single slip counts, and nothing that is less alike."""
     if 2 * min(len(word), len(candidate)) <= _LEAST_LIKENESS * (len(word) + len(candidate)):
         return 0.0  # what `real_quick_ratio` would say, without looking at the letters
+    short = min(len(word), len(candidate)) <= _LETTERS_OF_A_SHORT_WORD
+    if short and _is_swapped(word, candidate):
+        return _LIKENESS_OF_A_SWAP
     matcher = SequenceMatcher(None, word, candidate, autojunk=False)
     if matcher.quick_ratio() <= _LEAST_LIKENESS:
         return 0.0
-    return matcher.ratio()
+    ratio = matcher.ratio()
+    return ratio if not short or ratio >= _LIKENESS_OF_A_SLIP or _one_slip(word, candidate) else 0.0

@@ -7,6 +7,7 @@ from typing import Annotated
 from pydantic import Field, PlainValidator
 
 from orchestra.description.conditions import Alive, Ready
+from orchestra.description.conflict import Conflict
 from orchestra.description.entity import Action
 from orchestra.description.fields import Argv, Flag, Integer, Seconds, Text, word, worded
 from orchestra.description.limits import Limits
@@ -16,6 +17,7 @@ from orchestra.description.short import Short
 from orchestra.description.text import Template
 
 ON_EXIT = ("shutdown",)
+_RESPAWN = ("respawn", "respawn_delay", "respawn_max_retries")
 
 
 class Running(Action):
@@ -65,3 +67,11 @@ class Running(Action):
         default=None, description="Whether it reads what is typed; one process of a run may."
     )
     limits: Limits | None = Field(default=None, description="What it may use, and where it runs.")
+
+    def conflict(self) -> Conflict | None:
+        """Return a key of upstream's beside `restart`: which of the two counts cannot be told."""
+        upstream = [key for key in _RESPAWN if getattr(self, key) is not None]
+        if self.restart is None or not upstream:
+            return super().conflict()
+        reason = f"`{upstream[0]}` and `restart` say the same thing twice: leave one of them out"
+        return Conflict(reason, ("restart", *upstream))

@@ -10,6 +10,7 @@ from orchestra.description.fields import STRAY_KEY
 from orchestra.description.source import Keyed, Listed, Written, kind_of
 from orchestra.description.text import Template, Words
 from orchestra.errors import Code, Problems
+from orchestra.load.braces import warn_of_braces
 from orchestra.load.elements import beginning_of, noun
 from orchestra.load.grammar import parse_template, unescaped
 from orchestra.load.keys import known_keys
@@ -60,11 +61,14 @@ class Reader:
 
     def template(self, written: Written) -> Template:
         """Read a text with substitutions."""
-        if written.text and "$(" not in written.text and "\\" not in written.text:
-            span = written.spans(0, len(written.text))
-            return Template((Words(written.text, span),), written.text, span, quoted=written.quoted)
-        found = Problems()
-        template = parse_template(written.text, written.spans, found, quoted=written.quoted)
+        text, found = written.text, Problems()
+        if "${" in text or "$[" in text:
+            warn_of_braces(text, written.spans, found)
+        if text and "$(" not in text and "\\" not in text:
+            span = written.spans(0, len(text))
+            template = Template((Words(text, span),), text, span, quoted=written.quoted)
+        else:
+            template = parse_template(text, written.spans, found, quoted=written.quoted)
         for problem in found:
             self.problems.report(replace(problem, included_from=self.included_from))
         return template

@@ -29,10 +29,11 @@ _KNOWN_ENTITIES = "XML knows &amp; &lt; &gt; &quot; &apos; and numbers such as &
 
 @dataclass(frozen=True, slots=True)
 class Opened:
-    """The innermost element that is open where a fault is found."""
+    """The innermost element that is open where a fault is found, and the names of those around it."""
 
     name: str
     span: Span
+    around: tuple[str, ...] = ()
 
 
 def explained(code: int, at: int, whole: Source, opened: Opened | None) -> Fault:
@@ -50,6 +51,10 @@ def _fault(message: str, whole: Source, begin: int, end: int, suggestion: str | 
 def _mismatch(at: int, whole: Source, opened: Opened | None) -> Fault:
     name = _word(whole.text, at)
     assert opened is not None  # noqa: S101 - a tag is closed that does not match one
+    if name in opened.around and not is_slip(name, opened.name):
+        return Fault(
+            f"<{opened.name}> is not closed: </{opened.name}> is missing before </{name}>", opened.span
+        )
     return Fault(
         f"</{name}> stands where </{opened.name}> is expected",
         whole.span(at, at + len(name)),
@@ -133,7 +138,7 @@ def _invalid(at: int, whole: Source, opened: Opened | None) -> Fault:
     here = text[at : at + 1]
     if here and (here < " " or here in "\ufffe\uffff"):
         return _fault(f"the character U+{ord(here):04X} cannot stand in XML", whole, at, at + 1)
-    if begin >= 0 and (fault := _in_tag(begin, at, whole)):
+    if begin >= 0 and (fault := _in_tag(begin, at, whole) or _unfinished(begin, at, whole)):
         return fault
     if text.endswith("]]", 0, at) and here == ">":
         return _fault("']]>' cannot stand in a text", whole, at - 2, at + 1)
@@ -155,6 +160,8 @@ def _in_tag(begin: int, at: int, whole: Source) -> Fault | None:
         return _fault(message, whole, begin, begin + 1, "&lt;")
     while (found := _ATTRIBUTE.match(text, place)) and found.start() <= at:
         blank, name, quoted, bare = found.groups()
+        if not blank and text[place - 2] == "=":
+            return _unquoted(begin, place, whole)
         if not blank:
             return _fault(f"a space is missing before '{name}'", whole, found.start(2), found.end(2))
         if bare:
@@ -168,6 +175,30 @@ def _in_tag(begin: int, at: int, whole: Source) -> Fault | None:
             return _in_value(name, found.start(3), found.end(3), whole)
         place = found.end()
     return None
+
+
+def _unfinished(begin: int, at: int, whole: Source) -> Fault | None:
+    """Return what is wrong with the end of a tag that begins at one offset and fails at another."""
+    text = whole.text
+    if text.startswith("<", at) and ">" not in text[begin:at]:
+        return _fault("this tag is not closed: '>' is missing", whole, begin, begin + 1)
+    if text.endswith("/", 0, at) and text[at:].lstrip().startswith(">"):
+        return _fault("'/>' ends an element: nothing stands between the two", whole, at - 1, at)
+    return None
+
+
+def _unquoted(begin: int, end: int, whole: Source) -> Fault:
+    """Return the fault of a value that holds the beginning of the next attribute: its own quote is not closed."""
+    place = begin + 1 + len(_word(whole.text, begin + 1))
+    while (found := _ATTRIBUTE.match(whole.text, place)) and found.end() < end:
+        place = found.end()
+    assert found is not None  # noqa: S101 - it ends there
+    return _fault(
+        f"the value of '{found[2]}' is not closed: a quote is missing",
+        whole,
+        found.start(3),
+        found.start(3) + 1,
+    )
 
 
 def _in_value(name: str, begin: int, end: int, whole: Source) -> Fault:

@@ -83,7 +83,10 @@ class _Elements:
 
     def opened(self) -> Opened | None:
         """Return the name and the place of the innermost element that is open."""
-        return Opened(self.open[-1].name, self.open[-1].span(self.whole)) if self.open else None
+        if not self.open:
+            return None
+        around = tuple(element.name for element in self.open[:-1])
+        return Opened(self.open[-1].name, self.open[-1].span(self.whole), around)
 
     def start(self, name: str, pairs: list[str]) -> None:
         at = self.offset(self.parser.CurrentByteIndex) + 1

@@ -16,9 +16,12 @@ from orchestra.resolve.names import (
     InvalidName,
     expanded,
     full_topic_name_fault,
+    mended,
     rmw_namespace_fault,
     rmw_node_name_fault,
+    topic_name_fault,
 )
+from orchestra.resolve.refusals import refuse_value
 from orchestra.resolve.remaps import read_rule, remapped
 
 if TYPE_CHECKING:
@@ -129,7 +132,8 @@ class _Names:
             message = f"'{written.text}' cannot be {what}: {error.fault.reason}"
             if written.text == OWN:
                 message = error.fault.reason
-            self._problems.error(Code.BAD_NAME, message, written.location)
+            meant = mended(written.text, topic_name_fault)
+            refuse_value(written, self._problems, Code.BAD_NAME, message, meant=meant)
             return None
 
     def _remapped(self, name: str, kind: Literal["topic", "service"]) -> str:

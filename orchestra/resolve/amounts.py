@@ -5,7 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, TypeVar
 
 from orchestra.errors import Code
-from orchestra.resolve.context import POISON, Poison, Value
+from orchestra.resolve.context import Poison, Value
+from orchestra.resolve.refusals import refuse_value
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -45,10 +46,9 @@ def made(template: Template | None, make: Callable[[str], _T], run: Resolution) 
     try:
         return make(value.text)
     except UnfitError as error:
-        run.problems.error(
-            Code.BAD_VALUE, error.reason, value.location, suggestion=error.suggestion, notes=error.notes
+        return refuse_value(
+            value, run.problems, Code.BAD_VALUE, error.reason, meant=error.suggestion, notes=error.notes
         )
-        return POISON
 
 
 def _within(text: str, bounds: Range) -> float:

@@ -45,11 +45,15 @@ class Read:
 
 @dataclass(frozen=True, slots=True)
 class Value:
-    """A text that evaluation gave, where it was written, and what was read to make it."""
+    """A text that evaluation gave, where it was written, and what was read to make it.
+
+    `verbatim` tells that it stands there as it is, so that another text can be put in its place.
+    """
 
     text: str
     location: Location
     through: tuple[Read, ...] = field(default=(), compare=False, repr=False, kw_only=True)
+    verbatim: bool = field(default=False, compare=False, repr=False, kw_only=True)
 
 
 class Poison:

@@ -19,7 +19,7 @@ def evaluate(template: Template, context: Context) -> Evaluated:
     Every part is evaluated even where one is faulty, so that all faults are reported and all reads are seen.
     """
     if template.constant is not None and not template.faulty:
-        return Value(template.constant, context.at(template.span))
+        return Value(template.constant, context.at(template.span), verbatim=True)
     texts: list[str] = []
     poisoned = template.faulty
     with context.variables.tracing() as reads:

@@ -37,14 +37,16 @@ def _value(given: GivenParameter, run: Resolution) -> GivenSections | None:
     location = Location(given.span)
     pattern = given.node if given.node.startswith("/") else f"/{given.node}"
     fault = pattern_fault(pattern)
+    if fault is not None:
+        message = f"'{given.node}' cannot be a node: {fault.reason}"
+        run.problems.error(Code.PARAMETER_TYPE, message, location)
+        return None
     try:
-        if fault is not None:
-            raise ValueError(f"'{given.node}' cannot be a node: {fault.reason}")  # noqa: TRY301 - one report for both
         value = override_value(given.value)
         if value is None:
             raise ValueError(f"'{given.value}' has no type")  # noqa: TRY301 - one report for both
     except ValueError as error:
-        run.problems.error(Code.PARAMETER_TYPE, " ".join(str(error).split()), location)
+        run.problems.error(Code.PARAMETER_TYPE, " ".join(str(error).split()), Location(given.value_span))
         return None
     section = Section(pattern, (entry(given.name, value, location),), location)
     return GivenSections((section,), location, strict=True)

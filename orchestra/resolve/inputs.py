@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from typing import Final
 
 from orchestra.location import Span
+
+ASSIGNED: Final = ":="
 
 
 @dataclass(frozen=True, slots=True)
@@ -16,6 +19,11 @@ class GivenArgument:
     value: str
     span: Span
 
+    @property
+    def value_span(self) -> Span:
+        """Where the value stands: behind the name and `:=`."""
+        return _behind(self.span, self.value)
+
 
 @dataclass(frozen=True, slots=True)
 class GivenParameter:
@@ -25,6 +33,11 @@ class GivenParameter:
     name: str
     value: str
     span: Span
+
+    @property
+    def value_span(self) -> Span:
+        """Where the value stands: behind the name and `:=`."""
+        return _behind(self.span, self.value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,3 +67,8 @@ class Inputs:
     noninteractive: bool = True
     debug: bool = False
     severity: Mapping[str, str] = field(default_factory=dict)
+
+
+def _behind(name: Span, value: str) -> Span:
+    begin = name.end_column + len(ASSIGNED)
+    return Span(name.file, name.line, begin, name.line, begin + len(value))

@@ -7,13 +7,16 @@ from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol
 
+from orchestra.description.fields import FLAG_WORDS
 from orchestra.errors import Code
+from orchestra.nearest import nearest
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import Value
 from orchestra.resolve.impossible.comparisons import check_comparisons
 from orchestra.resolve.impossible.contradictions import check_contradiction, held
 from orchestra.resolve.mentions import hidden, words_in
 from orchestra.resolve.model import ResolvedSkip
+from orchestra.resolve.refusals import refuse_value
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -136,7 +139,8 @@ def wanted(action: Conditional, word: str, run: Resolution) -> bool:
         return False
     if isinstance(value, Value):
         message = f"a condition is true or false, this is '{value.text}'"
-        run.problems.error(Code.BAD_CONDITION, message, value.location)
+        meant = nearest(value.text, FLAG_WORDS)
+        refuse_value(value, run.problems, Code.BAD_CONDITION, message, meant=meant)
     run.found.lost |= words_in(action)
     run.scope.ledger.incomplete |= bool(part.files)
     return False

@@ -8,6 +8,10 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 _LONGEST_NODE_NAME = 255
 _LONGEST_NAMESPACE = 245
@@ -134,6 +138,17 @@ def expanded(name: str, namespace: str, node: str) -> str:
     known = {"node": node, "ns": namespace, "namespace": namespace}
     name = _SUBSTITUTION.sub(lambda found: known[found[1]], name)
     return name if name.startswith("/") else full_name(namespace, name)
+
+
+def mended(name: str, fault: Callable[[str], Fault | None]) -> str | None:
+    """Return a name without what ROS does not allow in it, None where that alone does not help.
+
+    Other characters become `_`, slashes that are too many go away.
+    """
+    words = re.sub(r"[^A-Za-z0-9_/~{}]+", "_", name.strip())
+    found = re.sub("//+", "/", words)
+    found = found.rstrip("/") or found
+    return None if found == name or fault(found) is not None else found
 
 
 def _path_fault(path: str, longest: int) -> Fault | None:

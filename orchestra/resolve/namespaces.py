@@ -6,7 +6,8 @@ from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Evaluated, Poison, Read, Value
-from orchestra.resolve.names import joined, namespace_fault
+from orchestra.resolve.names import joined, mended, namespace_fault
+from orchestra.resolve.refusals import refuse_value
 
 if TYPE_CHECKING:
     from orchestra.description.text import Template
@@ -26,13 +27,16 @@ def below(base: Evaluated | None, namespace: Evaluated | None, problems: Problem
     text = joined(base.text if base else None, namespace.text if namespace else None)
     if text is None:
         return None
-    location = (namespace or base).location  # type: ignore[union-attr]  # with neither there is no text
+    written = namespace or base
+    assert written is not None  # noqa: S101 - with neither there is no text
     fault = namespace_fault(text)
     if fault is not None:
-        problems.error(Code.BAD_NAME, f"'{text}' cannot be a namespace: {fault.reason}", location)
-        return POISON
+        message = f"'{text}' cannot be a namespace: {fault.reason}"
+        outer = base.text if base else None
+        meant = mended(written.text, lambda name: namespace_fault(joined(outer, name) or ""))
+        return refuse_value(written, problems, Code.BAD_NAME, message, meant=meant)
     around = () if base is None else (pushed(base),)
-    return Value(text, location, through=around + (() if namespace is None else namespace.through))
+    return Value(text, written.location, through=around + (() if namespace is None else namespace.through))
 
 
 def pushed(base: Value) -> Read:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
-from orchestra.resolve.context import POISON, Evaluated, Poison, Value
-from orchestra.resolve.names import node_name_fault
+from orchestra.resolve.context import Evaluated, Poison
+from orchestra.resolve.names import mended, node_name_fault
+from orchestra.resolve.refusals import refuse_value
 
 if TYPE_CHECKING:
     from orchestra.description.text import Template
@@ -21,10 +23,10 @@ def named(template: Template | None, run: Resolution) -> Evaluated | None:
     value = run.evaluate(template)
     if value is None or isinstance(value, Poison):
         return value
-    name = Value(value.text.removeprefix("/"), value.location, through=value.through)
+    name = replace(value, text=value.text.removeprefix("/"))
     fault = node_name_fault(name.text)
     if fault is None:
         return name
     message = f"'{value.text}' cannot be a node's name: {fault.reason}"
-    run.problems.error(Code.BAD_NAME, message, value.location)
-    return POISON
+    meant = mended(name.text, node_name_fault) if "/" not in name.text else None
+    return refuse_value(value, run.problems, Code.BAD_NAME, message, meant=meant)

@@ -13,8 +13,8 @@ from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.model import InlineParameter, ParameterSource
 from orchestra.resolve.parameter_files import file_parameters
 from orchestra.resolve.rcl.overrides import override_value
-from orchestra.resolve.scalars import checked, coerced, described, differs, unified, upstream_value
 from orchestra.resolve.rcl.surprises import plainly
+from orchestra.resolve.scalars import checked, coerced, described, differs, unified, upstream_value
 from orchestra.resolve.yaml_scalars import QUOTE
 
 if TYPE_CHECKING:
@@ -188,7 +188,9 @@ def _list(
     try:
         return unified(values, texts)
     except ValueError as error:
-        return _refuse(name, error, at, run)
+        odd = next((index for index, item in enumerate(values) if type(item) is not type(values[0])), None)
+        span = span_of(items[odd]) if odd is not None else None
+        return _refuse(name, error, at if span is None else run.at(span), run)
 
 
 def _refuse(name: str, reason: object, location: Location, run: Resolution) -> Poison:

@@ -11,6 +11,7 @@ from orchestra.errors import Code
 from orchestra.nearest import nearest
 from orchestra.resolve.amounts import amount, whole
 from orchestra.resolve.context import POISON, Poison, Value
+from orchestra.resolve.refusals import refuse_value
 from orchestra.resolve.sound import Sound
 from orchestra.values import Restart, Stop
 
@@ -28,8 +29,6 @@ def restart(action: Running, run: Resolution) -> Restart | Poison | None:
     """Return when the process starts again; upstream's `respawn` is `always`, with a delay that grows."""
     if action.restart is None:
         return _respawn(action, run)
-    if _says_both(action, run):
-        return POISON
     written, sound = action.restart, Sound()
     policy, delay = sound(run.word(written.policy, POLICIES)), sound(run.number(written.delay))
     max_delay, min_uptime = sound(run.number(written.max_delay)), sound(run.number(written.min_uptime))
@@ -51,18 +50,6 @@ def restart(action: Running, run: Resolution) -> Restart | Poison | None:
         _or(growth, _DEFAULT_RESTART.growth),
         _or(jitter, _DEFAULT_RESTART.jitter),
     )
-
-
-def _says_both(action: Running, run: Resolution) -> bool:
-    """Report a key of upstream's beside `restart`: which of the two counts cannot be told."""
-    upstream = {name: getattr(action, name) for name in ("respawn", "respawn_delay", "respawn_max_retries")}
-    name, written = next(((name, item) for name, item in upstream.items() if item is not None), ("", None))
-    if written is None or action.restart is None:
-        return False
-    message = f"`{name}` and `restart` say the same thing twice: leave one of them out"
-    notes = (f"`restart` is at {run.at(action.restart.span)}",)
-    run.problems.error(Code.CONFLICTING_KEYS, message, run.at(written.span), notes=notes)
-    return True
 
 
 def _respawn(action: Running, run: Resolution) -> Restart | Poison | None:
@@ -109,8 +96,7 @@ def _signal(value: Value, run: Resolution) -> str | Poison:
     if name in names:
         return name
     message = f"there is no signal '{value.text}'"
-    run.problems.error(Code.BAD_VALUE, message, value.location, suggestion=nearest(name, names))
-    return POISON
+    return refuse_value(value, run.problems, Code.BAD_VALUE, message, meant=nearest(name, names))
 
 
 def _setting(name: str, run: Resolution) -> float | Poison | None:

@@ -8,7 +8,8 @@ from orchestra.errors import Code
 from orchestra.location import is_python
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import ResolvedRemap
-from orchestra.resolve.names import InvalidName
+from orchestra.resolve.names import InvalidName, mended, rule_name_fault
+from orchestra.resolve.refusals import refuse_value
 from orchestra.resolve.remaps import read_rule
 
 if TYPE_CHECKING:
@@ -29,7 +30,8 @@ def remap(source: Template, target: Template, run: Resolution) -> ResolvedRemap 
     except InvalidName as error:
         value = left if error.name == left.text else right
         message = f"'{error.name}' cannot be a name: {error.fault.reason}"
-        run.problems.error(Code.BAD_NAME, message, value.location)
+        meant = mended(value.text, rule_name_fault)
+        refuse_value(value, run.problems, Code.BAD_NAME, message, meant=meant)
         return None
     if source.constant is not None and source.constant == target.constant and not is_python(source.span):
         message = f"'{left.text}' is remapped to itself"

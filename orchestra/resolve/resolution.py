@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from orchestra.description.entity import Action
+from orchestra.description.fields import FLAG_WORDS
 from orchestra.description.launch import Description
 from orchestra.errors import Code, Problems
 from orchestra.location import Location, Span
@@ -29,6 +30,7 @@ from orchestra.resolve.model import (
 from orchestra.resolve.occasions import Action as CollectedAction
 from orchestra.resolve.occasions import Occasion
 from orchestra.resolve.packages.extensions import extends
+from orchestra.resolve.refusals import refuse_value
 from orchestra.resolve.scope import Scope
 
 if TYPE_CHECKING:
@@ -201,12 +203,11 @@ class Resolution:
         if isinstance(value, Poison):
             return POISON
         flag = boolean(value.text)
-        if flag is None:
-            self.problems.error(
-                Code.BAD_VALUE, f"expected true or false, found '{value.text}'", value.location
-            )
-            return POISON
-        return flag
+        if flag is not None:
+            return flag
+        message = f"expected true or false, found '{value.text}'"
+        meant = nearest(value.text, FLAG_WORDS)
+        return refuse_value(value, self.problems, Code.BAD_VALUE, message, meant=meant)
 
     def number(self, template: Template | None) -> float | Poison | None:
         """Return what a text comes to as a number of seconds; anything else is reported."""
@@ -217,12 +218,10 @@ class Resolution:
             number = float(value.text)
         except ValueError:
             number = -1.0
-        if not 0 <= number < float("inf"):
-            self.problems.error(
-                Code.BAD_VALUE, f"expected a number of seconds, found '{value.text}'", value.location
-            )
-            return POISON
-        return number
+        if 0 <= number < float("inf"):
+            return number
+        message = f"expected a number of seconds, found '{value.text}'"
+        return refuse_value(value, self.problems, Code.BAD_VALUE, message)
 
     def integer(self, template: Template | None) -> int | Poison | None:
         """Return what a text comes to as a whole number; anything else is reported."""
@@ -233,8 +232,7 @@ class Resolution:
             return int(value.text)
         except ValueError:
             message = f"expected a whole number, found '{value.text}'"
-            self.problems.error(Code.BAD_VALUE, message, value.location)
-            return POISON
+            return refuse_value(value, self.problems, Code.BAD_VALUE, message)
 
     def word(self, template: Template | None, words: Sequence[str]) -> str | Poison | None:
         """Return what a text comes to, which is one of a few words; anything else is reported."""
@@ -244,9 +242,8 @@ class Resolution:
         if value.text in words:
             return value.text
         message = f"expected one of {', '.join(words)}, found '{value.text}'"
-        suggestion = nearest(value.text, words)
-        self.problems.error(Code.BAD_VALUE, message, value.location, suggestion=suggestion)
-        return POISON
+        meant = nearest(value.text, words)
+        return refuse_value(value, self.problems, Code.BAD_VALUE, message, meant=meant)
 
     def collect(self, occasion: Occasion, children: Sequence[Action]) -> None:
         """Visit actions that are carried out on an occasion: they see the scope as it is, and set nothing outside."""

@@ -41,8 +41,8 @@ def carry_through(description: Description, run: Resolution) -> Resolved:
     """Visit a description in a resolution that has just begun."""
     run.descriptions[description.path] = description
     for given in run.inputs.arguments:
-        location = Location(given.span)
-        run.scope.set(given.name, Value(given.value, location), location, "command line")
+        value = Value(given.value, Location(given.value_span), verbatim=True)
+        run.scope.set(given.name, value, Location(given.span), "command line")
     with run.inside(Frame(description.path, run.scope)) as ledger:
         try:
             visit_file(description, run)

@@ -22,7 +22,7 @@ FAULTS: dict[str, tuple[str, Code, str, str, str | None]] = {
         "<group></grup>", Code.SYNTAX, "grup", "</grup> stands where </group> is expected", "group",
     ),
     "a tag that is closed in another case": ("<log message='a'></Log>", Code.SYNTAX, "Log", "</log> is expected", "log"),
-    "a tag that is not closed": ("<group>", Code.SYNTAX, "launch", "</group> is expected", None),
+    "a tag that is not closed": ("<group>", Code.SYNTAX, "group", "</group> is missing before </launch>", None),
     "a value without quotes": ("<log message=a/>", Code.SYNTAX, "a", "needs quotes", '"a"'),
     "a value in quotes of a word processor": ("<log message=“a”/>", Code.SYNTAX, "“a”", "needs quotes", '"a"'),
     "an attribute without a value": ("<log message/>", Code.SYNTAX, "message", 'write message="..."', None),

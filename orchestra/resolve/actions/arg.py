@@ -10,6 +10,7 @@ from orchestra.resolve.context import POISON, Evaluated, Value
 from orchestra.resolve.declarations import declare, settle
 from orchestra.resolve.mentions import glimpse
 from orchestra.resolve.model import ResolvedArgument
+from orchestra.resolve.refusals import refuse_value
 
 if TYPE_CHECKING:
     from orchestra.description.actions.arg import Arg
@@ -58,12 +59,13 @@ def _check_default(action: Arg, value: Evaluated, choices: tuple[str, ...] | Non
     if action.default is None or text is None or choices is None or text in choices:
         return
     if not isinstance(value, Value) or value.text != text:
-        _refuse(_text(action.name), Value(text, run.at(action.default.span)), choices, run)
+        _refuse(_text(action.name), Value(text, run.at(action.default.span), verbatim=True), choices, run)
 
 
 def _refuse(name: str, value: Value, choices: tuple[str, ...], run: Resolution) -> None:
     message = f"'{value.text}' is none of the values of '{name}': " + ", ".join(choices)
-    run.problems.error(Code.NOT_A_CHOICE, message, value.location, suggestion=nearest(value.text, choices))
+    meant = nearest(value.text, choices)
+    refuse_value(value, run.problems, Code.NOT_A_CHOICE, message, meant=meant)
 
 
 def _default(action: Arg, name: str, run: Resolution) -> Evaluated:

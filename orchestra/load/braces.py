@@ -1,0 +1,28 @@
+"""Substitutions in other brackets than round ones: `${var name}`, which stays the text that it is."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING
+
+from orchestra.description.substitutions import ELSEWHERE, SIGNATURES
+from orchestra.errors import Code
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from orchestra.errors import Problems
+    from orchestra.location import Span
+
+# With an argument: a name alone, as `${HOME}`, is for a shell.
+_BRACED = re.compile(r"\$(?:\{([a-z][a-z-]*)(\s[^{}()\[\]]*)\}|\[([a-z][a-z-]*)(\s[^{}()\[\]]*)\])")
+
+
+def warn_of_braces(text: str, spans: Callable[[int, int], Span], problems: Problems) -> None:
+    """Tell of substitutions that are none for the sake of their brackets."""
+    for found in _BRACED.finditer(text):
+        name, arguments = found[1] or found[3], found[2] or found[4]
+        if name in SIGNATURES or name in ELSEWHERE:
+            message = f"{found[0]} is no substitution: those are in round brackets"
+            meant = f"$({ELSEWHERE.get(name, name)}{arguments})"
+            problems.warning(Code.SUBSTITUTION_SYNTAX, message, spans(*found.span()), suggestion=meant)
