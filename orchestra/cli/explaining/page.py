@@ -43,8 +43,8 @@ def code_of(word: str) -> Code:
     if name in list(Code):
         return Code(name)
     near = nearest(name, [code.value for code in Code])
-    meant = f"did you mean '{near}'?" if near is not None else f"they are {Code.UNREADABLE_FILE} and others"
-    raise UsageError(f"there is no code '{word}'; {meant} 'orchestra explain' lists them all")
+    meant = "" if near is None else f", did you mean '{near}'?"
+    raise UsageError(f"there is no code '{word}'{meant} ('orchestra explain' lists them all)")
 
 
 def has_page(code: Code) -> bool:
