@@ -28,7 +28,7 @@ _UNKNOWN = Problem(
     ("a note",),
 )
 _LEAK = Problem(Code.LEAKED_VALUE, Severity.WARNING, "100%: a,b\nc", Span("robot.yaml", 2, 5, 3, 21))
-_PLACELESS = Problem(Code.MIDDLEWARE, Severity.ERROR, "no middleware")
+_PLACELESS = Problem(Code.UNFIT_MACHINE, Severity.ERROR, "no such core")
 _ALL = (_UNKNOWN, _LEAK, _PLACELESS)
 
 
@@ -50,7 +50,7 @@ def test_text() -> None:
         "    2 |   - node:\n"
         "      |     ^^^^^ ...\n"
         "\n"
-        "error: no middleware [ORC054]\n"
+        "error: no such core [ORC055]\n"
         "\n"
         "2 errors, 1 warning\n"
     )
@@ -96,7 +96,7 @@ def test_github_commands_are_escaped() -> None:
         "%0Adid you mean 'output'?%0Aa note%0Aincluded from all.yaml:4:5%0Aincluded from top.yaml:1:2"
     )
     assert leak == "::warning file=robot.yaml,line=2,endLine=3,title=ORC026::100%25: a,b%0Ac"
-    assert placeless == "::error title=ORC054::no middleware"
+    assert placeless == "::error title=ORC055::no such core"
 
 
 def test_sarif_has_what_the_standard_asks_for() -> None:
