@@ -55,25 +55,27 @@ def packaged_words(
     """
     packages = run.context.packages
     if packages.prefix(package.text) is None:
-        report_missing_package(package.text, action.pkg or action.exec, run.context)
+        report_missing_package(package.text, action.pkg or action.exec, run.context, package)
         return ("${prefix:" + package.text + "}/lib/" + f"{package.text}/{executable.text}",)
     words = packages.executable(package.text, executable.text)
     if words is None:
-        return report_missing_executable(executable.text, package.text, action.exec, run.context)
+        return report_missing_executable(executable.text, package.text, action.exec, run.context, executable)
     return words if _is_runnable(words[0], executable.location, run) else POISON
 
 
 def _is_runnable(path: str, location: Location, run: Resolution) -> bool:
     """Return whether a file can be started; what is there and cannot be is reported.
 
-    What only this machine lacks is a warning where nothing is started: then the file may be for another one.
+    What only this machine lacks, or what is wrong with a file of others, is a warning where nothing is started.
     """
     if not os.path.exists(path):  # noqa: PTH110 - pathlib raises for some paths
         return True  # it may be made by then, or be on the machine that is started on
     if os.path.isdir(path) or not os.access(path, os.X_OK):  # noqa: PTH112 - as above
         told = "a folder" if os.path.isdir(path) else "not executable"  # noqa: PTH112
-        run.problems.error(Code.MISSING_EXECUTABLE, f"{displayed(path)} is {told}", location)
-        return False
+        certain = run.inputs.launching or Path(path).is_relative_to(folder_of(run.context.file))
+        report = run.problems.error if certain else run.problems.warning
+        report(Code.MISSING_EXECUTABLE, f"{displayed(path)} is {told}", location)
+        return not certain
     fault = fault_of(path, run.scope.environment)
     if fault is None:
         return True
