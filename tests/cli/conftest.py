@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, TypeAlias
 
 import pytest
 
+from orchestra.cli.main import main
+
 if TYPE_CHECKING:
     from pathlib import Path
 
@@ -44,6 +46,24 @@ def prefix(tmp_path: Path) -> Path:
         (programs / name).write_text(f"#!/bin/sh\n{text}\n")
         (programs / name).chmod(0o755)
     return prefix
+
+
+@pytest.fixture
+def orchestra_here(
+    folder: Path, home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> Command:
+    """Run `orchestra WORDS` in this process, which is quicker: for commands that start nothing."""
+
+    def run(*words: str, **environment: str) -> CompletedProcess[str]:
+        with monkeypatch.context() as changed:
+            changed.chdir(folder)
+            for name, value in {"ORCHESTRA_HOME": str(home), "NO_COLOR": "1", **environment}.items():
+                changed.setenv(name, value)
+            status = main(words)
+        told = capsys.readouterr()
+        return CompletedProcess(words, status, told.out, told.err)
+
+    return run
 
 
 @pytest.fixture

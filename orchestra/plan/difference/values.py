@@ -97,9 +97,18 @@ def _written(process: Process) -> tuple[str, ...]:
 
 
 def _files(before: dict[str, str], after: dict[str, str], old: Process, new: Process) -> Iterator[Change]:
-    """Yield the lines that differ in what is passed on for other nodes."""
+    """Yield the lines that differ in what is passed on for other nodes, but for those of parameters that are told."""
     path = next(iter({**after, **before}), "")
-    one, other = "".join(before.values()).splitlines(), "".join(after.values()).splitlines()
+    told = {name for name in {**old.parameters, **new.parameters} if _differs(name, old, new)}
+    one, other = (
+        [
+            line
+            for text in texts.values()
+            for line in text.splitlines()
+            if line.strip().partition(": ")[0].strip('"') not in told
+        ]
+        for texts in (before, after)
+    )
     for tag, begin, end, new_begin, new_end in SequenceMatcher(
         None, one, other, autojunk=False
     ).get_opcodes():
@@ -107,6 +116,10 @@ def _files(before: dict[str, str], after: dict[str, str], old: Process, new: Pro
             gone, come = one[begin:end] or None, other[new_begin:new_end] or None
             absent = _absent(before=gone is not None, after=come is not None)
             yield Change("parameter_files", path, gone, come, old.location, new.location, absent)
+
+
+def _differs(name: str, old: Process, new: Process) -> bool:
+    return not same(old.parameters.get(name), new.parameters.get(name))
 
 
 def _remappings(before: Process | Component, after: Process | Component) -> Iterator[Change]:
