@@ -81,7 +81,7 @@ def _is_runnable(path: str, location: Location, run: Resolution) -> bool:
         return True
     message = f"{displayed(path)} cannot be started: {fault.reason}"
     report = run.problems.warning if fault.here and not run.inputs.launching else run.problems.error
-    report(Code.UNRUNNABLE_EXECUTABLE, message, location, notes=fault.notes)
+    report(Code.MISSING_EXECUTABLE, message, location, notes=fault.notes)
     return fault.here and not run.inputs.launching
 
 
