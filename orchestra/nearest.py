@@ -70,4 +70,5 @@ def _likeness(word: str, candidate: str) -> float:
     if matcher.quick_ratio() <= _LEAST_LIKENESS:
         return 0.0
     ratio = matcher.ratio()
-    return ratio if not short or ratio >= _LIKENESS_OF_A_SLIP or _one_slip(word, candidate) else 0.0
+    near = ratio >= _LIKENESS_OF_A_SLIP or _one_slip(word, candidate) or word.startswith(candidate)
+    return ratio if near or not short else 0.0

@@ -121,7 +121,7 @@ class Alive(Entity):
             together = (
                 "`message` and `min_rate` go together: a topic, and how many messages a second are too few"
             )
-            return Conflict(together, ("message", "min_rate"))
+            return Conflict(together)
         if self.window is not None and self.message is None:
             return Conflict("`window` goes with `message` and `min_rate`", ("window",))
         of_command = {"interval": self.interval, "timeout": self.timeout, "failures": self.failures}

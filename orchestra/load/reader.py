@@ -102,8 +102,10 @@ class Reader:
 
     def conflict(self, mapping: Keyed, conflict: Conflict) -> None:
         """Report keys that cannot stand together, at the last that is too many."""
-        too_many = [at for key, at in mapping.keys_at.items() if key in conflict.keys]
-        self.error(Code.CONFLICTING_KEYS, conflict.reason, max(too_many, default=mapping.head))
+        too_many = sorted((at, key) for key, at in mapping.keys_at.items() if key in conflict.keys)
+        at = too_many[-1][0] if too_many else mapping.head
+        notes = [f"`{key}` is at {place}" for place, key in too_many[:-1]]
+        self.error(Code.CONFLICTING_KEYS, conflict.reason, at, notes=notes)
 
     def _fault(self, mapping: Keyed, error: ErrorDetails) -> None:
         kind = error["type"]

@@ -33,7 +33,10 @@ Setter: TypeAlias = Literal[
 
 @dataclass(frozen=True, slots=True)
 class Read:
-    """Something that was read to make a value: its own value, who set it and where, and what that came through."""
+    """Something that was read to make a value: its own value, who set it and where, and what that came through.
+
+    `written` is the place where the value stands as it is, None where it was made of something else.
+    """
 
     kind: ReadKind
     name: str
@@ -41,6 +44,7 @@ class Read:
     setter: Setter
     location: Location | None
     through: tuple[Read, ...] = ()
+    written: Location | None = None
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from orchestra.errors import Code
 from orchestra.location import displayed, is_file
 from orchestra.nearest import nearest
+from orchestra.resolve.refusals import refuse_value
 
 if TYPE_CHECKING:
     from orchestra.description.text import Template
@@ -71,7 +72,10 @@ def file_below(
         folder_there = _exists(path)
         message = f"there is no {what} {displayed(str(path))}" + (": it is a folder" if folder_there else "")
         near = None if folder_there else near_path(path, value.text if written is None else written)
-        run.problems.error(Code.MISSING_FILE, message, value.location, suggestion=near)
+        if near is not None and near == written:  # the wrong part of it came from elsewhere
+            refuse_value(value, run.problems, Code.MISSING_FILE, message, meant=near_path(path, value.text))
+        else:
+            run.problems.error(Code.MISSING_FILE, message, value.location, suggestion=near)
     return found
 
 

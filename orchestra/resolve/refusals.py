@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.description.source import shortened
 from orchestra.errors import Code, Severity
-from orchestra.location import displayed, is_file
+from orchestra.location import displayed, is_file, is_python
 from orchestra.nearest import is_slip, nearest
 from orchestra.resolve.context import POISON
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 
     from orchestra.description.text import Template
     from orchestra.errors import Problems
+    from orchestra.location import Location
     from orchestra.resolve.context import Context, Poison, Read, Value
 
 
@@ -56,16 +57,32 @@ def refuse_value(
     meant: str | None = None,
     notes: Iterable[str] = (),
 ) -> Poison:
-    """Report an error at a value, and where it was set if it came through a variable.
+    """Report an error at a value, with what was meant where that is known.
 
-    What was meant can replace only what stands there as it is.
+    A value that came through variables is hardly anything but a slip where something near it was meant: then the place
+    is that where it was written; else that where it is used, with a note where it was set.
     """
+    origin = value.location if value.verbatim else _origin(value)
+    if meant is not None and origin is not None and not is_python(value.location):
+        used = () if value.verbatim else (f"it is used at {value.location}",)
+        problems.error(code, told, origin, suggestion=meant, notes=(*notes, *used))
+        return POISON
     if meant is not None and not value.verbatim:
         notes = (*notes, f"did you mean '{meant}'?")
     suggestion = meant if value.verbatim else None
     notes = (*notes, *_sources(value.through))
     problems.error(code, told, value.location, suggestion=suggestion, notes=notes)
     return POISON
+
+
+def _origin(value: Value) -> Location | None:
+    """Return where a value was written that came through variables as it is, None where it was made of parts."""
+    reads = value.through
+    while len(reads) == 1 and reads[0].kind == "variable" and reads[0].value == value.text:
+        if reads[0].written is not None:
+            return reads[0].written
+        reads = reads[0].through
+    return None
 
 
 def _sources(through: Iterable[Read]) -> Iterator[str]:
@@ -76,8 +93,10 @@ def _sources(through: Iterable[Read]) -> Iterator[str]:
         yield from _sources(read.through)
 
 
-def report_missing_package(package: str, written: Template, context: Context) -> Poison:
-    """Report a package that is not here; `written` is the text that names it.
+def report_missing_package(
+    package: str, written: Template, context: Context, value: Value | None = None
+) -> Poison:
+    """Report a package that is not here; `written` is the text that names it, `value` what it comes to.
 
     Where nothing will be started it may be elsewhere: then it is a warning, given once, unless the name is a slip for
     one that is installed.
@@ -89,6 +108,8 @@ def report_missing_package(package: str, written: Template, context: Context) ->
             context.problems.warning(Code.MISSING_PACKAGE, told, context.at(written.span))
         context.elsewhere.add(package)
         return POISON
+    if value is not None:
+        return refuse_value(value, context.problems, Code.MISSING_PACKAGE, missing.told, meant=missing.meant)
     return refuse(written, context, Code.MISSING_PACKAGE, missing.told, meant=missing.meant)
 
 
@@ -109,8 +130,10 @@ def missing_package(package: str, known: Iterable[str], *, launching: bool) -> M
     return MissingPackage(Severity.WARNING, f"there is no package {package!r} on this machine", None)
 
 
-def report_missing_executable(executable: str, package: str, written: Template, context: Context) -> Poison:
-    """Report an executable that a package lacks; `written` is the text that names it."""
+def report_missing_executable(
+    executable: str, package: str, written: Template, context: Context, value: Value | None = None
+) -> Poison:
+    """Report an executable that a package lacks; `written` is the text that names it, `value` what it comes to."""
     known = context.packages.executables(package)
     idle = Path(context.packages.prefix(package) or "", "lib", package, executable)
     if is_file(idle):
@@ -118,6 +141,7 @@ def report_missing_executable(executable: str, package: str, written: Template, 
         return refuse(written, context, Code.MISSING_EXECUTABLE, told, notes=("`chmod +x` makes it so",))
     notes = (f"it has {', '.join(sorted(known))}",) if known else ("it has no executables",)
     told = f"package {package!r} has no executable {executable!r}"
-    return refuse(
-        written, context, Code.MISSING_EXECUTABLE, told, meant=nearest(executable, known), notes=notes
-    )
+    meant = nearest(executable, known)
+    if value is not None:
+        return refuse_value(value, context.problems, Code.MISSING_EXECUTABLE, told, meant=meant, notes=notes)
+    return refuse(written, context, Code.MISSING_EXECUTABLE, told, meant=meant, notes=notes)

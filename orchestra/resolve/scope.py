@@ -259,7 +259,8 @@ class Scope:
 
 def read_of(name: str, value: Value, variable: Variable) -> Read:
     """Return what is noted of a variable that is read."""
-    return Read("variable", name, value.text, variable.setter, variable.location, value.through)
+    written = value.location if value.verbatim else None
+    return Read("variable", name, value.text, variable.setter, variable.location, value.through, written)
 
 
 def _write(table: dict[str, Any], name: str, value: object) -> None:

@@ -259,7 +259,7 @@ FAULTS = [
     ("ready: {command: []}", "ready", "the command is empty", None),
     ("ready: {command: ''}", "", "the command is empty", None),
     ("ready: {notify: 5}", "5", "expected true or false, found '5'", None),
-    ("ready: {notify: true, interval: 1}", "ready", "`interval` goes with `tcp`, `http`, `file` or", None),
+    ("ready: {notify: true, interval: 1}", "interval", "`interval` goes with `tcp`, `http`, `file` or", None),
     ("ready: {tcp: 80, interval: 0}", "0", "expected a number of seconds, at least 0.01, found '0'", None),
     ("ready: {tcp: 80, interval: $(env I 0)}", "$(env I 0)", "expected a number of seconds, at least", None),
     ("ready: {lifecycle: activ}", "activ", "expected one of unconfigured, inactive, ", "active"),
@@ -267,17 +267,17 @@ FAULTS = [
     ("ready: {lifecycle: {node: a}}", "lifecycle", "the key 'state' is missing", None),
     ("ready: {parameter: {value: 5}}", "parameter", "the key 'name' is missing", None),
     ("ready: {parameter: ''}", "", "expected the name of a parameter, found nothing", None),
-    ("ready: {parameter: {name: a, value: [1, a]}}", "1", "a list must hold values of one type", None),
+    ("ready: {parameter: {name: a, value: [1, a]}}", "a", "a list must hold values of one type", None),
     ("ready: {tf: map}", "map", "expected a mapping, found 'map'", None),
     ("ready: {tf: {parent: map}}", "tf", "the key 'child' is missing", None),
     ("ready: {tf: {parent: map, child: map}}", "map}}", "`tf` is between two frames", None),
     ("ready: {tf: {parent: /map, child: a}}", "/map", "the id of a frame does not begin with '/'", "map"),
-    ("ready: {message: a b}", "a b", "'a b' cannot be a topic: only letters", None),
+    ("ready: {message: a b}", "a b", "'a b' cannot be a topic: only letters", "a_b"),
     ("ready: {topic: 1x}", "1x", "'1x' cannot be a topic: no part may start with a digit", None),
-    ("ready: {service: a//b}", "a//b", "'a//b' cannot be a service: it must not contain '//'", None),
-    ("ready: {action: a-b}", "a-b", "'a-b' cannot be an action: only letters", None),
-    ("ready: {node: a-b}", "a-b", "'a-b' cannot be a node: only letters", None),
-    ("ready: {node: /a/}", "/a/", "'/a/' cannot be a node: it must not end with '/'", None),
+    ("ready: {service: a//b}", "a//b", "'a//b' cannot be a service: it must not contain '//'", "a/b"),
+    ("ready: {action: a-b}", "a-b", "'a-b' cannot be an action: only letters", "a_b"),
+    ("ready: {node: a-b}", "a-b", "'a-b' cannot be a node: only letters", "a_b"),
+    ("ready: {node: /a/}", "/a/", "'/a/' cannot be a node: it must not end with '/'", "/a"),
     ("ready: {mesage: a}", "mesage", "unknown key 'mesage'", "message"),
     ("alive: {}", "alive", "`alive` names a sign of life", None),
     ("alive: {abort: true}", "alive", "`alive` names a sign of life", None),
@@ -285,10 +285,10 @@ FAULTS = [
     ("alive: {min_rate: 3}", "alive", "`message` and `min_rate` go together", None),
     ("alive: {message: a, min_rate: 0}", "0", "expected a number of messages a second, found '0'", None),
     ("alive: {message: a, min_rate: .2}", ".2", "in 2 s there is less than one message at 0.2", None),
-    ("alive: {message: a b, min_rate: 5}", "a b", "'a b' cannot be a topic", None),
+    ("alive: {message: a b, min_rate: 5}", "a b", "'a b' cannot be a topic", "a_b"),
     ("alive: {notify: 0}", "0", "expected a number of seconds above 0, found '0'", None),
-    ("alive: {notify: 3, window: 3}", "alive", "`window` goes with `message`", None),
-    ("alive: {notify: 3, failures: 3}", "alive", "`failures` goes with `command`", None),
+    ("alive: {notify: 3, window: 3}", "window", "`window` goes with `message`", None),
+    ("alive: {notify: 3, failures: 3}", "failures", "`failures` goes with `command`", None),
     ("alive: {command: a, failures: 0}", "0", "expected a whole number above 0, found '0'", None),
     ("alive: {command: a, timeout: 0}", "0", "expected a number of seconds above 0, found '0'", None),
     ("restart: allways", "allways", "expected one of no, on-failure, always", "always"),
@@ -299,11 +299,15 @@ FAULTS = [
     ("restart: {policy: always, jitter: 1.1}", "1.1", "expected a share from 0 to 1, found '1.1'", None),
     ("restart: {policy: always, budget: -1}", "-1", "expected a whole number, 0 or more, found '-1'", None),
     ("restart: {policy: no, delay: 4, max_delay: 2}", "2", "the longest delay, 2 s, is shorter than", None),
-    ("restart: always, respawn: true", "true", "`respawn` and `restart` say the same thing twice", None),
-    ("respawn_delay: 1, restart: {policy: no}", "1", "`respawn_delay` and `restart` say the same", None),
+    (
+        "respawn_delay: 1, restart: {policy: no}",
+        "restart",
+        "`respawn_delay` and `restart` say the same",
+        None,
+    ),
     ("stop: {timeout: -1}", "-1", "expected a number of seconds, found '-1'", None),
     ("stop: {signal: TREM}", "TREM", "there is no signal 'TREM'", "SIGTERM"),
-    ("limits: {exclusive: true}", "limits", "`exclusive` goes with `cores`", None),
+    ("limits: {exclusive: true}", "exclusive", "`exclusive` goes with `cores`", None),
     ("limits: {cores: 3-1}", "3-1", "the range 3-1 is empty", "1-3"),
     ("limits: {cores: [1, 0-1]}", "1", "core 1 stands twice", None),
     ("limits: {cores: []}", "limits", "a process needs a core to run on", None),
@@ -317,12 +321,12 @@ FAULTS = [
     ),
     ("limits: {scheduler: fifo}", "fifo", "the scheduler fifo needs a `priority` from 1 to 99", None),
     ("limits: {scheduler: idle, priority: 3}", "3", "`priority` goes with the schedulers fifo and rr", None),
-    ("limits: {priority: 3}", "limits", "`priority` goes with `scheduler: fifo` or", None),
+    ("limits: {priority: 3}", "priority", "`priority` goes with `scheduler: fifo` or", None),
     ("limits: {scheduler: rr, priority: 0}", "0", "expected a whole number from 1 to 99, found '0'", None),
     ("limits: {memory: 0}", "0", "a process needs memory", None),
     ("limits: {memory: 2 gigs}", "2 gigs", "expected a size as 512M or 2G", None),
     ("limits: {memory_lock: inf}", "inf", "expected a number or unlimited, found 'inf'", "unlimited"),
-    ("limits: {memory_lock: 1, rlimits: {memlock: 1}}", "limits", "`memory_lock` and `memlock`", None),
+    ("limits: {memory_lock: 1, rlimits: {memlock: 1}}", "rlimits", "`memory_lock` and `memlock`", None),
     ("limits: {rlimits: {nofiles: 3}}", "nofiles", "unknown key 'nofiles'", "nofile"),
     ("limits: {rlimits: {nofile: 3:1}}", "3:1", "the soft limit 3 is above the hard one 1", "1:3"),
     ("stdin: maybe", "maybe", "expected true or false, found 'maybe'", None),
@@ -390,14 +394,23 @@ def test_what_cannot_be_is_told(tmp_path: Path, action: str, message: str) -> No
     assert problem.span.line == 2
 
 
-def test_a_restart_beside_a_respawn_names_both_places(tmp_path: Path) -> None:
-    text = "launch:\n- node:\n    exec: a\n    respawn: true\n    restart: always"
+@pytest.mark.parametrize(
+    ("first", "second"),
+    [
+        ("respawn: true", "restart: always"),
+        ("restart: always", "respawn: true"),
+        ("respawn_delay: 1", "restart: {policy: no}"),
+    ],
+)
+def test_a_restart_beside_a_respawn_names_both_places(tmp_path: Path, first: str, second: str) -> None:
+    text = f"launch:\n- node:\n    exec: a\n    {first}\n    {second}"
     (problem,) = outcome(tmp_path, text).problems
+    assert problem.message.endswith("say the same thing twice: leave one of them out")
     assert problem.span is not None
-    assert problem.span.line == 4
+    assert (problem.span.line, problem.span.column) == (5, 5)
     (note,) = problem.notes
-    assert note.startswith("`restart` is at ")
-    assert note.endswith("main.yaml:5:14")
+    assert note.startswith(f"`{first.partition(':')[0]}` is at ")
+    assert note.endswith("main.yaml:4:5")
 
 
 def test_a_pattern_that_is_none_is_shown_as_plain_text(tmp_path: Path) -> None:

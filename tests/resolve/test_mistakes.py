@@ -207,7 +207,7 @@ ONE_FILE: dict[str, tuple[str, list[tuple[Code, int, str, str | None]]]] = {
         "- executable: {cmd: x, output: $(var w), restart: {policy: $(var w)}}\n"
         "- executable: {cmd: y, on_exit: $(var w), depends_on: [{process: x, condition: $(var w)}]}",
         [
-            (Code.BAD_VALUE, 3, "$(var w)", "screen"),
+            (Code.BAD_VALUE, 2, "scren", "screen"),
             (Code.BAD_VALUE, 3, "$(var w)", None),
             (Code.BAD_VALUE, 4, "$(var w)", None),
             (Code.BAD_VALUE, 4, "$(var w)", None),
