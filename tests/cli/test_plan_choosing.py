@@ -164,11 +164,12 @@ def test_a_script_brings_along_what_code_has_written(orchestra: Command, folder:
 
 def test_bytes_that_are_no_text_pass_through_a_script(folder: Path) -> None:
     """An argument of the command line may be any bytes."""
-    words = [sys.executable, "-m", "orchestra", "plan", "any.yaml", "--format", "sh", b"word:=\xff'$x\n\xe4"]
+    words = [sys.executable, "-m", "orchestra", "plan", "any.yaml", "--format", "sh"]
     (folder / "any.yaml").write_text(
         'launch:\n  - arg: {name: word}\n  - executable: {cmd: [printf, "%s", $(var word)]}\n'
     )
-    made = subprocess.run(words, cwd=folder, capture_output=True, timeout=60, check=False)
+    given = [*words, os.fsdecode(b"word:=\xff'$x\n\xe4")]
+    made = subprocess.run(given, cwd=folder, capture_output=True, timeout=60, check=False)
     assert made.returncode == 0, made.stderr
     done = subprocess.run(
         ["bash"], input=made.stdout, capture_output=True, env={**os.environ}, timeout=60, check=False

@@ -299,12 +299,6 @@ FAULTS = [
     ("restart: {policy: always, jitter: 1.1}", "1.1", "expected a share from 0 to 1, found '1.1'", None),
     ("restart: {policy: always, budget: -1}", "-1", "expected a whole number, 0 or more, found '-1'", None),
     ("restart: {policy: no, delay: 4, max_delay: 2}", "2", "the longest delay, 2 s, is shorter than", None),
-    (
-        "respawn_delay: 1, restart: {policy: no}",
-        "restart",
-        "`respawn_delay` and `restart` say the same",
-        None,
-    ),
     ("stop: {timeout: -1}", "-1", "expected a number of seconds, found '-1'", None),
     ("stop: {signal: TREM}", "TREM", "there is no signal 'TREM'", "SIGTERM"),
     ("limits: {exclusive: true}", "exclusive", "`exclusive` goes with `cores`", None),

@@ -173,8 +173,20 @@ def test_a_digest_that_differs_for_no_reason_to_be_seen_is_told() -> None:
 
 def _component(**changes: Any) -> Component:
     made = Component(
-        *("/r/c", "c", "/r", "image", "image::Camera", "/box", "/box", "started"),
-        *({"hz": 1}, (), {}, None, at(6), Provenance()),
+        id="/r/c",
+        name="c",
+        namespace="/r",
+        package="image",
+        plugin="image::Camera",
+        container="/box",
+        process="/box",
+        condition="started",
+        parameters={"hz": 1},
+        remappings=(),
+        extra_arguments={},
+        lifecycle=None,
+        location=at(6),
+        provenance=Provenance(),
     )
     return replace(made, **changes)
 

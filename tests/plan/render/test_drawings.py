@@ -28,17 +28,32 @@ with_graphviz = pytest.mark.skipif(_DOT is None, reason="Graphviz is not install
 def _component(identity: str, container: str) -> Component:
     namespace, _, name = identity.rpartition("/")
     return Component(
-        *(identity, name, namespace, "image", "image::Camera", container, container, "started"),
-        *({}, (), {}, None, at(6), Provenance()),
+        id=identity,
+        name=name,
+        namespace=namespace,
+        package="image",
+        plugin="image::Camera",
+        container=container,
+        process=container,
+        condition="started",
+        parameters={},
+        remappings=(),
+        extra_arguments={},
+        lifecycle=None,
+        location=at(6),
+        provenance=Provenance(),
     )
 
 
 def _whole() -> Plan:
     edges = (Dependency("/sim", "ready", None, at(9)), Dependency("gone", "started", None, at(9)))
     trigger = Trigger(
-        *("t1", TriggerEvent("process_exited", "/sim")),
+        "t1",
+        TriggerEvent("process_exited", "/sim"),
         (LogAction('say "so"', at(5)), StartAction("tool", at(5)), LoadAction("/r/cam", at(5))),
-        *(2.0, False, at(5)),
+        2.0,
+        deferred=False,
+        location=at(5),
     )
     return plan(
         node("/sim", package="demo", executable="sim"),
