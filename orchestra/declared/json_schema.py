@@ -14,6 +14,7 @@ from orchestra.declared.model import Fault, ParameterSchema
 from orchestra.declared.plain_schema import NUMERIC, read_plain
 from orchestra.declared.shape import Level, level
 from orchestra.declared.structured import of_every_node, settled, structured, undeclared, unlike, unsaid
+from orchestra.declared.texts import nearest_text
 from orchestra.declared.typing_of_values import rewritten
 from orchestra.errors import Code, Problems
 from orchestra.nearest import nearest
@@ -131,8 +132,7 @@ def _retyped(error: Any) -> str | None:  # noqa: ANN401 - of the library
 
 def _meant(error: Any) -> str | None:  # noqa: ANN401 - as above
     choices = {"enum": error.validator_value, "const": [error.validator_value]}.get(error.validator, [])
-    texts = [item for item in choices if isinstance(item, str)]
-    return nearest(error.instance, texts) if isinstance(error.instance, str) else None
+    return nearest_text(error.instance, [item for item in choices if isinstance(item, str)])
 
 
 def _registry(document: Document) -> Any:  # noqa: ANN401 - of the library

@@ -12,9 +12,9 @@ from orchestra.declared.judging import missing
 from orchestra.declared.model import Fault
 from orchestra.declared.shape import Level, level, ros_types
 from orchestra.declared.structured import of_every_node, settled, structured, undeclared, unlike, unsaid
+from orchestra.declared.texts import nearest_text
 from orchestra.declared.typing_of_values import rewritten
 from orchestra.errors import Code
-from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -134,6 +134,4 @@ def _retyped(name: str, value: Any, found: Structured) -> str | None:  # noqa: A
 def _meant(error: dict[str, Any]) -> str | None:
     """Return the nearest of the texts that a value may be."""
     expected = error.get("ctx", {}).get("expected")
-    if not isinstance(expected, str) or not isinstance(error["input"], str):
-        return None
-    return nearest(error["input"], _QUOTED.findall(expected))
+    return nearest_text(error["input"], _QUOTED.findall(expected)) if isinstance(expected, str) else None

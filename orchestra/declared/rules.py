@@ -6,8 +6,7 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
-from orchestra.declared.texts import listed, shown
-from orchestra.nearest import nearest
+from orchestra.declared.texts import listed, nearest_text, shown
 from orchestra.values import Scalar
 
 if TYPE_CHECKING:
@@ -118,7 +117,7 @@ def _none_of(rule: OneOf, value: Scalar) -> Objection | None:
     if any(value == one and isinstance(value, bool) == isinstance(one, bool) for one in rule.values):
         return None
     texts = [one for one in rule.values if isinstance(one, str)]
-    near = nearest(value, texts) if isinstance(value, str) else None
+    near = nearest_text(value, texts)
     if not rule.values:
         return Objection("can have no value at all")
     if len(rule.values) == 1:

@@ -7,6 +7,9 @@ import math
 import re
 from typing import TYPE_CHECKING, Any
 
+from orchestra.nearest import nearest
+from orchestra.resolve.rcl.scalars import typed
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
@@ -54,6 +57,12 @@ def listed(values: Sequence[Any]) -> str:
     """Return values for a message, the first of many."""
     texts = [shown(value) for value in values[:_MOST_SHOWN]]
     return ", ".join([*texts, "…"] if len(values) > _MOST_SHOWN else texts)
+
+
+def nearest_text(value: Any, texts: Iterable[str]) -> str | None:  # noqa: ANN401 - as above
+    """Return the text that was probably meant, in quotes where it would be read as something else without them."""
+    near = nearest(value, texts) if isinstance(value, str) else None
+    return near if near is None or isinstance(typed(near), str) else written(near)
 
 
 def types_of(types: Iterable[str]) -> str:

@@ -70,7 +70,7 @@ _property = st.one_of(_number, _text, _choice, _list, st.just({"type": "boolean"
 
 
 @st.composite
-def _schemas(draw: st.DrawFn) -> dict[str, Any]:
+def _schemas(draw: Any) -> dict[str, Any]:
     names = draw(st.lists(_names, max_size=4, unique=True))
     flat = draw(st.booleans())
     more = draw(st.sampled_from([{}, {"additionalProperties": True}, {"additionalProperties": False}]))

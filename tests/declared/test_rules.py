@@ -96,6 +96,11 @@ def test_types(kind: str) -> None:
         assert (found == []) == (other == plain), (other, found)
 
 
+def test_a_word_that_yaml_would_read_otherwise_is_suggested_in_quotes() -> None:
+    (fault,) = faults("demo: {x: {type: string, validation: {one_of<>: [['off', 'auto']]}}}", x="of")
+    assert fault.meant == '"off"'
+
+
 def test_a_fixed_size_is_the_greatest() -> None:
     assert _told("string_fixed_3", "", "abc") == []
     assert _told("string_fixed_3", "", "abcd") == ["'x' must have at most 3 characters, not 4"]

@@ -65,9 +65,11 @@ class _File:
         if not isinstance(item, dict):
             self.refuse("an endpoint is a mapping with `name` and `type`", way)
             return None
-        self.slips(item, _OF_ENDPOINT, way)
+        meant = self.slips(item, _OF_ENDPOINT, way)
         name, word = item.get("name"), item.get("type")
         for key, value in (("name", name), ("type", word)):
+            if key in meant:
+                return None
             if not isinstance(value, str) or not value:
                 self.refuse(f"an endpoint needs a `{key}`", way)
                 return None
@@ -118,12 +120,15 @@ class _File:
                 return value / unit or math.inf
         return math.inf
 
-    def slips(self, data: dict[Any, Any], known: tuple[str, ...], way: Way) -> None:
-        """Report keys that are slips for known ones; others are for somebody else."""
+    def slips(self, data: dict[Any, Any], known: tuple[str, ...], way: Way) -> set[str]:
+        """Report keys that are slips for known ones, and return these; others are for somebody else."""
+        meant: set[str] = set()
         for key in data:
             near = nearest(str(key), known)
             if key not in known and near is not None and near not in data and is_slip(str(key), near):
                 self.refuse(f"there is no key '{key}' here", (*way, key), meant=near, key=True)
+                meant.add(near)
+        return meant
 
     def refuse(self, told: str, way: Way, *, meant: str | None = None, key: bool = False) -> None:
         """Report what is wrong with the file."""
