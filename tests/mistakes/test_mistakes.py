@@ -1,0 +1,49 @@
+"""Broken files of every kind: each mistake is told at exactly the wrong text, with what was meant, and nothing beside it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+import pytest
+
+from tests.mistakes.checked import Checker
+from tests.mistakes.codes import PAGE, with_table
+from tests.mistakes.corpus import cases
+
+if TYPE_CHECKING:
+    from tests.mistakes.corpus import Case
+
+_MAIN: Final = {"yaml": "main.launch.yaml", "xml": "main.launch.xml", "parameters": "params.yaml"}
+_CASES: Final = [
+    pytest.param(case, id=f"{kind}: {case.title}")
+    for kind, main in _MAIN.items()
+    for case in cases(Path(__file__).with_name(f"{kind}.txt"), main)
+]
+
+
+@pytest.fixture(scope="module")
+def checker(tmp_path_factory: pytest.TempPathFactory) -> Checker:
+    """A folder with packages beside it."""
+    return Checker(tmp_path_factory.mktemp("mistakes"))
+
+
+@pytest.mark.parametrize("case", _CASES)
+def test_a_mistake_is_told_once_at_its_place(
+    case: Case, checker: Checker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(checker.folder)
+    assert checker.differences(case) == ""
+
+
+def test_every_case_has_a_mistake_and_a_name_of_its_own() -> None:
+    names = [param.id for param in _CASES]
+    assert len(names) == len(set(names))
+    for kind, main in _MAIN.items():
+        assert all(case.mistakes for case in cases(Path(__file__).with_name(f"{kind}.txt"), main))
+
+
+def test_the_documentation_lists_all_codes() -> None:
+    """Where it does not, `python -m tests.mistakes` writes the table."""
+    text = PAGE.read_text("utf-8")
+    assert text == with_table(text)
