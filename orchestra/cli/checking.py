@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 from dataclasses import dataclass
 from tempfile import TemporaryDirectory
@@ -96,23 +97,23 @@ def _looks(targets: Sequence[Target], inputs: Inputs, manner: Manner, kept: Kept
         return [looker.look(target)[0] for target in targets]
     with TemporaryDirectory(prefix="orchestra-check-") as scratch:
 
-        def begin() -> Callable[[Target], Done[Finding]]:
+        def begin() -> Callable[[Target], Done[str]]:
             looker = Looker(inputs)
             looker.watch(os.path.realpath(scratch))
 
-            def look(target: Target) -> Done[Finding]:
+            def look(target: Target) -> Done[str]:
                 finding, record = looker.look(target)
                 kept.keep(target, finding, record)
-                return Done(finding, last=looker.is_spent)
+                return Done(json.dumps(finding.as_data()), last=looker.is_spent)
 
             return look
 
-        pool: Pool[Target, Finding]
+        pool: Pool[Target, str]
         pool = Pool(begin, max(1, min(manner.jobs, len(targets))), manner.patience)
         found = dict(pool.results(targets))
     results = [found[number] for number in range(len(targets))]
     return [
-        _lost(target, result) if isinstance(result, Lost) else result
+        _lost(target, result) if isinstance(result, Lost) else Finding.from_data(json.loads(result))
         for target, result in zip(targets, results, strict=True)
     ]
 

@@ -13,6 +13,7 @@ import signal
 import struct
 import sys
 import time
+import traceback
 from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final, Generic, TypeVar
@@ -37,10 +38,17 @@ class Lost:
 
 @dataclass(frozen=True, slots=True)
 class Done(Generic[_ResultT]):
-    """The result of one piece; with `last` its process takes no other."""
+    """The result of one piece, which can be pickled; with `last` its process takes no other."""
 
     result: _ResultT
     last: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class _Failed:
+    """What was raised where a piece was to become a result, and how."""
+
+    told: str
 
 
 @dataclass(slots=True)
@@ -124,7 +132,9 @@ class Pool(Generic[_PieceT, _ResultT]):
         size = _HEAD.unpack_from(worker.received)[0] if len(worker.received) >= _HEAD.size else None
         if size is None or len(worker.received) < _HEAD.size + size or worker.piece is None:
             return
-        done: Done[_ResultT] = pickle.loads(worker.received[_HEAD.size :])  # noqa: S301 - a fork of this process
+        done: Done[_ResultT] | _Failed = pickle.loads(worker.received[_HEAD.size :])  # noqa: S301 - a fork of this
+        if isinstance(done, _Failed):
+            raise RuntimeError(done.told)  # noqa: TRY004 - it is what the other process has met with
         piece, worker.piece = worker.piece, None
         worker.received.clear()
         if done.last:
@@ -167,8 +177,11 @@ def _work(orders: int, answers: int, begin: Callable[[], Callable[[Any], Done[An
                         break
                     _send(answers, done)
             status = 0
+    except KeyboardInterrupt:  # raised by code of the piece: a real one ends this process at once
+        status = 128 + signal.SIGINT
     except BaseException:  # noqa: BLE001 - nothing may get out of this process into code of the other one
-        sys.excepthook(*sys.exc_info())
+        if os.getpid() == own:
+            _send(answers, _Failed(traceback.format_exc()))
     finally:
         sys.stderr.flush()
         os._exit(status)
