@@ -43,13 +43,16 @@ def _command(*words: str, **environment: str) -> subprocess.CompletedProcess[str
 
 
 @contextmanager
-def _running(*words: str) -> Iterator[None]:
+def _running(*words: str, announced: str = "") -> Iterator[None]:
+    """Run a node, which says a line when it is ready where one is `announced`."""
     command = [sys.executable, *words]
+    output = subprocess.PIPE if announced else subprocess.DEVNULL
     with subprocess.Popen(
-        command, env={**os.environ, **_REACH}, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
+        command, env={**os.environ, **_REACH}, stdout=output, stderr=subprocess.DEVNULL, text=True
     ) as process:
-        assert process.stdout is not None
         try:
+            if process.stdout is not None:
+                assert process.stdout.readline() == announced
             yield
         finally:
             process.kill()
@@ -57,7 +60,7 @@ def _running(*words: str) -> Iterator[None]:
 
 @pytest.fixture(scope="module")
 def node() -> Iterator[str]:
-    with _running(str(_NODE), _NAME):
+    with _running(str(_NODE), _NAME, announced="ready\n"):
         yield _NAME
 
 

@@ -72,6 +72,8 @@ def main() -> None:
     declare(node)
     connect(node)
     signal.signal(signal.SIGINT, lambda *_: sys.exit(0))
+    sys.stdout.write("ready\n")
+    sys.stdout.flush()
     rclpy.spin(node)
 
 
