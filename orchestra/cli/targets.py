@@ -12,9 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from orchestra.errors import UsageError
+from orchestra.cli.walking import files_of_project
+from orchestra.errors import Problems, UsageError
 from orchestra.location import is_file
-from orchestra.resolve.launch_files import TEXTS, files_below, is_launch_name, is_launch_text
+from orchestra.resolve.launch_files import TEXTS, is_launch_name, is_launch_text
+from orchestra.settings.find import Finder
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -59,7 +61,8 @@ def _behind(path: str) -> list[Target]:
         return [Target(path, _kind_of_file(Path(path), named=True) or "launch")]
     if not os.path.isdir(path):  # noqa: PTH112 - pathlib raises for paths that the system refuses
         raise UsageError(f"there is no file or folder {path}")
-    found = [Target(str(file), kind) for file in sorted(files_below(path)) if (kind := _kind_of_file(file))]
+    files = map(Path, files_of_project(path, Finder(Problems())))
+    found = [Target(str(file), kind) for file in files if (kind := _kind_of_file(file))]
     if not found:
         raise UsageError(f"there is no launch file and no parameter file in {path}")
     return found
