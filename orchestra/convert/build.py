@@ -25,6 +25,8 @@ from orchestra.description.entity import Action, Entity
 from orchestra.description.limits import Limits, Rlimits
 from orchestra.description.parts import Param, Stop
 from orchestra.description.text import Constant, Template
+from orchestra.load.forms import Kind as Form
+from orchestra.load.forms import forms_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -88,7 +90,7 @@ class Builder:
             node = self._node(entity, field, value, quotes=quotes)
             yield Entry(key_of(model, field), node, self.comments.of(entity, field))
 
-    def _node(self, entity: Entity, field: str, value: Any, *, quotes: bool) -> Node:  # noqa: ANN401 - a part of a description, whatever it is
+    def _node(self, entity: Entity, field: str, value: Any, *, quotes: bool) -> Node:  # noqa: ANN401, PLR0911
         model = type(entity)
         if field == "children":
             return self.actions(value)
@@ -112,7 +114,10 @@ class Builder:
                 tuple(Item(self._entity(item, quotes=inner), self.comments.of(item)) for item in value)
             )
         kind = Kind.WORD if issubclass(model, _LENIENT) else kind
-        return self._list(value, kind) if isinstance(value, tuple) else self._text(value, kind)
+        if not isinstance(value, tuple):
+            return self._text(value, kind)
+        form = forms_of(model).by_key[key_of(model, field).replace("-", "_")]
+        return self._list(value, kind, free=form.kind is Form.LIST)
 
     def _part(self, part: Entity, short: str | None) -> Node:
         entity = self._entity(part)
@@ -129,12 +134,12 @@ class Builder:
         text = joined(words_of(value), value[0])
         return Scalar(written(text), Style.TEXT, text.span)
 
-    def _list(self, items: tuple[Template, ...], kind: Kind) -> Sequence:
-        return Sequence(tuple(Item(self._text(item, kind)) for item in items), free=True)
+    def _list(self, items: tuple[Template, ...], kind: Kind, *, free: bool = True) -> Sequence:
+        return Sequence(tuple(Item(self._text(item, kind)) for item in items), free=free)
 
     def _repeated(self, value: Any) -> Node:  # noqa: ANN401 - a part of a description, whatever it is
         if isinstance(value, tuple):
-            return Sequence(tuple(Item(self._repeated(item)) for item in value))
+            return Sequence(tuple(Item(self._repeated(item)) for item in value), free=True)
         if isinstance(value, Constant):
             return Sequence(tuple(Item(self._repeated(item)) for item in _templates(value)))
         text = written(value)

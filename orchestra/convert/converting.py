@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from orchestra.convert.comments.attached import attached
 from orchestra.convert.equality import compared
 from orchestra.convert.moved import moved
+from orchestra.convert.named import named
 from orchestra.convert.normal import difference, said
 from orchestra.convert.original import language_of, opened
 from orchestra.convert.recovered import recovered
@@ -76,7 +77,7 @@ def _described(original: Original, remarks: Remarks) -> Description:
     """Return what a file says, with what its code has made known as far as possible."""
     actions = original.actions
     if original.language == "python":
-        actions = unfolded(actions, remarks)
+        actions = named(unfolded(actions, remarks), remarks)
         actions = compared(recovered(actions, original, remarks))
     return Description(original.path, original.file, actions, original.deprecated)
 

@@ -6,6 +6,7 @@ nothing is looked up in them, and what code makes of the folder is turned back i
 
 from __future__ import annotations
 
+import os
 from collections.abc import Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
@@ -37,7 +38,11 @@ _ABSENT = Path("/folder of the package that is not here")
 
 @dataclass(frozen=True, slots=True)
 class Original:
-    """What a launch file says. `places` maps folders of packages that its code has asked for to their calls."""
+    """What a launch file says.
+
+    `places` maps folders of packages that its code has asked for to their calls; `environment` has the variables that
+    its code has changed, None for one that it has removed.
+    """
 
     path: str
     file: str
@@ -46,6 +51,7 @@ class Original:
     actions: tuple[Action, ...]
     deprecated: Template | None
     places: Mapping[str, tuple[str, str]] = field(default_factory=dict)
+    environment: Mapping[str, str | None] = field(default_factory=dict)
 
 
 def language_of(path: str) -> str | None:
@@ -86,7 +92,14 @@ def opened(path: str, environment: Mapping[str, str]) -> Iterator[Original]:
                 description.actions,
                 description.deprecated,
                 connection.places,
+                _changed(environment),
             )
+
+
+def _changed(environment: Mapping[str, str]) -> dict[str, str | None]:
+    """Return what code has made of the environment."""
+    names = [name for name in {**environment, **os.environ} if environment.get(name) != os.environ.get(name)]
+    return {name: os.environ.get(name) for name in names}
 
 
 class _Asked(LoadingConnection):

@@ -11,8 +11,10 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from orchestra.convert.mapped import mapped, with_parts
+from orchestra.description.actions.set_env import SetEnv
+from orchestra.description.actions.unset_env import UnsetEnv
 from orchestra.description.text import Call, Constant, Template, Words
-from orchestra.location import Span
+from orchestra.location import Span, point
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -33,7 +35,18 @@ def recovered(actions: tuple[Action, ...], original: Original, remarks: Remarks)
         places.setdefault(folder, ("dirname", ""))
     _warn_of_environment(original, remarks)
     recovery = _Recovery(places, original.text, remarks)
-    return tuple(mapped(action, recovery.of) for action in actions)
+    return tuple(mapped(action, recovery.of) for action in (*_environment(original), *actions))
+
+
+def _environment(original: Original) -> Iterator[Action]:
+    """Yield the actions that say what code has made of the environment before anything else."""
+    at = point(original.file)
+    for name, value in original.environment.items():
+        template = Template((Words(name, at),), name, at)
+        if value is None:
+            yield UnsetEnv.at(at, name=template)
+        else:
+            yield SetEnv.at(at, name=template, value=Template((Words(value, at),), "", at))
 
 
 class _Recovery:

@@ -38,11 +38,15 @@ class Remarks:
     @property
     def ordered(self) -> tuple[Remark, ...]:
         """All of them in the order of their places."""
-        return tuple(sorted(self.found, key=lambda remark: (remark.span, remark.message)))
+        return tuple(sorted(self.found, key=_place))
 
     def _tell(self, remark: Remark) -> None:
         if remark not in self.found:
             self.found.append(remark)
+
+
+def _place(remark: Remark) -> tuple[str, int, int, str]:
+    return (remark.span.file, remark.span.line, remark.span.column, remark.message)
 
 
 class UnsayableError(Exception):

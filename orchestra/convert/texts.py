@@ -11,13 +11,16 @@ from orchestra.description.text import Call, Opaque, Template, Words
 from orchestra.description.written import called, escaped
 from orchestra.errors import Problems
 from orchestra.load.grammar import parse_template
-from orchestra.location import point
+from orchestra.location import is_python, point
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
 # Calls that give an absolute path without a slash at its end: what is joined to it may as well follow it.
 _FOLDERS = frozenset({"dirname", "find-pkg-prefix", "find-pkg-share"})
+# What comes to nothing, and is written without quotes.
+_NOTHING = (("if", ("false",), ("x",), ()),)
+_PIECE = re.compile(r"\\.|\$\(|.", re.DOTALL)
 _OPTIONAL_ARGUMENTS = {"if": 3}
 _DEFAULTS = {"command": "fail", "eval": "math"}
 
@@ -25,11 +28,12 @@ _DEFAULTS = {"command": "fail", "eval": "math"}
 def written(template: Template) -> str:
     """Return how a text is written, as its author did where that says the same. Raises `UnsayableError`."""
     wanted = normal(template)
-    if _reads_as(template.raw, wanted):
+    if not is_python(template.span) and _reads_as(template.raw, wanted):
         return template.raw
     _refuse_opaque(template.parts)
-    text = "".join(map(_written, wanted))
-    if not _reads_as(text, wanted):
+    texts = ("".join(map(_written, parts)) for parts in (wanted, tuple(map(_filled, wanted))))
+    text = next((text for text in texts if _reads_as(text, wanted)), None)
+    if text is None:
         raise UnsayableError(
             "a substitution in quotes cannot have arguments in quotes itself: the launch language has no way to"
             " write that",
@@ -60,7 +64,7 @@ def _joined(parts: Iterable[Any]) -> Iterable[Any]:
 
 
 def _call(call: Call) -> Iterable[Any]:
-    arguments = [normal(argument) for argument in call.arguments]
+    arguments = [() if found == _NOTHING else found for found in map(normal, call.arguments)]
     if call.name == "path-join" and _is_plain_path(arguments):
         for index, argument in enumerate(arguments):
             yield from ("/", *argument) if index else argument
@@ -91,7 +95,44 @@ def _written(part: Any) -> str:  # noqa: ANN401 - a part of a description, whate
     name, *arguments = part
     while len(arguments) > SIGNATURES[name].minimum and name in _OPTIONAL_ARGUMENTS and not arguments[-1]:
         arguments.pop()
-    return called(name, ("".join(map(_written, argument)) for argument in arguments))
+    texts = ["".join(map(_written, argument)) for argument in arguments]
+    text = f"$({' '.join((name, *map(_argument, texts)))})"
+    return text if _reads_as(text, (part,)) else called(name, texts)
+
+
+def _filled(part: Any, *, within: bool = False) -> Any:  # noqa: ANN401 - a part of a description, whatever it is
+    """Return a part without empty arguments in inner calls: these need quotes, which cannot stand in quotes."""
+    if isinstance(part, str):
+        return part
+    name, *arguments = part
+    last = len(arguments) if name in _OPTIONAL_ARGUMENTS else len(arguments) + 1
+    return (
+        name,
+        *(
+            _NOTHING
+            if within and not argument and index < last
+            else tuple(_filled(inner, within=True) for inner in argument)
+            for index, argument in enumerate(arguments, 1)
+        ),
+    )
+
+
+def _argument(text: str) -> str:
+    """Return how a text is best written as an argument: in the quotes that it does not have itself."""
+    outside = _outside_of_calls(text)
+    if text and not set(outside) & set(" '\"()"):
+        return text
+    quote = '"' if "'" in outside else "'"
+    return f"{quote}{text}{quote}"
+
+
+def _outside_of_calls(text: str) -> str:
+    """Return the characters of a text that stand in no substitution."""
+    found, depth = [], 0
+    for piece in _PIECE.findall(text):
+        found.append("" if depth or piece == "$(" else piece)
+        depth += (piece == "$(") - (piece == ")" and depth > 0)
+    return "".join(found)
 
 
 def _reads_as(text: str, wanted: tuple[Any, ...]) -> bool:

@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING
 from xml.sax.saxutils import escape
 
+from orchestra.convert.plain import is_plain
 from orchestra.convert.remarks import UnsayableError
 from orchestra.convert.tree import Mapping, Notes, Scalar, Sequence
 
@@ -117,6 +118,10 @@ def _listed(key: str, sequence: Sequence) -> Iterator[str]:
         yield f"{key}={_quoted(scalars[0])}"
         return
     texts = [scalar.text for scalar in scalars]
+    if sequence.free and all(is_plain(text, flow=True) for text in texts):
+        listed = f"[{', '.join(texts)}]"
+        yield f"{key}={_quoted(Scalar(listed, scalars[0].style, scalars[0].span))}"
+        return
     separator = next((one for one in _SEPARATORS if not any(one in text for text in texts)), None)
     if separator is None:
         raise UnsayableError("nothing can separate the items of this list", scalars[0].span)

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from orchestra.convert.converting import ENDINGS, Converted, convert
+from orchestra.convert.converting import ENDINGS, convert
 from orchestra.convert.original import LANGUAGES, language_of
 from orchestra.errors import Code, Problems
 from orchestra.pipeline import collect, inputs_from
@@ -17,7 +16,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 _PLACES = {"location", "provenance", "line", "column", "end_line", "end_column", "problems"}
-_ENDING = re.compile(r"(\.launch)?\.(ya?ml|xml|py|launch)\b")
+_SPELLED = {"default", "expression"}
 
 
 @dataclass(frozen=True)
@@ -37,18 +36,13 @@ def seen(path: Path, environment: Mapping[str, str], words: Sequence[str] = ()) 
     return Seen(content, codes - {Code.DUPLICATE_NODE})  # which is none in Python
 
 
-def turned(path: Path, language: str, environment: Mapping[str, str]) -> Path:
+def turned(path: Path, language: str, environment: Mapping[str, str], name: str = "turned") -> Path:
     """Convert a launch file; return the result, which stands beside it. It fails where something is lost."""
     found = convert(str(path), language, environment)
     assert not found.lossy, found.remarks
-    return written(path, language, found)
-
-
-def written(path: Path, language: str, found: Converted) -> Path:
-    """Write what a launch file was converted to, beside it."""
     assert found.mistake is None, f"{found.mistake}\n{found.text}"
     assert found.text is not None
-    other = path.with_name(path.name.split(".")[0] + ENDINGS[language])
+    other = path.with_name(name + ENDINGS[language])
     other.write_text(found.text, "utf-8")
     return other
 
@@ -65,22 +59,14 @@ def same_everywhere(path: Path, environment: Mapping[str, str], words: Sequence[
         there = turned(path, language, environment)
         assert seen(there, environment, words) == plan, there.read_text("utf-8")
         for next_language in others(there):
-            back = turned(there, next_language, environment)
+            back = turned(there, next_language, environment, "back")
             assert seen(back, environment, words) == plan, back.read_text("utf-8")
 
 
 def _plain(value: Any, name: str) -> Any:
+    """Return data without places, names of the file, and what says how something is spelled: what it comes to stays."""
     if isinstance(value, dict):
-        return {
-            key: _plain(item, name)
-            for key, item in value.items()
-            if key not in _PLACES and not _spelled(key, item)
-        }
+        return {key: _plain(item, name) for key, item in value.items() if key not in _PLACES | _SPELLED}
     if isinstance(value, list | tuple):
         return [_plain(item, name) for item in value]
-    return value.replace(name, _ENDING.sub("", name)) if isinstance(value, str) else value
-
-
-def _spelled(key: str, value: Any) -> bool:
-    """Return whether a value is how something is written: what it comes to stands beside it."""
-    return key == "default" and isinstance(value, str) and "$(" in value
+    return value.replace(name, "FILE") if isinstance(value, str) else value
