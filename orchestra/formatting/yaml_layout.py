@@ -20,7 +20,8 @@ def yaml_formatted(text: str, width: int) -> str:
     layout = _Layout(file, width, Page(file))
     for document in file.documents:
         layout.document(document)
-    return layout.page.finished()
+    laid_out = layout.page.finished()
+    return laid_out.removesuffix("\n") if file.ends_in_text else laid_out
 
 
 @dataclass(slots=True)
@@ -129,27 +130,29 @@ class _Layout:
 
     def flow(self, node: Sequence | Mapping, head: str, indent: int) -> None:
         """Add a list or mapping in brackets: on one line, as a table, in rows, or else without brackets."""
-        lines = self.bracketed(node, head, indent)
-        if lines is None and head and self.is_below(node):
-            lines = self.bracketed(node, "", indent + STEP)
+        at = len(self.page.lines)
+        column = len(self.page.margin(indent)) + (len(head) + 1 if head else 0)
+        below = bool(head) and self.is_below(node)
+        lines = None if below and is_table(node, self.file) else self.bracketed(node, indent, column)
+        if lines is None and below:
+            lines = self.bracketed(node, indent + STEP, indent + STEP)
             if lines is not None:
                 self.page.put(head, indent)
                 head, indent = "", indent + STEP
-        at = len(self.page.lines)
-        if lines is not None:
-            self.page.put_lines(f"{head} {lines[0]}" if head else lines[0], lines[1:], indent)
-            self.page.skip(node.end)
-        else:
+        if lines is None:
             self.unbracketed(node, head, indent)
-        self.page.tail(node.end, -1 if lines is not None else at)
+            self.page.tail(node.end, at)
+            return
+        self.page.put_lines(f"{head} {lines[0]}" if head else lines[0], lines[1:], indent)
+        self.page.skip(node.end)
+        self.page.tail(node.end)
 
-    def bracketed(self, node: Sequence | Mapping, head: str, indent: int) -> list[str] | None:
-        """Return the lines of a node in brackets, None where it does not fit."""
+    def bracketed(self, node: Sequence | Mapping, indent: int, column: int) -> list[str] | None:
+        """Return the lines of a node whose bracket comes to stand in a column, None where it does not fit."""
         text = self.file.text
-        column = len(self.page.margin(indent)) + (len(head) + 1 if head else 0)
-        written = one_line(node, text)
         if is_table(node, self.file):
-            return None if head and self.is_below(node) else table(node, text, indent, column)
+            return table(node, text, indent, column)
+        written = one_line(node, text)
         if written is not None and (column + len(written) <= self.width or not self.entries(node)):
             return [written]
         return filled(node, text, column, self.width)

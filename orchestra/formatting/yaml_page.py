@@ -37,9 +37,7 @@ class Page:
 
     def finished(self) -> str:
         """Add the comments that are left and return the text."""
-        self.entry(len(self.file.text), 1)
-        if self.lines and not self.lines[-1].text and self.lines[-1].tail is None:
-            self.lines.pop()
+        self.comments(len(self.file.text), 1)
         return joined(self.lines)
 
     def margin(self, indent: int) -> str:
@@ -116,5 +114,5 @@ class Page:
             return
         before = self.file.text[:offset]
         last = self.lines[-1]
-        if before.count("\n", len(before.rstrip())) > 1 and (last.text or last.tail):
+        if before.count("\n", len(before.rstrip())) > 1 and (last.text.strip() or last.tail):
             self.lines.append(Line(""))

@@ -17,6 +17,7 @@ import yaml
 
 from orchestra.formatting.refusal import NotFormatted
 from orchestra.formatting.yaml_comments import Comment, comments_between
+from orchestra.formatting.yaml_scalars import block_end
 
 LOADER: type[Any] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
@@ -80,11 +81,15 @@ class Document:
 
 @dataclass(frozen=True, slots=True)
 class File:
-    """A file: its text, documents and comments in order."""
+    """A file: its text, documents and comments in order.
+
+    One that `ends_in_text` has a block scalar at its end, and no line break: with one the value would be another.
+    """
 
     text: str
     documents: tuple[Document, ...]
     comments: tuple[Comment, ...]
+    ends_in_text: bool
 
     def column(self, offset: int) -> int:
         """Return the column of an offset, from 0, tabs counted to the next multiple of eight."""
@@ -104,7 +109,7 @@ def parsed(text: str) -> File:
     comments, marks = comments_between(text, builder.taken)
     if "?" in marks:
         raise NotFormatted("it has a key behind a question mark")
-    return File(text, documents, comments)
+    return File(text, documents, comments, builder.ends_in_text)
 
 
 @dataclass(slots=True)
@@ -115,6 +120,7 @@ class _Builder:
     events: Iterator[Any]
     taken: list[tuple[int, int]] = field(default_factory=list)
     depth: int = 0
+    ends_in_text: bool = False
 
     def documents(self) -> Iterator[Document]:
         for event in self.events:
@@ -149,7 +155,8 @@ class _Builder:
         start, end = event.start_mark.index, event.end_mark.index
         style = getattr(event, "style", None)
         if style in ("|", ">"):  # its end is that of the empty lines below it
-            end = start + len(self.text[start:end].rstrip())
+            end = block_end(self.text, start, end, event.value)
+            self.ends_in_text = end == len(self.text) and not event.value.endswith("\n")
         if end > start:
             self.taken.append((start, end))
         return Scalar(start, end, getattr(event, "value", "*"), style)
@@ -171,7 +178,7 @@ class _Builder:
         start, end = event.start_mark.index, event.end_mark.index
         if end > start:
             self.taken.append((start, end))
-        return max(end, last)
+        return int(max(end, last))
 
     def sequence(self, event: _Event) -> Sequence:
         properties = self.opened(event)
