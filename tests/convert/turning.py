@@ -70,3 +70,16 @@ def _plain(value: Any, name: str) -> Any:
     if isinstance(value, list | tuple):
         return [_plain(item, name) for item in value]
     return value.replace(name, "FILE") if isinstance(value, str) else value
+
+
+def round_trip(path: Path, environment: Mapping[str, str], words: Sequence[str] = ()) -> None:
+    """Convert a launch file to each other language in turn and back: the plan stays, and after one round the text."""
+    plan = seen(path, environment, words)
+    for index in range(2):
+        there = path
+        for language in (*others(path), language_of(str(path)) or ""):
+            there = turned(there, language, environment, f"{path.name.split('.')[0]}_{index}")
+            assert seen(there, environment, words) == plan, there.read_text("utf-8")
+        if index:
+            assert there.read_text("utf-8") == path.read_text("utf-8")
+        path = there
