@@ -13,6 +13,7 @@ from orchestra.errors import DescriptionError, Problems, Severity, UsageError
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
+    from collections.abc import Sequence
     from contextlib import ExitStack
 
     from orchestra.errors import Problem
@@ -53,11 +54,18 @@ def file_and_inputs(options: Namespace) -> tuple[str, Inputs]:
 
     launch_prefix.check(options)
     file, words = pipeline.find_launch_file(options.words)
+    return file, inputs_of(words, options)
+
+
+def inputs_of(words: Sequence[str], options: Namespace) -> Inputs:
+    """Return what the words after a launch file and the options give to it. Raises `UsageError`."""
+    from orchestra import pipeline  # noqa: PLC0415 - as above
+
     words = (*words, *launch_prefix.words(options))
     given = pipeline.inputs_from(words, environment=os.environ, params_files=options.params_file)
     debug, noninteractive = getattr(options, "debug", False), getattr(options, "noninteractive", True)
     weights = severities.given(options)
-    return file, dataclasses.replace(given, debug=debug, noninteractive=noninteractive, severity=weights)
+    return dataclasses.replace(given, debug=debug, noninteractive=noninteractive, severity=weights)
 
 
 def plan_from(options: Namespace, *, launching: bool) -> Plan:

@@ -225,3 +225,33 @@ def test_a_value_is_explained_as_text_and_as_json(orchestra: Command) -> None:
     )
     assert [item["id"] for item in found["explained"]] == ["/talker", "greet"]
     assert found["explained"][1]["values"][0]["value"] == "/h"
+
+
+def test_a_new_file_against_an_old_one_that_had_another_name(orchestra: Command, repository: Path) -> None:
+    (repository / "outer.yaml").rename(repository / "new.yaml")
+    found = orchestra("plan", "new.yaml", "--diff", "v1:outer.yaml", "--format", "json")
+    assert _fates(found) == {"greet": "restart", "/talker": "restart"}
+
+
+def test_files_of_packages_are_compared_too(orchestra: Command, prefix: Path) -> None:
+    share = prefix / "share" / "demo" / "launch"
+    for name, word in (("one", "x"), ("two", "y")):
+        (share / f"{name}.launch.yaml").write_text(
+            f"launch:\n  - arg: {{name: a, default: b}}\n  - executable: {{cmd: echo {word} $(var a), name: e}}\n"
+        )
+    for words in (("demo", "two.launch.yaml"), ("demo/two",)):
+        found = orchestra("plan", "demo", "one.launch.yaml", "a:=c", "--format", "json", "--diff", *words)
+        (change,) = _data(found)["processes"][0]["changes"]
+        assert (change["before"], change["after"]) == (["y"], ["x"])
+
+
+def test_parameters_of_the_command_line_are_those_of_both(orchestra: Command, folder: Path) -> None:
+    (folder / "over.yaml").write_text("/**:\n  ros__parameters: {rate: 9}\n")
+    found = orchestra(
+        *("plan", "outer.yaml", "who:=x", "--params-file", "over.yaml", "--format", "json"),
+        *("--diff", "who:=y", "talker:rate:=3"),
+    )
+    assert _fates(found) == {"greet": "restart", "/talker": "restart"}
+    (change,) = _data(found)["processes"][1]["changes"]
+    assert (change["before"], change["after"]) == (3, 9)
+    assert change["before_at"]["file"] == "command line"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import os
 from typing import TYPE_CHECKING
 
@@ -30,16 +29,16 @@ def other(words: Sequence[str], options: Namespace, first: Made) -> Made:
         _refuse(arguments, names[0])
         return sources.saved(names[0])
     if not names:
-        return sources.from_file(_launch_file(first), _given(options, arguments))
+        return sources.from_file(_launch_file(first), arguments, options)
     own = arguments or [word for word in options.words if ":=" in word]
     if len(names) == 1 and not is_file(names[0]):
         found = revisions.find(names[0], first.file)
         if found is not None:
-            return revisions.made(found, _given(options, own))
+            return revisions.made(found, own, options)
     file, _ = pipeline.find_launch_file(names)
     if not arguments and first.file is not None and os.path.realpath(file) == os.path.realpath(first.file):
         own = []
-    return sources.from_file(file, _given(options, own))
+    return sources.from_file(file, own, options)
 
 
 def _launch_file(first: Made) -> str:
@@ -51,10 +50,3 @@ def _launch_file(first: Made) -> str:
 def _refuse(arguments: Sequence[str], path: str) -> None:
     if arguments:
         raise UsageError(f"{path} is a saved plan, which takes no {arguments[0]}")
-
-
-def _given(options: Namespace, arguments: Sequence[str]) -> Namespace:
-    """Return the options with these arguments instead; the word before them stands for the launch file."""
-    changed = copy.copy(options)
-    changed.words = [options.words[0], *arguments]
-    return changed

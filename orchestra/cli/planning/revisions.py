@@ -25,7 +25,7 @@ from orchestra.resolve.packages import InstalledPackages
 
 if TYPE_CHECKING:
     from argparse import Namespace
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from orchestra.cli.planning.sources import Made
 
@@ -63,10 +63,11 @@ def find(word: str, file: str | None) -> Revision | None:
     return Revision(folder, name, os.path.relpath(Path(file).resolve(), folder))
 
 
-def made(revision: Revision, options: Namespace) -> Made:
-    """Make the plan of a file in its revision; places and paths in it are those of the working tree.
+def made(revision: Revision, words: Sequence[str], options: Namespace) -> Made:
+    """Make the plan of a file in its revision, with these arguments.
 
-    Raises `UsageError` where the revision has no such file or it has errors.
+    Places and paths in it are those of the working tree. Raises `UsageError` where the revision has no such file, or
+    errors in it.
     """
     label = f"{revision.name}:{revision.path}"
     with _written(revision) as copy:
@@ -76,11 +77,10 @@ def made(revision: Revision, options: Namespace) -> Made:
         with _inside(copy, revision.root):
             packages = _Packages(os.environ, revision.root, copy)
             try:
-                found = sources.from_file(path, options, packages)
+                found = sources.from_file(path, words, options, packages)
             except DescriptionError as error:
                 raise UsageError(_told(error, label)) from None
     plan = rewritten(found.plan, lambda text: text.replace(str(copy), str(revision.root)))
-    words = found.label.split(" ")[1:]
     return dataclasses.replace(found, plan=redigested(plan), label=" ".join([label, *words]))
 
 

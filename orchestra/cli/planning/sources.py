@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra import pipeline
-from orchestra.cli import inputs, leaving
+from orchestra.cli import inputs, launch_prefix, leaving
 from orchestra.errors import DescriptionError, Problems, UsageError
 from orchestra.location import displayed, is_file
 from orchestra.plan import codec
@@ -19,6 +19,7 @@ from orchestra.plan.render import yaml_text
 
 if TYPE_CHECKING:
     from argparse import Namespace
+    from collections.abc import Sequence
 
     from orchestra.resolve.packages import InstalledPackages
 
@@ -44,16 +45,21 @@ def made(options: Namespace) -> Made:
     """Make the plan that the options ask for. Raises as `inputs.plan_from` does."""
     if len(options.words) == 1 and is_saved(options.words[0]):
         return saved(options.words[0])
-    file, _ = inputs.file_and_inputs(options)
-    return from_file(file, options)
+    if not options.words:
+        raise UsageError("a launch file is missing")
+    launch_prefix.check(options)
+    file, words = pipeline.find_launch_file(options.words)
+    return from_file(file, words, options)
 
 
-def from_file(file: str, options: Namespace, packages: InstalledPackages | None = None) -> Made:
-    """Make the plan of a launch file with what else the options say.
+def from_file(
+    file: str, words: Sequence[str], options: Namespace, packages: InstalledPackages | None = None
+) -> Made:
+    """Make the plan of a launch file with the words for it, and what else the options say.
 
     Raises `UsageError`, and `DescriptionError` where there are problems.
     """
-    _, given = inputs.file_and_inputs(options)
+    given = inputs.inputs_of(words, options)
     problems = Problems()
     with (
         leaving.contained(),
@@ -66,7 +72,6 @@ def from_file(file: str, options: Namespace, packages: InstalledPackages | None 
         if options.strict and launch.plan.problems:
             raise DescriptionError(inputs.as_errors(launch.plan.problems))
         files = written(launch.files.folder) if launch.files.used else {}
-        words = [word for word in options.words if ":=" in word]
         return Made(launch.plan, " ".join([displayed(file), *words]), file, files)
 
 

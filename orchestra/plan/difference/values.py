@@ -12,7 +12,7 @@ from orchestra.plan.difference.model import Change
 from orchestra.plan.model import Candidate
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 
     from orchestra.location import Location
     from orchestra.plan.conditions import Dependency
@@ -100,15 +100,7 @@ def _files(before: dict[str, str], after: dict[str, str], old: Process, new: Pro
     """Yield the lines that differ in what is passed on for other nodes, but for those of parameters that are told."""
     path = next(iter({**after, **before}), "")
     told = {name for name in {**old.parameters, **new.parameters} if _differs(name, old, new)}
-    one, other = (
-        [
-            line
-            for text in texts.values()
-            for line in text.splitlines()
-            if line.strip().partition(": ")[0].strip('"') not in told
-        ]
-        for texts in (before, after)
-    )
+    one, other = (list(_passed_on(texts.values(), told)) for texts in (before, after))
     for tag, begin, end, new_begin, new_end in SequenceMatcher(
         None, one, other, autojunk=False
     ).get_opcodes():
@@ -116,6 +108,22 @@ def _files(before: dict[str, str], after: dict[str, str], old: Process, new: Pro
             gone, come = one[begin:end] or None, other[new_begin:new_end] or None
             absent = _absent(before=gone is not None, after=come is not None)
             yield Change("parameter_files", path, gone, come, old.location, new.location, absent)
+
+
+def _passed_on(texts: Iterable[str], told: Collection[str]) -> Iterator[str]:
+    """Yield the lines of parameter files but for these parameters; a heading only where something is below it."""
+    headings: list[str] = []
+    lines = [line for text in texts for line in text.splitlines()]
+    if not told:
+        yield from lines
+        return
+    for line in lines:
+        if not line.startswith("    "):
+            headings = [heading for heading in headings if line.startswith(" ")] + [line]
+        elif line.strip().partition(": ")[0].strip('"') not in told:
+            yield from headings
+            yield line
+            headings = []
 
 
 def _differs(name: str, old: Process, new: Process) -> bool:
