@@ -125,6 +125,10 @@ def _is_integer(text: str) -> bool:
 def _any_value(value: object, info: ValidationInfo) -> Value | tuple[Value, ...]:
     if isinstance(value, tuple | Constant):
         return value
+    if isinstance(value, list) and not value:
+        raise PydanticCustomError(
+            "wrong_type", "an empty list has no type: expected a value or a list of values"
+        )
     return text_or_list(value, info)
 
 

@@ -45,7 +45,7 @@ def load(
     location = Location(at, included_from[1:])
     module = FORMATS.get(ending)
     if module is None:
-        problems.error(Code.UNKNOWN_FORMAT, _unknown_format(file), location)
+        problems.error(Code.UNKNOWN_FORMAT, unknown_format(file), location)
         return None
     text = _text(path, file, problems, location)
     if text is None:
@@ -72,7 +72,12 @@ def _text(path: str, file: str, problems: Problems, location: Location) -> str |
         return None
 
 
-def _unknown_format(file: str) -> str:
-    if file.endswith(".py"):
-        return f"{file} is a launch file in Python, which cannot be read yet"
+def has_format(path: str) -> bool:
+    """Return whether the ending of a path tells how the file is read."""
+    ending = Path(path).suffix.lower()
+    return ending == PYTHON or ending in FORMATS
+
+
+def unknown_format(file: str) -> str:
+    """Return what is said of a file whose ending tells nothing."""
     return f"cannot tell the format of {file}: launch files end in " + ", ".join(sorted(FORMATS))

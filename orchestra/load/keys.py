@@ -49,14 +49,17 @@ def meant(word: str, known: Iterable[str], elsewhere: Mapping[str, str]) -> tupl
         if (other := elsewhere.get(spelling)) in known:
             return other, is_slip(word, other)
     near = nearest(word, known)
-    return near, near is not None and is_slip(word, near)
+    if near is not None:
+        return near, is_slip(word, near)
+    alias = nearest(snake(word), (name for name, other in elsewhere.items() if other in known))
+    return (elsewhere[alias], False) if alias is not None and is_slip(snake(word), alias) else (None, False)
 
 
 def key_meant(word: str, known: Iterable[str]) -> tuple[str | None, bool]:
     """Return the known key that another word probably means, and whether it is only a slip."""
     known = frozenset(known)
-    other = next((key for key in KEYS_ELSEWHERE.get(snake(word), ()) if key in known), None)
-    return meant(word, known, {} if other is None else {spelled(word): other, snake(word): other})
+    others = {name: next((key for key in keys if key in known), "") for name, keys in KEYS_ELSEWHERE.items()}
+    return meant(word, known, others)
 
 
 def action_meant(word: str) -> tuple[str | None, bool]:
@@ -111,7 +114,7 @@ class _Strangers:
         message, instead, notes = f"unknown {noun(self.mapping, key)}", near, list[str]()
         stands_for = frozenset() if near is None else frozenset({near})
         left, colon, value = key.partition(":")
-        if near is None and colon and spelled(left) in self.known:
+        if colon and spelled(left) in self.known:
             message, instead = f"a blank is missing behind '{left}:'", f"{left}: {value}"
             stands_for = frozenset({spelled(left)})
         elif near is None and self.pair is not None:

@@ -79,6 +79,7 @@ KEYS_ELSEWHERE: Final[dict[str, tuple[str, ...]]] = {
     "exit_codes": ("success_exit_codes",),
     "file": ("from", "filename"),
     "filename": ("file", "from"),
+    "from": ("filename", "file"),
     "help": ("description",),
     "key": ("name",),
     "launch_arguments": ("arg",),

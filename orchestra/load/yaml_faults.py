@@ -111,8 +111,7 @@ def _without_colon(failure: Failure, begin: int) -> Fault:
     if ":" in written:
         name, _, value = written.partition(":")
         return failure.fault(f"a blank is missing behind '{name}:'", begin, end, f"{name}: {value}")
-    name, blank, value = written.partition(" ")
-    value = re.sub(r"^=\s*", "", value.lstrip())
+    name, blank, value = re.match(r"([^\s=]*)(\s*=?\s*)(.*)", written).groups()  # type: ignore[union-attr] # matches
     meant = f"{name}: {value}" if blank and " " not in value else f"{name}:" if not blank else None
     return failure.fault(f"a ':' is missing behind '{shortened(name)}'", begin, end, meant)
 
@@ -150,7 +149,7 @@ def _item_in_line(failure: Failure) -> Fault:
 def _undefined_alias(failure: Failure) -> Fault:
     found = _ALIAS.match(failure.text, failure.at)
     name = found[1] if found else ""
-    near = nearest(name, _ANCHOR.findall(failure.text, 0, failure.at))
+    near = nearest(name, _ANCHOR.findall(failure.text))
     message = f"no anchor &{name} stands before this alias"
     end = found.end() if found else failure.at + 1
     return failure.fault(message, failure.at, end, f"*{near}" if near else None)

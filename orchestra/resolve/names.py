@@ -146,7 +146,7 @@ def mended(name: str, fault: Callable[[str], Fault | None]) -> str | None:
     Other characters become `_`, slashes that are too many go away.
     """
     words = re.sub(r"[^A-Za-z0-9_/~{}]+", "_", name.strip())
-    found = re.sub("//+", "/", words)
+    found = re.sub("//+", "/", re.sub("^~(?=[A-Za-z0-9_])", "~/", words))
     found = found.rstrip("/") or found
     return None if found == name or fault(found) is not None else found
 

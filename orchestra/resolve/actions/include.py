@@ -7,7 +7,8 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
-from orchestra.load.files import PYTHON
+from orchestra.load.files import PYTHON, has_format, unknown_format
+from orchestra.location import displayed
 from orchestra.resolve.arguments import Given, settle
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.declarations import check_twice
@@ -47,6 +48,9 @@ def visit(action: Include, run: Resolution) -> None:
             put_off(Deferred("action", action), run.at(action.span), run)
             continue
         path = existing_file(value, action.file, "launch file", run) if isinstance(value, Value) else None
+        if path is not None and isinstance(value, Value) and not (action.language or has_format(path)):
+            run.problems.error(Code.UNKNOWN_FORMAT, unknown_format(displayed(path)), value.location)
+            path = None
         description = _description(path, action, run) if path is not None else None
         if path is None or description is None:
             run.scope.ledger.incomplete = True

@@ -23,7 +23,7 @@ from orchestra.resolve.rcl.surprises import report_surprises
 from orchestra.resolve.rcl.values import LOADER
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
 
     from orchestra.errors import Problem
     from orchestra.resolve.rcl.sections import Section
@@ -60,13 +60,14 @@ def _read(
     text: str, file: str, problems: Problems, included_from: tuple[Span, ...], changed: _Change
 ) -> tuple[Section, ...]:
     text, found = text.removeprefix("\ufeff"), Problems()
-    reader = Reader(file, found, included_from)
+    reader, sound = Reader(file, found, included_from), 0
     try:
         for event in changed(yaml.parse(text, Loader=LOADER)):
+            sound = len(found)
             reader.take(event)
     except yaml.YAMLError as error:
         fault = explained(error, source(file, text))
-        problems.extend(_before(fault.span, found))
+        problems.extend(_before(fault.span, [*found][:sound]))
         at = Location(fault.span, included_from)
         problems.error(Code.PARAMETER_SYNTAX, fault.message, at, suggestion=fault.suggestion)
         return reader.sections()
@@ -82,7 +83,7 @@ def _read(
     return sections
 
 
-def _before(span: Span, problems: Problems) -> list[Problem]:
+def _before(span: Span, problems: Sequence[Problem]) -> list[Problem]:
     """Return the problems that stand before a fault of the text: what stands behind it follows from it."""
     return [problem for problem in problems if problem.span is not None and problem.span < span]
 
