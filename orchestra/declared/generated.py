@@ -15,6 +15,7 @@ from orchestra.declared.documents import Document
 from orchestra.declared.generated_rules import FIXED, RULES, element_of, rule_of
 from orchestra.declared.judging import DeclaredParameters, value_faults
 from orchestra.declared.model import Declarations, Parameter, RosType
+from orchestra.declared.rules import objections
 from orchestra.errors import Code, Problems
 from orchestra.nearest import is_slip, nearest
 
@@ -119,14 +120,17 @@ class _Definition:
             self.groups.append(name.partition(".{}")[0])
             return
         kind = TYPES[FIXED.sub("", leaf["type"])]
+        default, rules = _default(leaf.get("default_value"), kind), self.rules(leaf, kind, way)
+        # A default that its own validation refuses is how an author says that a value must be given.
+        refused = default is not None and any(any(objections(rule, default)) for rule in rules)
         made = Parameter(
             name=name,
             types=(kind,),
-            required=leaf.get("default_value") is None,
-            default=_default(leaf.get("default_value"), kind),
+            required=refused or leaf.get("default_value") is None,
+            default=default,
             description=str(leaf.get("description") or ""),
             read_only=leaf.get("read_only") is True,
-            rules=self.rules(leaf, kind, way),
+            rules=rules,
             keys=keys,
         )
         self.parameters.append(made)
@@ -139,6 +143,8 @@ class _Definition:
         if fixed is not None:
             found.append(rule_of("size_lt", [int(fixed["size"]) + 1], kind))
         validation = leaf.get("validation") or {}
+        if isinstance(validation, list):  # of functions without arguments, as it was in the beginning
+            validation = {item: None for item in validation if isinstance(item, str)}
         if not isinstance(validation, dict):
             self.refuse("`validation` is a mapping of functions", (*way, "validation"))
             return ()

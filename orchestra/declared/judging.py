@@ -46,7 +46,7 @@ class DeclaredParameters:
                 yield replace(fault, certain=self.declared.undeclared == "refused")
         for name, parameter in known.items():
             if parameter.required and name not in values and not _is_meant(name, meant):
-                yield missing(name)
+                yield missing(name, refused=parameter.default is not None)
 
     def _by_pattern(self, name: str) -> list[Parameter]:
         return [item for pattern, item in self.declared.patterns if re.search(pattern, name)]
@@ -106,9 +106,10 @@ def wrong_type(parameter: Parameter, name: str, value: ParameterValue, *, certai
     return Fault("type", name, told, rewritten(value, parameter.types), certain=certain)
 
 
-def missing(name: str) -> Fault:
-    """Return that a parameter without a default has no value."""
-    return Fault("missing", name, f"the node needs a value for its parameter '{name}', which has no default")
+def missing(name: str, *, refused: bool = False) -> Fault:
+    """Return that a parameter without a default, or with one that the node itself refuses, has no value."""
+    why = "whose default it refuses" if refused else "which has no default"
+    return Fault("missing", name, f"the node needs a value for its parameter '{name}', {why}")
 
 
 def _is_meant(name: str, meant: set[str]) -> bool:

@@ -32,7 +32,7 @@ class Parameter:
     """One parameter; a `name` with `{}` stands for one of each item of the lists that `keys` name, in their order.
 
     `types` are those that the node takes, all where there are none; of those that are `tolerated` the schema says
-    nothing, but a node that declares one of `types` refuses them. `required`: it has no default.
+    nothing, but a node that declares one of `types` refuses them. `required`: it has no default, or none that it takes.
     """
 
     name: str

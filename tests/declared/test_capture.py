@@ -216,6 +216,37 @@ def test_what_makes_no_sense(words: list[str], told: str) -> None:
     assert told in done.stderr
 
 
+def test_a_node_of_a_run_is_reached_as_those_of_the_run(tmp_path: Path) -> None:
+    """It is in another domain than the command."""
+    launch = tmp_path / "a.launch.yaml"
+    launch.write_text(f"launch: [{{executable: {{cmd: [{sys.executable}, {_NODE}, /robot2/declaring]}}}}]", "utf-8")
+    home = {**os.environ, **_REACH, "ORCHESTRA_HOME": str(tmp_path / "home")}
+    orchestra = [sys.executable, "-m", "orchestra"]
+    started = subprocess.run(
+        [*orchestra, "launch", str(launch), "--detach", "--name", "captured"],
+        env={**home, "ROS_DOMAIN_ID": "39"},
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert started.returncode == 0, started.stderr
+    try:
+        done = _command(
+            "capture",
+            "/robot2/declaring",
+            "--timeout",
+            "60",
+            "--run",
+            "captured",
+            ORCHESTRA_HOME=str(tmp_path / "home"),
+        )
+    finally:
+        subprocess.run([*orchestra, "down", "--run", "captured"], env=home, capture_output=True, check=False)
+    assert (done.returncode, done.stderr) == (0, "")
+    assert json.loads(done.stdout)["properties"]["speed"]["default"] == 1.5
+
+
 _BRINGUP = Path(__file__).parents[2] / "bringup" / "params"
 # What the schema says beyond the descriptors: constraints of words, sizes of lists, and defaults that follow from others.
 _BEYOND = {"enum", "minItems", "maxItems", "exclusiveMinimum", "x-ros-type", "description", "default"}

@@ -97,6 +97,26 @@ def test_a_group_is_no_parameter_and_a_parameter_no_group() -> None:
     ]
 
 
+def test_a_default_that_is_refused_says_that_a_value_must_be_given() -> None:
+    definition = "demo: {radius: {type: double, default_value: 0.0, validation: {gt<>: [0.0]}}}"
+    assert [fault.told for fault in faults(definition)] == [
+        "the node needs a value for its parameter 'radius', whose default it refuses"
+    ]
+    assert faults(definition, radius=0.1) == []
+
+
+def test_what_older_definitions_say_is_read() -> None:
+    definition = """
+arm:
+  method: {type: string, default_value: splines, validation: [validate_method]}
+  mass: {type: double_array, fixed_size: 6, bounds: [0.1, 10.0], default_value: []}
+  twice: {type: bool, default_value: True}
+  twice: {type: bool, default_value: False}
+  damping: {type: double, default_value: 5, validation: {gt_eq: [0.0], "arm::gt_or_nan<>": [0.0]}}
+"""
+    assert faults(definition, method="any") == []
+
+
 def test_without_a_value_for_the_list_anything_may_be_in_the_map() -> None:
     definition = "demo: {joints: {type: string_array}, gains: {__map_joints: {p: {type: double}}}}"
     found = faults(definition, **{"gains.a.p": 1.0})
