@@ -122,6 +122,8 @@ def opened(
                 launch = Launch(build(resolved, problems), run, isolation.files)
             problems.amend(in_place)
             settle(problems, path, inputs.severity)
+            if launch is not None:
+                launch.plan = replace(launch.plan, problems=problems.ordered)
         yield launch
 
 

@@ -10,8 +10,6 @@ from orchestra.nearest import nearest
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
 
-_LEVELS = ("off", "warning", "error")
-
 
 def add_to(parser: ArgumentParser) -> None:
     """Let a parser read it."""
@@ -30,14 +28,17 @@ def given(options: Namespace) -> dict[str, str]:
 
 
 def _read(word: str) -> tuple[str, str]:
+    # Here, because hardly any command line says something of that.
+    from orchestra.settings.model import LEVELS, code_meant  # noqa: PLC0415
+
     code, _, level = word.partition("=")
-    _expect(code, [known.value for known in Code], "code", word)
-    _expect(level, _LEVELS, "severity", word)
+    if code not in [known.value for known in Code]:
+        raise _unknown(word, f"code '{code}'", code_meant(code))
+    if level not in LEVELS:
+        raise _unknown(word, f"severity '{level}'", nearest(level, LEVELS))
     return code, level
 
 
-def _expect(found: str, known: list[str] | tuple[str, ...], what: str, word: str) -> None:
-    if found not in known:
-        near = nearest(found.upper() if what == "code" else found, known)
-        hint = f"; did you mean '{near}'?" if near else ""
-        raise UsageError(f"--severity {word}: there is no {what} '{found}'{hint}")
+def _unknown(word: str, what: str, meant: str | None) -> UsageError:
+    hint = f"; did you mean '{meant}'?" if meant else ""
+    return UsageError(f"--severity {word}: there is no {what}{hint}")

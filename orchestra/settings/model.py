@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import Final
 
 from orchestra.errors import Code, Severity
+from orchestra.nearest import nearest
 from orchestra.settings.globs import covers
 
 OFF: Final = "off"
@@ -38,6 +39,12 @@ LASTING: Final = frozenset(
         *(Code.UNKNOWN_DEPENDENCY, Code.UNFIT_MACHINE),
     }
 )
+
+
+def code_meant(word: str) -> str | None:
+    """Return the code that a word probably means which is none; None where that cannot be told."""
+    codes = [code.value for code in Code]
+    return word.upper() if word.upper() in codes else nearest(word.upper(), codes)
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.errors import Code, Problems
 from orchestra.location import Span, displayed, point
 from orchestra.nearest import nearest
-from orchestra.settings.model import LEVELS, Override, Settings
+from orchestra.settings.model import LEVELS, Override, Settings, code_meant
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -107,8 +107,8 @@ class _Reader:
         for code, level in content.items():
             inner = (*way, code)
             if code not in codes:
-                near = nearest(code.upper(), codes)
-                self._error(Code.UNKNOWN_KEY, f"there is no code '{code}'", self._key(inner), near)
+                meant = code_meant(code)
+                self._error(Code.UNKNOWN_KEY, f"there is no code '{code}'", self._key(inner), meant)
             elif not isinstance(level, str):
                 self._wrong(f"one of {', '.join(LEVELS)}", level, inner)
             elif level not in LEVELS:

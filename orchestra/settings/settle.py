@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Final
 from orchestra.errors import Code, Problems, Severity
 from orchestra.settings.comments import Ignore, ignores
 from orchestra.settings.find import Finder
-from orchestra.settings.model import LASTING, OFF, Settings
+from orchestra.settings.model import LASTING, OFF, Settings, code_meant
 
 if TYPE_CHECKING:
     from orchestra.errors import Problem
@@ -112,15 +112,13 @@ def unused(
     comments: tuple[Ignore, ...], used: AbstractSet[tuple[str, int]], problems: Problems, *, strict: bool
 ) -> None:
     """Report codes that do not exist, and with `strict` comments that silence nothing."""
-    # Here, because hardly any file has such comments.
-    from orchestra.nearest import nearest  # noqa: PLC0415
-
     known = [code.value for code in Code]
     for comment in comments:
         strange = [(code, span) for code, span in comment.codes or () if code not in known]
         for code, span in strange:
-            near = nearest(code.upper(), known)
-            problems.warning(Code.UNUSED_IGNORE, f"there is no code '{code}'", span, suggestion=near)
+            problems.warning(
+                Code.UNUSED_IGNORE, f"there is no code '{code}'", span, suggestion=code_meant(code)
+            )
         if strict and not strange and (comment.span.file, comment.span.line) not in used:
             message = "nothing is silenced by this comment"
             problems.warning(Code.UNUSED_IGNORE, message, comment.span)

@@ -37,6 +37,7 @@ _INSTALLED: Final = tuple(
     for path in {sysconfig.get_path(name), os.path.realpath(sysconfig.get_path(name))}
 )
 _LOOKING: Final = (("stat", "mode"), ("lstat", "own_mode"), ("readlink", "link"), ("access", "access"))
+_OF_THE_KERNEL: Final = ("/proc/", "/sys/", "/dev/")
 _WRITING: Final = os.O_WRONLY | os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_TRUNC
 
 
@@ -249,6 +250,9 @@ class Observer:
             return
         if whole.endswith(".pyc"):
             whole = _source(whole)
+        if whole.startswith(_OF_THE_KERNEL):
+            self.unknown(f"{whole} is another one each time")
+            return
         self.file(whole)
         if whole.startswith(_INSTALLED) and whole.endswith(".py"):
             before = looking.signature(whole)
