@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from orchestra.resolve.context import Poison, Value
     from orchestra.resolve.resolution import Resolution
 
+# Names of programs are short, and there are many: of these nothing can be told.
+_SHORTEST = 5
+
 
 def program_words(
     written: str, location: Location, run: Resolution, *, elsewhere: bool = False
@@ -90,7 +93,10 @@ def _check_name(name: str, location: Location, run: Resolution) -> None:
     environment = run.scope.environment
     if not name or "PATH" in run.scope.changes or program_on_path(name, environment) is not None:
         return
-    meant = sorted(known for known in programs_on_path(environment) if is_typo(name, known))
+    near = (
+        known for known in programs_on_path(environment) if known[:1] == name[:1] and is_typo(name, known)
+    )
+    meant = sorted(near) if len(name) >= _SHORTEST else None
     if meant:
         message = f"there is no program '{name}' on the search path"
         run.problems.warning(Code.MISSING_EXECUTABLE, message, location, suggestion=meant[0])

@@ -1,0 +1,153 @@
+"""Sections of parameter files: those that miss their node are told at their key, foreign ones are left alone."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from orchestra.errors import Code
+from tests.plan.checks.told import Told, node, told
+
+if TYPE_CHECKING:
+    from pathlib import Path
+
+_FILE = "[{from: p.yaml}]"
+_CODE = Code.UNMATCHED_SECTION
+
+
+def _section(pattern: str, name: str = "a") -> str:
+    return f"{pattern}:\n  ros__parameters: {{{name}: 1}}\n"
+
+
+# The actions, the file, what is told.
+MISSED: dict[str, tuple[str, str, list[Told]]] = {
+    "another namespace": (
+        node("talker", namespace="ns", param=_FILE),
+        _section("/talker"),
+        [(_CODE, "/talker", "/**/talker")],
+    ),
+    "another namespace in nested keys": (
+        node("talker", namespace="ns", param=_FILE),
+        "other:\n  talker:\n    ros__parameters: {a: 1}\n",
+        [(_CODE, "talker", None)],
+    ),
+    "a slip in the only section": (
+        node("talker", param=_FILE),
+        _section("/tlaker"),
+        [(_CODE, "/tlaker", "/talker")],
+    ),
+    "a slip in a nested key": (
+        node("talker", namespace="ns", param=_FILE),
+        "ns:\n  tlaker:\n    ros__parameters: {a: 1}\n",
+        [(_CODE, "tlaker", "talker")],
+    ),
+    "a slip beside a wildcard": (
+        node("talker", param=_FILE),
+        _section("/**") + _section("talkre"),
+        [(_CODE, "talkre", "talker")],
+    ),
+    "a slip in a file for two": (
+        node("talker", param=_FILE) + node("listener", param=_FILE),
+        _section("talker") + _section("listner"),
+        [(_CODE, "listner", "listener")],
+    ),
+    "an underscore too few": (
+        node("map_server", param=_FILE),
+        _section("/**") + _section("mapserver"),
+        [(_CODE, "mapserver", "map_server")],
+    ),
+    "a section under no near name, alone in the file": (
+        node("camera", param=_FILE),
+        _section("usb_cam"),
+        [(_CODE, "usb_cam", "/camera")],
+    ),
+    "the only section of a file for two nodes": (
+        node("front", param=_FILE) + node("rear", param=_FILE),
+        _section("usb_cam"),
+        [(_CODE, "usb_cam", "/**")],
+    ),
+    "a root section beside a wildcard, for a node in a namespace": (
+        node("talker", namespace="ns", param=_FILE),
+        _section("/**") + _section("talker"),
+        [(_CODE, "talker", "/**/talker")],
+    ),
+    "nothing near among several": (
+        node("camera", param=_FILE),
+        _section("usb_cam") + _section("lidar"),
+        [(_CODE, "p.yaml", None)],
+    ),
+    "a file for all nodes of a scope": (
+        "- set_parameters_from_file: {filename: p.yaml}\n" + node("talker"),
+        _section("talkre"),
+        [(_CODE, "talkre", "talker")],
+    ),
+    "a component": (
+        "- node_container: {exec: sleep, name: c, namespace: '', composable_node: "
+        "[{pkg: p, plugin: 'p::T', name: talker, param: [{from: p.yaml}]}]}\n",
+        _section("tlaker"),
+        [(_CODE, "tlaker", "talker")],
+    ),
+}
+
+
+@pytest.mark.parametrize("case", MISSED)
+def test_a_section_that_misses_its_node_is_told_where_it_stands(case: str, tmp_path: Path) -> None:
+    actions, file, faults = MISSED[case]
+    assert told(tmp_path, {"main.launch.yaml": f"launch:\n{actions}", "p.yaml": file}) == faults
+
+
+FINE: dict[str, tuple[str, str]] = {
+    "the name itself": (node("talker", param=_FILE), _section("talker")),
+    "the full name": (node("talker", namespace="ns", param=_FILE), _section("/ns/talker")),
+    "any namespace": (node("talker", namespace="ns", param=_FILE), _section("/**/talker")),
+    "a relative full name": (node("talker", namespace="ns", param=_FILE), _section("ns/talker")),
+    "sections for nodes that are not started": (
+        node("amcl", param=_FILE),
+        _section("amcl") + _section("map_server") + _section("amcl_map_client"),
+    ),
+    "a shared file with nothing for one of its nodes": (
+        node("amcl", param=_FILE) + node("manager", param=_FILE),
+        _section("amcl") + _section("planner"),
+    ),
+    "two robots, one of them here": (
+        node("ekf", namespace="robot1", param=_FILE),
+        _section("/robot1/ekf") + _section("/robot2/ekf"),
+    ),
+    "another robot's section beside a wildcard": (
+        node("ekf", namespace="robot1", param=_FILE),
+        _section("/**") + _section("/robot2/ekf"),
+    ),
+    "near names that belong together": (
+        node("front_lidar", param=_FILE) + node("camera1", param=_FILE),
+        _section("/**") + _section("rear_lidar") + _section("camera2") + _section("camera_l"),
+    ),
+    "a node whose name is not known": (
+        "- node: {exec: sleep, param: [{from: p.yaml}]}\n",
+        _section("talker"),
+    ),
+    "a container that is given what its components read": (
+        "- node_container: {exec: sleep, name: c, namespace: '', param: [{from: p.yaml}], "
+        "composable_node: [{pkg: p, plugin: 'p::T', name: talker, param: [{from: p.yaml}]}]}\n",
+        _section("talker"),
+    ),
+    "a file for all nodes of a scope that is for one of them": (
+        "- set_parameters_from_file: {filename: p.yaml}\n" + node("talker") + node("listener"),
+        _section("talker"),
+    ),
+}
+
+
+@pytest.mark.parametrize("case", FINE)
+def test_sections_that_may_be_for_others_are_left_alone(case: str, tmp_path: Path) -> None:
+    actions, file = FINE[case]
+    assert told(tmp_path, {"main.launch.yaml": f"launch:\n{actions}", "p.yaml": file}) == []
+
+
+def test_a_section_that_two_robots_miss_is_told_once(tmp_path: Path) -> None:
+    files = {
+        "main.launch.yaml": "launch:\n- include: {file: robot.yaml, for_each: {r: [r1, r2]}}\n",
+        "robot.yaml": "launch:\n" + node("ekf", namespace="$(var r)", param=_FILE),
+        "p.yaml": _section("/ekf"),
+    }
+    assert told(tmp_path, files) == [(_CODE, "/ekf", "/**/ekf")]
