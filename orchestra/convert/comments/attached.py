@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from orchestra.description.entity import Action
 
 _OPENING = (":", "[", "(", "{", "-")
+_CLOSING = ")]}, "
 
 
 def attached(original: Original, actions: Sequence[Action]) -> Comments:
@@ -34,7 +35,7 @@ def attached(original: Original, actions: Sequence[Action]) -> Comments:
     at_end: list[str] = []
     end = 0
     for comment in scan.comments:
-        anchor, beside = _anchor(comment, ordered)
+        anchor, beside = _anchor(comment, ordered, in_code=original.language == "python")
         if comment.line < scan.content:
             header += [*([""] if header and comment.line > end + 1 else []), *comment.lines]
         elif anchor is None:
@@ -46,16 +47,22 @@ def attached(original: Original, actions: Sequence[Action]) -> Comments:
     return kept
 
 
-def _anchor(comment: Comment, ordered: Sequence[Anchor]) -> tuple[Anchor | None, bool]:
-    """Return what a comment stands with, and whether it does so at the end of its line."""
+def _anchor(comment: Comment, ordered: Sequence[Anchor], *, in_code: bool) -> tuple[Anchor | None, bool]:
+    """Return what a comment stands with, and whether it does so at the end of its line.
+
+    Nothing of the description need begin on a line of code: a comment there is on what follows.
+    """
     following = next((anchor for anchor in ordered if anchor.line > comment.end_line), None)
     if not comment.behind:
         return following, False
     on_line = next((anchor for anchor in ordered if anchor.line == comment.line), None)
     if on_line is not None:
         return on_line, True
-    if comment.behind.endswith(_OPENING) and following is not None:
+    closes = not comment.behind.strip(_CLOSING)
+    if (comment.behind.endswith(_OPENING) or (in_code and not closes)) and following is not None:
         return following, False
+    if in_code and not closes:
+        return None, False
     before = [anchor for anchor in ordered if anchor.line < comment.line]
     return (before[-1], True) if before else (following, False)
 

@@ -63,12 +63,10 @@ def a_list(items: Iterable[Code]) -> Bracket:
 
 def quoted(text: str) -> str:
     """Return the literal of a text: in double quotes unless that takes more backslashes."""
-    literal = ascii(text) if not text.isprintable() else repr(text)
-    if literal.startswith('"'):
-        return literal
-    if '"' in text:
-        return literal
-    return '"' + literal[1:-1].replace("\\'", "'") + '"'
+    literal = repr(text)
+    inner = literal[1:-1] if literal[0] == '"' else literal[1:-1].replace("\\'", "'")
+    quote = "'" if text.count('"') > text.count("'") else '"'
+    return f"{quote}{inner.replace(quote, chr(92) + quote)}{quote}"
 
 
 def string(text: str) -> Atom:
