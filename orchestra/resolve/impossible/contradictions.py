@@ -19,8 +19,8 @@ def held(template: Template, run: Resolution, *, truth: bool) -> Held | None:
     """Return what a condition that has just been found true says; None for one that other code decides."""
     names = variables_in(template)
     form, truth, compared = _simplified(template, truth=truth)
-    if form is None or names is None:
-        return None
+    if form is None or not names:
+        return None  # constants are how people switch something off
     values = tuple((name, _value(name, run)) for name in sorted(names))
     return Held(form, truth, compared, values, run.at(template.span))
 
