@@ -28,6 +28,10 @@ PACKAGES: Final = (
     "launch.utilities",
     "launch.frontend",
 )
+# Modules of one class each, easily taken for the package of many: `launch.substitution` for `launch.substitutions`.
+_FEW: Final = frozenset(
+    f"launch.{name}" for name in ("action", "condition", "event", "event_handler", "substitution")
+)
 
 
 def borrowing(module: str) -> Callable[[str], Any]:
@@ -36,6 +40,8 @@ def borrowing(module: str) -> Callable[[str], Any]:
     Packages tell what they export, so that only single modules borrow: `launch_ros.actions.node.ParameterFile`.
     """
     packages = [name for name in PACKAGES if module.startswith(f"{ROOM}.launch_ros") or "_ros" not in name]
+    if module.removeprefix(f"{ROOM}.") in _FEW:
+        packages = ["launch"]
 
     def attribute(name: str) -> Any:
         for package in () if name.startswith("_") else packages:

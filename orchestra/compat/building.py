@@ -48,13 +48,14 @@ class Described(ModelledAction):
         return self._model
 
 
-def models_of(entities: Iterable[Any], place: Place) -> tuple[Model, ...]:
-    """Return the models of the entities that stand at a place.
+def models_of(entities: Iterable[Any], place: Place, argument: str = "actions") -> tuple[Model, ...]:
+    """Return the models of the entities that stand at a place, as an argument of the call there.
 
     One that has none stays opaque: the visit tells why, at its own place. Raises `TypeError` for what is no iterable.
     """
     if not isinstance(entities, Iterable):
-        raise TypeError(f"a list of actions is expected here, this is {told(entities)}")
+        told_so = f"a list of actions is expected here, this is {told(entities)}"
+        raise WrongType(told_so, entities, at=place.at(argument))
     known = list(entities)
     return tuple(_model_or_opaque(known, index, place) for index in range(len(known)))
 

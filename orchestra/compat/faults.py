@@ -9,17 +9,18 @@ from typing import TYPE_CHECKING
 
 from orchestra.compat.ament_index_python.packages import PackageNotFoundError
 from orchestra.compat.explanation import Explanation, in_their_words
-from orchestra.compat.place import Place, is_own, shown
+from orchestra.compat.place import Place, is_own
 from orchestra.compat.refusing import Refusing
 from orchestra.compat.seam import debugging
+from orchestra.compat.syntax_errors import span_of_syntax
 from orchestra.compat.wrong import WrongValue
 from orchestra.errors import Code, Problem
-from orchestra.location import Span
 
 if TYPE_CHECKING:
     from types import TracebackType
 
     from orchestra.errors import Problems
+    from orchestra.location import Span
 
 _PYTHON = sysconfig.get_path("stdlib")
 _INSTALLED = tuple({sysconfig.get_path("purelib"), sysconfig.get_path("platlib")})
@@ -36,7 +37,7 @@ def report(error: BaseException, problems: Problems, chain: tuple[Span, ...], fa
     calls = _calls(error.__traceback__)
     spans = [Place(call.tb_frame.f_code, call.tb_lasti).span for call in calls]
     if isinstance(error, SyntaxError) and not (error.filename or "<").startswith("<"):
-        spans.append(_syntax(error))
+        spans.append(span_of_syntax(error))
     explanation = _explained(error, calls[-1] if calls else None)
     at = explanation.span or (spans[-1] if spans else fallback)
     callers = list(dict.fromkeys(f"called at {span}" for span in spans[-2::-1]))
@@ -73,13 +74,6 @@ def _calls(traceback: TracebackType | None) -> list[TracebackType]:
     return own or installed[-1:]
 
 
-def _syntax(error: SyntaxError) -> Span:
-    line, column = error.lineno or 1, max(error.offset or 1, 1)
-    end_line, end_column = error.end_lineno or line, error.end_offset or column
-    end_line, end_column = max((end_line, end_column), (line, column))
-    return Span(shown(str(error.filename)), line, column, end_line, end_column)
-
-
 def _explained(error: BaseException, call: TracebackType | None) -> Explanation:
     """Return what the exception means; what Python says of it where nothing better is known."""
     found = None if call is None else _better(error, call)
@@ -97,7 +91,13 @@ def _explained(error: BaseException, call: TracebackType | None) -> Explanation:
 
 def _better(error: BaseException, call: TracebackType) -> Explanation | None:
     # Here, because only mistakes need them, and what they import.
-    from orchestra.compat import missing_packages, refused_calls, too_early, unknown_names  # noqa: PLC0415
+    from orchestra.compat import (  # noqa: PLC0415
+        missing_keys,
+        missing_packages,
+        refused_calls,
+        too_early,
+        unknown_names,
+    )
 
     frame, place = call.tb_frame, Place(call.tb_frame.f_code, call.tb_lasti)
     match error:
@@ -107,6 +107,8 @@ def _better(error: BaseException, call: TracebackType) -> Explanation | None:
             return unknown_names.not_in_module(error, place)
         case TypeError():
             return refused_calls.explained(error, frame, place) or too_early.explained(error)
+        case KeyError():
+            return missing_keys.explained(frame, place)
         case NameError() if call.tb_next is None:
             return unknown_names.unbound(error, frame, place)
         case AttributeError() if call.tb_next is None or isinstance(error.obj, ModuleType | Refusing):

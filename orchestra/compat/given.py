@@ -9,14 +9,16 @@ from orchestra.compat.place import Key, is_own
 from orchestra.compat.wrong import WrongValue
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
     from types import FrameType
 
     from orchestra.compat.place import Step
 
 _DEPTH: Final = 8
-_VIEWS: Final = (type({}.items()), list, tuple)
-_ATOMS: Final = (str, bytes, int, float, type(None))
+_View: Final[type[Any]] = type({}.items())
+_VIEWS: Final = (_View, list, tuple)
+_NOTHING: Final = object()
+_CONTAINERS: Final = (list, tuple, dict)
 
 
 def path_of(
@@ -32,12 +34,11 @@ def path_of(
     held: list[Any] = []
     for frame in _frames(error):
         for value in _arguments(frame):
-            if isinstance(value, _ATOMS):
-                held.append(value)
-                continue
-            inside = next(_places(value, given, around), None)
+            inside = next(_places(value, given, around), None) if isinstance(value, _CONTAINERS) else None
             if inside is not None:
                 around, held = inside, [value]
+            else:
+                held.append(value)
     if isinstance(error, WrongValue):
         held.append(error.value)
     for value in reversed(held):
@@ -47,30 +48,47 @@ def path_of(
     return None
 
 
-def without(given: Mapping[str, Any], path: tuple[Step, ...]) -> dict[str, Any]:
-    """Return what was given without the value at a place; of a tuple nothing can be left out but all of it."""
-    changed = dict(given)
-    rest = _left(changed[str(path[0])], path[1:])
-    if rest is None:
-        del changed[str(path[0])]
-    else:
-        changed[str(path[0])] = rest
-    return changed
+def without(given: Mapping[str, Any], paths: Iterable[tuple[Step, ...]]) -> dict[str, Any]:
+    """Return what was given without the values at some places.
+
+    An entry of a dictionary goes with all that is in it, and so does a tuple; what is empty then goes too.
+    """
+    cuts = {_cut(path, given) for path in paths if path}
+    kept = {name: _left(value, (name,), cuts) for name, value in given.items()}
+    return {name: value for name, value in kept.items() if value is not _NOTHING}
 
 
-def _left(value: Any, path: tuple[Step, ...]) -> Any:
-    """Return a value without what stands at a path in it; None where nothing of it can be left."""
-    if not path or not isinstance(value, list | Mapping | type({}.items())):
-        return None
-    step, items = int(path[0]), list(value.items() if isinstance(value, Mapping) else value)
-    if isinstance(value, list):
-        inner = _left(items[step], path[1:])
-    else:
-        name, item = items[step]
-        inner = None if isinstance(path[0], Key) else _left(item, path[1:])
-        inner = None if inner is None else (name, inner)
-    items[step : step + 1] = [] if inner is None else [inner]
-    return items if isinstance(value, list) else dict(items)
+def _cut(path: tuple[Step, ...], given: Mapping[str, Any]) -> tuple[Step, ...]:
+    """Return the place of the smallest thing that can be left out to have a value left out."""
+    value: Any = given[str(path[0])]
+    found = path[:2]
+    for index, step in enumerate(path[1:], start=2):
+        if isinstance(value, Mapping | _View):
+            found = (*path[: index - 1], int(step))
+        value = _at(value, step)
+    return found
+
+
+def _at(value: Any, step: Step) -> Any:
+    if isinstance(value, Mapping):
+        return list(value.values())[int(step)]
+    return list(value)[int(step)] if isinstance(value, list | tuple | _View) else None
+
+
+def _left(value: Any, path: tuple[Step, ...], cuts: set[tuple[Step, ...]]) -> Any:
+    """Return what is left of a value at a place."""
+    if path in cuts:
+        return _NOTHING
+    if not any(cut[: len(path)] == path for cut in cuts):
+        return value
+    if isinstance(value, Mapping | _View):
+        pairs = list(value.items() if isinstance(value, Mapping) else value)
+        kept = [(name, _left(item, (*path, index), cuts)) for index, (name, item) in enumerate(pairs)]
+        return {name: item for name, item in kept if item is not _NOTHING} or _NOTHING
+    items = [_left(item, (*path, index), cuts) for index, item in enumerate(value)]
+    if isinstance(value, tuple) and _NOTHING in items:
+        return _NOTHING
+    return [item for item in items if item is not _NOTHING] or _NOTHING
 
 
 def _frames(error: BaseException) -> Iterator[FrameType]:

@@ -14,6 +14,7 @@ _Parameter = inspect.Parameter
 # Words of other languages of launch files, of former releases, and what people write for them.
 _MEANINGS: Final = {
     "args": ("arguments",),
+    "command": ("cmd", "command"),
     "default": ("default_value", "default"),
     "env": ("additional_env",),
     "exec": ("executable",),
@@ -38,9 +39,14 @@ def keyword_meant(written: str, known: Mapping[str, inspect.Parameter], given: I
     for meaning in _MEANINGS.get(written, ()):
         if meaning in known:
             return meaning
+    word = nearest(written, [word for word, meanings in _MEANINGS.items() if known.keys() & set(meanings)])
     have = set(given)
     missing = [name for name, item in known.items() if item.default is _Parameter.empty and name not in have]
-    return nearest(written, missing) or nearest(written, known)
+    return (
+        nearest(written, known)
+        or nearest(written, missing)
+        or next((meaning for meaning in _MEANINGS.get(word or "", ()) if meaning in known), None)
+    )
 
 
 def shown(known: Mapping[str, inspect.Parameter]) -> str:

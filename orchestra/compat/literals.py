@@ -25,7 +25,7 @@ def keyword(place: Place, name: str) -> Literal:
 
 
 def argument(place: Place, path: Sequence[Step]) -> Literal:
-    """Return where an argument of the call at a place stands, or what it holds; what is around it where that has none."""
+    """Return where an argument of the call at a place stands, or what it holds; else what is around that."""
     tree, call = tree_of(place.file), call_at(place)
     node = None if call is None or tree is None else _argument(call, str(path[0]), place, tree)
     found = Literal(place.file, node, place.span, tree)
@@ -65,9 +65,11 @@ def argument_span(place: Place, text: str) -> Span | None:
 def keyword_span(place: Place, name: str) -> Span | None:
     """Return where the name of a keyword stands, in the call or in the literal of a mapping that it spreads."""
     call, tree = call_at(place), tree_of(place.file)
-    for item in () if call is None else call.keywords:
+    keywords = [] if call is None else call.keywords
+    for item in keywords:
         if item.arg == name:
             return node_span(place.file, item)
+    for item in keywords:
         if item.arg is None:
             found = Literal(place.file, item.value, place.span, tree).entry(name)[0]
             if found is not None:
@@ -147,12 +149,10 @@ class Literal:
             for item in node.keywords:
                 if item.arg == key:
                     return item, item.value
-        if isinstance(node, ast.List | ast.Tuple):  # pairs
-            for pair in node.elts:
-                match pair:
-                    case ast.Tuple(elts=[first, value]) | ast.List(elts=[first, value]):
-                        if isinstance(first, ast.Constant) and first.value == key:
-                            return first, value
+        pairs = node.elts if isinstance(node, ast.List | ast.Tuple) else []
+        for first, value in map(_sides, pairs):
+            if isinstance(first, ast.Constant) and first.value == key:
+                return first, value
         return None, None
 
     def _pair(self, index: int) -> tuple[ast.expr | None, ast.expr] | None:
@@ -163,10 +163,7 @@ class Literal:
             return None
         if isinstance(node, ast.Dict):
             return node.keys[index], node.values[index]
-        match items[index]:
-            case ast.Tuple(elts=[name, value]) | ast.List(elts=[name, value]):
-                return name, value
-        return items[index], items[index]
+        return _sides(items[index])
 
     def _inside(self, node: ast.expr | None) -> Literal:
         return Literal(self.file, node, self.span, self._tree)
@@ -216,6 +213,14 @@ def _texts_in(node: ast.AST, tree: Tree) -> Iterator[ast.Constant]:
             waiting.extend(ast.iter_child_nodes(found))
 
 
+def _sides(pair: ast.expr) -> tuple[ast.expr, ast.expr]:
+    """Return the two expressions of a pair; of anything else the whole twice."""
+    match pair:
+        case ast.Tuple(elts=[name, value]) | ast.List(elts=[name, value]):
+            return name, value
+    return pair, pair
+
+
 def _split(key: str) -> Iterator[tuple[str, str, str]]:
     """Yield the ways to split a key at a dot."""
     for index, character in enumerate(key):
@@ -226,8 +231,7 @@ def _split(key: str) -> Iterator[tuple[str, str, str]]:
 def _argument(call: ast.Call, name: str, place: Place, tree: Tree) -> ast.expr | None:
     """Return the expression of an argument: by its keyword, in a mapping that is spread, or by its position."""
     if name.startswith("*"):
-        index = int(name[1:])
-        return call.args[index] if index < len(call.args) else None
+        return call.args[int(name[1:])] if int(name[1:]) < len(call.args) else None
     for item in call.keywords:
         if item.arg == name:
             return item.value

@@ -114,8 +114,8 @@ def span_in(file: str, positions: _Positions) -> Span:
     line = line or 1
     if column is None or end_column is None or end_line is None:
         return Span(shown(file), line, 1, line, 1)
-    begin = _code_points(file, line, column)
-    return Span(shown(file), line, begin + 1, end_line, _code_points(file, end_line, end_column) + 1)
+    begin = code_points(file, line, column)
+    return Span(shown(file), line, begin + 1, end_line, code_points(file, end_line, end_column) + 1)
 
 
 def shown(file: str) -> str:
@@ -132,7 +132,7 @@ def _positions(code: CodeType, index: int) -> _Positions:
     return next(islice(code.co_positions(), index, None), (None, None, None, None))
 
 
-def _code_points(file: str, line: int, offset: int) -> int:
+def code_points(file: str, line: int, offset: int) -> int:
     """Return a column in code points for one in bytes of UTF-8, as the compiler counts."""
     text = linecache.getline(file, line)
     if text.isascii():

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import inspect
 import re
 from typing import TYPE_CHECKING, Any, Final
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.compat.explanation import Explanation
 from orchestra.compat.keywords import keyword_meant, parameters_of, shown
 from orchestra.compat.literals import argument, call_at, keyword_span
+from orchestra.compat.names_in_frames import value_of
 from orchestra.errors import Code
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ _Parameter = inspect.Parameter
 def explained(error: TypeError, frame: FrameType, place: Place) -> Explanation | None:
     """Return what is wrong with the arguments of a call; None where the fault is another."""
     call = call_at(place)
-    called = None if call is None else _value_of(call.func, frame)
+    called = None if call is None else value_of(call.func, frame)
     if call is None or not _is_about(error, called):
         return None
     name: str = getattr(called, "__name__", "it")
@@ -77,19 +77,3 @@ def _missing(error: TypeError, name: str, parameters: dict[str, Any], place: Pla
         notes = (f"it is written {name}({shown(parameters)})",)
         return Explanation(message, Code.WRONG_TYPE, argument(place, (f"*{by_place}",)).span, notes=notes)
     return None
-
-
-def _value_of(expression: ast.expr, frame: FrameType) -> Any:
-    """Return what a name, or an attribute of one, stands for in a frame; None for anything else.
-
-    `super().__init__` stands for the class of ours that the object in construction derives from.
-    """
-    if ast.unparse(expression) == "super().__init__":
-        made = frame.f_locals.get(frame.f_code.co_varnames[0])
-        kinds = type(made).__mro__
-        return next((kind for kind in kinds if kind.__module__.startswith("orchestra.compat.")), None)
-    if isinstance(expression, ast.Attribute):
-        return getattr(_value_of(expression.value, frame), expression.attr, None)
-    if not isinstance(expression, ast.Name):
-        return None
-    return frame.f_locals.get(expression.id, frame.f_globals.get(expression.id))

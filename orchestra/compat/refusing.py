@@ -1,7 +1,7 @@
-"""Classes whose objects are made by launch files: wrong arguments are reported where the call stands, and code goes on.
+"""Classes whose objects launch files make: wrong arguments are reported where they stand, and code goes on.
 
-So one mistake does not hide the next. Where code catches exceptions itself, or nobody collects problems, they are raised
-as upstream does.
+So one mistake does not hide the next. Where code catches exceptions itself, or nobody collects problems, they are
+raised as upstream does.
 """
 
 from __future__ import annotations
@@ -12,23 +12,16 @@ from functools import wraps
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.place import is_own
+from orchestra.compat.reported import ReportedError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-    from orchestra.errors import Problem, Problems
+    from orchestra.errors import Problems
     from orchestra.location import Span
 
 _ROOM: Final = __name__.rpartition(".")[0] + "."
 _collectors: list[tuple[Problems, tuple[Span, ...]]] = []
-
-
-class ReportedError(RuntimeError):
-    """Stops user code for a fault that has been reported, or will be with `problems`."""
-
-    def __init__(self, message: str, problems: tuple[Problem, ...] = ()) -> None:
-        super().__init__(message)
-        self.problems = problems
 
 
 @contextmanager
@@ -42,7 +35,7 @@ def collecting(problems: Problems, chain: tuple[Span, ...]) -> Iterator[None]:
 
 
 class Refusing:
-    """The root of such classes. `_refused` objects lack something that was wrong, `_lost` ones cannot be used at all."""
+    """The root of such classes. `_refused` ones lack something that was wrong, `_lost` ones cannot be used at all."""
 
     _refused = False
 
@@ -50,7 +43,7 @@ class Refusing:
         super().__init_subclass__(**keywords)
         constructor = vars(cls).get("__init__")
         if constructor is not None and cls.__module__.startswith(_ROOM):
-            cls.__init__ = _refusing(constructor)  # type: ignore[misc] # the same signature
+            cls.__init__ = _refusing(constructor)  # type: ignore[method-assign] # the same signature
 
     if not TYPE_CHECKING:  # else any attribute would be one
 

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.literals import Literal, argument
 from orchestra.compat.place import Argument
-from orchestra.compat.source_text import quoted_in, text_at
+from orchestra.compat.source_text import quoted_in, text_at, word_in
 from orchestra.compat.syntax_trees import tree_of
 from orchestra.errors import Code
 from orchestra.nearest import nearest
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from orchestra.errors import Problem
     from orchestra.location import Span
 
+_PERFORMED: Final = (Code.BAD_EXPRESSION, Code.COMMAND_FAILED)
+_UNDEFINED: Final = re.compile(r"name '(\w+)' is not defined")
 _BETWEEN: Final = re.compile(r"[\s()$]+")
 
 
@@ -36,9 +38,7 @@ def in_place(problem: Problem) -> Problem:
     if isinstance(span, Argument):
         problem = replace(problem, span=found.span)
     if meant is None:
-        return (
-            replace(problem, span=_missing(problem, found)) if problem.code is Code.MISSING_FILE else problem
-        )
+        return replace(problem, span=_narrower(problem, found))
     wrong = _wrong(found, meant)
     if wrong is None:
         return replace(problem, suggestion=None, notes=(*problem.notes, f"did you mean '{meant}'?"))
@@ -61,10 +61,18 @@ def _found(span: Span) -> Literal:
     return Literal(file, None if is_name else node, span, tree)
 
 
-def _missing(problem: Problem, found: Literal) -> Span:
-    """Return where the last part of the path stands that a message tells of."""
-    name = problem.message.rpartition("/")[2].rpartition(" ")[2].strip("'")
-    return found.texts.get(name, found.span)
+def _narrower(problem: Problem, found: Literal) -> Span:
+    """Return where the last part of a path stands that is not there, the text of an expression, or a name in it."""
+    if problem.code is Code.MISSING_FILE:
+        name = problem.message.rpartition("/")[2].rpartition(" ")[2].strip("'")
+        return found.texts.get(name, problem.span or found.span)
+    if problem.code in _PERFORMED and isinstance(found.node, ast.Call):
+        texts = found.texts
+        if len(texts) == 1:
+            (span,) = texts.values()
+            told = _UNDEFINED.search(problem.message)
+            return (None if told is None else word_in(found.file, span, told[1])) or span
+    return problem.span or found.span
 
 
 def _wrong(found: Literal, meant: str) -> tuple[Span, str] | None:
@@ -87,7 +95,7 @@ def _replaced(texts: dict[str, Span], meant: str) -> Iterator[tuple[Span, str]]:
     `meant` may be a whole path, of which a text is a part.
     """
     near = nearest(meant, texts)
-    if near is not None:
+    if near is not None and "$(" not in meant and near.count("/") == meant.count("/"):
         yield texts[near], meant
     for text, place in texts.items():
         if text in meant:

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
     from orchestra.location import Span
 
-_Function: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef
+Function: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef
 _Range: TypeAlias = tuple[int, int, int, int]
 _RAISED: Final = frozenset({"BaseException", "Exception", "RuntimeError", "TypeError", "ValueError"})
 
@@ -36,16 +36,16 @@ class Tree:
                 return node
         return None
 
-    def functions_around(self, node: ast.AST) -> Iterator[_Function]:
+    def functions_around(self, node: ast.AST) -> Iterator[Function]:
         """Yield the functions that a node stands in, innermost first."""
         place = _range(node)
-        around = [item for item in self.nodes if isinstance(item, _Function) and _holds(_range(item), place)]
+        around = [item for item in self.nodes if isinstance(item, Function) and _holds(_range(item), place)]
         yield from sorted(around, key=_range, reverse=True)
 
-    def function(self, name: str, line: int) -> _Function | None:
+    def function(self, name: str, line: int) -> Function | None:
         """Return a function by its name, and the line where it or its first decorator stands."""
         for node in self.nodes:
-            if isinstance(node, _Function) and node.name == name:
+            if isinstance(node, Function) and node.name == name:
                 lines = (node.lineno, *(item.lineno for item in node.decorator_list))
                 if line in lines:
                     return node
@@ -79,7 +79,7 @@ class Tree:
         """Return what is assigned to a name in the innermost scope that sets it, None unless that is done once."""
         for scope in (*self.functions_around(name), self.module):
             set_here = [node for node in _of_scope(scope) if _sets(node, name.id)]
-            if isinstance(scope, _Function) and name.id in _parameters(scope):
+            if isinstance(scope, Function) and name.id in _parameters(scope):
                 return None
             if set_here:
                 return _value_of(set_here[0], name.id) if len(set_here) == 1 else None
@@ -134,18 +134,18 @@ def _holds(outer: _Range, inner: _Range) -> bool:
     return begins and (inner[1], inner[3]) <= (outer[1], outer[3])
 
 
-def _of_scope(scope: _Function | ast.Module) -> Iterator[ast.AST]:
+def _of_scope(scope: Function | ast.Module) -> Iterator[ast.AST]:
     """Yield what stands in a scope, without what is in functions and classes inside of it."""
     waiting: list[ast.AST] = list(scope.body)
     while waiting:
         node = waiting.pop(0)
         yield node
-        if not isinstance(node, _Function | ast.ClassDef | ast.Lambda):
+        if not isinstance(node, Function | ast.ClassDef | ast.Lambda):
             waiting.extend(ast.iter_child_nodes(node))
 
 
 def _sets(node: ast.AST, name: str) -> bool:
-    if isinstance(node, _Function | ast.ClassDef):
+    if isinstance(node, Function | ast.ClassDef):
         return node.name == name
     if isinstance(node, ast.Import | ast.ImportFrom):
         return any((item.asname or item.name) == name for item in node.names)
@@ -177,7 +177,7 @@ def _value_of(node: ast.AST, name: str) -> ast.expr | None:
     return None
 
 
-def _parameters(function: _Function) -> set[str]:
+def _parameters(function: Function) -> set[str]:
     given = function.args
     every = (*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg)
     return {item.arg for item in every if item is not None}

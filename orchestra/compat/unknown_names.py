@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.compat.borrowed import PACKAGES, ROOM
 from orchestra.compat.explanation import Explanation
 from orchestra.compat.source_text import word_in
-from orchestra.nearest import nearest
+from orchestra.nearest import is_slip, nearest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -24,6 +24,8 @@ if TYPE_CHECKING:
 _BESIDE: Final = (
     "it is beside the launch file, where Python does not look: sys.path.insert(0, os.path.dirname(__file__))"
 )
+# What the interpreter adds for people at its prompt.
+_OF_THE_PROMPT: Final = frozenset({"copyright", "credits", "exit", "help", "license", "quit"})
 _IMPORTED: Final = re.compile(r"cannot import name '(\w+)'")
 
 
@@ -31,13 +33,19 @@ def unbound(error: NameError, frame: FrameType, place: Place) -> Explanation | N
     """Explain a name that nobody has defined or imported."""
     if not error.name:
         return None
-    known = {*frame.f_locals, *frame.f_globals, *vars(builtins)}
     exporting = _exporting(error.name)
-    meant = None if exporting else nearest(error.name, (name for name in known if not name.startswith("_")))
+    meant = None if exporting else _meant(error.name, frame)
     notes = tuple(f"to have it, write: from {package} import {error.name}" for package in exporting[:1])
     return Explanation(
         f"there is no name '{error.name}' here", span=place.span, suggestion=meant, notes=notes
     )
+
+
+def _meant(name: str, frame: FrameType) -> str | None:
+    """Return the name that was meant: one of the user's own, or one of Python's that this is a slip for."""
+    own = nearest(name, _public(frame.f_locals)) or nearest(name, _public(frame.f_globals))
+    known = nearest(name, _public(vars(builtins).keys() - _OF_THE_PROMPT))
+    return own if own is not None or known is None or not is_slip(name, known) else known
 
 
 def not_in_module(error: ImportError, place: Place) -> Explanation | None:
@@ -51,12 +59,13 @@ def not_in_module(error: ImportError, place: Place) -> Explanation | None:
 
 def no_attribute(error: AttributeError, place: Place) -> Explanation | None:
     """Explain an attribute that an object does not have."""
-    if not error.name or error.obj is None:
+    if not error.name or (error.obj is None and "'NoneType'" not in str(error)):
         return None
     if isinstance(error.obj, type(sys)):
         return _no_name(error.name, error.obj, place)
     meant = nearest(error.name, _public(dir(error.obj)))
     kind = error.obj.__name__ if isinstance(error.obj, type) else type(error.obj).__name__
+    kind = "None" if error.obj is None else kind
     message = f"{kind} has no attribute '{error.name}'"
     span = word_in(place.file, place.span, error.name)
     return Explanation(message, span=span, suggestion=meant if span is not None else None)
@@ -65,6 +74,9 @@ def no_attribute(error: AttributeError, place: Place) -> Explanation | None:
 def _no_name(name: str, module: ModuleType, place: Place) -> Explanation:
     module_name = module.__name__.removeprefix(f"{ROOM}.")
     elsewhere = [package for package in _exporting(name) if package != module_name]
+    other = word_in(place.file, place.span, module_name)
+    if elsewhere and other is not None and is_slip(module_name, elsewhere[0]):
+        return Explanation(f"{module_name} has no '{name}'", span=other, suggestion=elsewhere[0])
     notes = tuple(f"it is in {package}" for package in elsewhere[:1])
     meant = None if elsewhere else nearest(name, _public(getattr(module, "__all__", dir(module))))
     span = word_in(place.file, place.span, name)

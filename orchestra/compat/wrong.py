@@ -42,5 +42,9 @@ class WrongType(WrongValue, TypeError):
     """Where upstream raises `TypeError`."""
 
 
+class WrongNumber(WrongValue, ValueError):
+    """Where upstream raises `ValueError`."""
+
+
 class WrongRuntime(WrongValue, RuntimeError):
     """Where upstream raises `RuntimeError`."""

@@ -21,6 +21,7 @@ from orchestra.compat.explanation import told
 from orchestra.compat.launch.launch_description import LaunchDescription
 from orchestra.compat.refusing import collecting, is_lost
 from orchestra.compat.seam import connection
+from orchestra.compat.wrong import WrongType
 from orchestra.description.actions.opaque import OpaqueAction
 from orchestra.description.launch import Description
 from orchestra.description.text import Template, Words
@@ -37,6 +38,7 @@ if TYPE_CHECKING:
 
 FUNCTION: Final = "generate_launch_description"
 _MODULE: Final = "python_launch_file"
+_OTHERS: Final = (".xml", ".yaml", ".yml")
 
 
 def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Description | None:
@@ -60,6 +62,15 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
         raise
     except BaseException as error:  # noqa: BLE001 - the boundary of user code
         found = Problems()
+        if (
+            isinstance(error, SyntaxError)
+            and error.filename == path
+            and path.endswith(_OTHERS)
+            and included_from
+        ):
+            told_so = f"{file} is no launch file in Python: AnyLaunchDescriptionSource reads it"
+            problems.error(Code.UNKNOWN_FORMAT, told_so, Location(included_from[0], included_from[1:]))
+            return None
         faults.report(error, found, included_from, at)
         problems.extend(found if included_from else map(_grave, found))
         return None
@@ -71,8 +82,35 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
             path, file, (OpaqueAction.at(at, target=made, origin=made),), _deprecated(made, at)
         )
     message, *notes = _undescribed(module, made, file)
-    problems.error(Code.NO_DESCRIPTION, message, Location(at, included_from), notes=notes)
+    where, meant = _undescribed_at(module, made, at)
+    problems.error(
+        Code.NO_DESCRIPTION, message, Location(where, included_from), suggestion=meant, notes=notes
+    )
     return None
+
+
+def _undescribed_at(module: ModuleType, made: object, at: Span) -> tuple[Span, str | None]:
+    """Return where it stands that nothing is described, and what should stand there."""
+    # Here, because only mistakes need it, and what it imports.
+    from orchestra.compat.functions import name_of, returned_by  # noqa: PLC0415
+
+    if made is module:
+        meant = _meant(module)
+        span = None if meant is None else name_of(meant)
+        return (at, None) if span is None else (span, FUNCTION)
+    generate = getattr(module, FUNCTION, None)
+    if isinstance(made, CoroutineType):
+        return name_of(generate) or at, None
+    returned = returned_by(generate, made)
+    return (at if returned is None else returned.whole), None
+
+
+def _meant(module: ModuleType) -> FunctionType | None:
+    """Return the function of the file whose name is a slip for the one that is wanted."""
+    functions = (item for item in vars(module).values() if isinstance(item, FunctionType))
+    own = {item.__name__: item for item in functions if item.__code__.co_filename == module.__file__}
+    meant = nearest(FUNCTION, own)
+    return None if meant is None else own[meant]
 
 
 def _unreadable(path: str) -> str | None:
@@ -126,7 +164,10 @@ def _made(module: ModuleType) -> Any:  # noqa: ANN401 - whatever the user's func
     generate = getattr(module, FUNCTION, None)
     if generate is not None:
         if _needs_arguments(generate):
-            raise TypeError(f"{FUNCTION} is called without arguments: an OpaqueFunction is given the context")
+            from orchestra.compat.functions import name_of  # noqa: PLC0415 - only mistakes need it
+
+            told_so = f"{FUNCTION} is called without arguments: an OpaqueFunction is given the context"
+            raise WrongType(told_so, at=name_of(generate))
         return generate()
     tested = description_in(module)
     return module if tested is None else tested
@@ -148,10 +189,9 @@ def _definition(module: ModuleType, otherwise: Span) -> Span:
 def _undescribed(module: ModuleType, made: object, file: str) -> tuple[str, ...]:
     """Return why nothing is described, and what may help."""
     if made is module:
-        functions = (item for item in vars(module).values() if isinstance(item, FunctionType))
-        names = [item.__name__ for item in functions if item.__code__.co_filename == module.__file__]
-        meant = nearest(FUNCTION, names)
-        return (f"{file} has no function {FUNCTION}()", *([] if meant is None else [f"it has {meant}()"]))
+        meant = _meant(module)
+        told_so = f"{file} has no function {FUNCTION}()"
+        return (told_so, *([] if meant is None else [f"it has {meant.__name__}()"]))
     if made is None:
         return (f"{FUNCTION}() returns nothing: its `return` is missing",)
     if isinstance(made, CoroutineType):

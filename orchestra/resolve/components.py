@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from orchestra.errors import Severity
 from orchestra.resolve.context import Poison, Value
 from orchestra.resolve.interpret import wanted
 from orchestra.resolve.model import ResolvedComponent
@@ -13,6 +14,7 @@ from orchestra.resolve.node_names import named
 from orchestra.resolve.parameters import parameters
 from orchestra.resolve.params_schema import params_schema
 from orchestra.resolve.reactions import ResolvedLoad
+from orchestra.resolve.refusals import missing_package, report_missing_package
 from orchestra.resolve.remapping import remaps
 
 if TYPE_CHECKING:
@@ -48,10 +50,23 @@ def add_components(
         run.found.components.append(component)
 
 
+def _package(written: ComposableNode, run: Resolution) -> str | Poison | None:
+    """Return the package of a component; one that is a slip for a package that is here is reported.
+
+    Any other may be on the machine of its container.
+    """
+    package, packages = run.text(written.pkg), run.context.packages
+    if isinstance(package, str) and packages.prefix(package) is None:
+        missing = missing_package(package, packages.names(), launching=False)
+        if missing.severity is Severity.ERROR:
+            return report_missing_package(package, written.pkg, run.context)
+    return package
+
+
 def _component(
     written: ComposableNode, container: Container, run: Resolution, *, delayed: bool
 ) -> ResolvedComponent:
-    package, plugin = run.text(written.pkg), run.text(written.plugin)
+    package, plugin = _package(written, run), run.text(written.plugin)
     name, namespace = named(written.name, run), namespace_at(written.namespace, written.span, run)
     own, whole = parameters(written.param, run, component=True)
     extra, told = parameters(written.extra_arg, run, component=True, quotes=False)

@@ -92,7 +92,7 @@ def test_a_slip_is_an_error_with_the_name_that_was_meant(tmp_path: Path, call: s
 
 
 def test_what_was_meant_is_a_note_where_the_name_comes_from_elsewhere(tmp_path: Path) -> None:
-    text = f"NAME = 'demoo'\nSHARE = get_package_share_directory(NAME)\n{_NOTHING}"
+    text = f"NAME = 'demo'.replace('m', 'mm')\nSHARE = get_package_share_directory(NAME)\n{_NOTHING}"
     (problem,) = _problems(tmp_path, text, launching=False)
     assert problem.suggestion is None
     assert problem.notes == ("did you mean 'demo'?",)

@@ -175,13 +175,15 @@ _FUNCTION = {
         Code.NO_DESCRIPTION,
     ),
     "an argument": Mistake(
-        "«»def generate_launch_description(context):\n    return LaunchDescription([])",
+        "def «generate_launch_description»(context):\n    return LaunchDescription([])",
         "generate_launch_description is called without arguments",
+        Code.WRONG_TYPE,
     ),
     "a slip in its name": Mistake(
-        "def generate_launch_descripton():\n    return LaunchDescription([])",
+        "def «generate_launch_descripton»():\n    return LaunchDescription([])",
         "has no function generate_launch_description()",
         Code.NO_DESCRIPTION,
+        "generate_launch_description",
         note="it has generate_launch_descripton()",
     ),
 }
@@ -223,16 +225,19 @@ _ENTITIES = {
         Code.WRONG_TYPE,
     ),
     "a text out of a function": Mistake(
-        "def f(context):\n    return ['a']\nreturn LaunchDescription([«OpaqueFunction(function=f)»])",
+        "def f(context):\n    return [«'a'»]\nreturn LaunchDescription([OpaqueFunction(function=f)])",
         "an action is expected here, this is 'a'",
         Code.WRONG_TYPE,
     ),
     "an action out of a function": Mistake(
-        "def f(context):\n    return Node(**TALKER)\nreturn LaunchDescription([«OpaqueFunction(function=f)»])",
+        "def f(context):\n    return «Node(**TALKER)»\nreturn LaunchDescription([OpaqueFunction(function=f)])",
         "f returns a list of actions or None, this is a Node",
+        Code.WRONG_TYPE,
     ),
     "an action instead of a group's list": Mistake(
-        "[«GroupAction(Node(**TALKER))»]", "a list of actions is expected here, this is a Node"
+        "[GroupAction(«Node(**TALKER)»)]",
+        "a list of actions is expected here, this is a Node",
+        Code.WRONG_TYPE,
     ),
     "a node among components": Mistake(
         "[LoadComposableNodes(target_container='/c', composable_node_descriptions=[«Node(**TALKER)»])]",

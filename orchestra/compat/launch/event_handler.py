@@ -10,6 +10,7 @@ from orchestra.compat.explanation import told
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.compat.place import here
 from orchestra.compat.refusing import Refusing
+from orchestra.compat.wrong import WrongType
 from orchestra.description.handlers import Handler
 
 if TYPE_CHECKING:
@@ -109,12 +110,12 @@ def entities_of(entities: Any) -> list[LaunchDescriptionEntity]:
     if entities is None:
         return []
     listed = [entities] if isinstance(entities, LaunchDescriptionEntity) else entities
-    if not isinstance(listed, Iterable):
-        raise TypeError(f"an event handler has a list of actions, not {told(entities)}")
+    if not isinstance(listed, Iterable) or isinstance(listed, str):
+        raise WrongType(f"an event handler has a list of actions, not {told(entities)}", entities)
     found = list(listed)
     for entity in found:
         if not isinstance(entity, LaunchDescriptionEntity):
-            raise TypeError(f"an event handler has actions and other entities, not {told(entity)}")
+            raise WrongType(f"an event handler has actions and other entities, not {told(entity)}", entity)
     return found
 
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.explanation import told
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.compat.place import here
+from orchestra.compat.wrong import WrongType
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
-
     from orchestra.compat.launch.launch_context import LaunchContext
 
 
@@ -22,6 +23,9 @@ class LaunchDescription(LaunchDescriptionEntity):
         *,
         deprecated_reason: str | None = None,
     ) -> None:
+        if initial_entities is not None and not isinstance(initial_entities, Iterable):
+            told_so = f"a list of actions is expected here, this is {told(initial_entities)}"
+            raise WrongType(told_so, path=("initial_entities",))
         self.__entities = list(initial_entities) if initial_entities is not None else []
         self.__deprecated_reason = deprecated_reason
         self._place = here(self)

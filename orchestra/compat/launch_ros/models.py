@@ -9,7 +9,7 @@ from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 from orchestra.compat.launch_ros.utilities.exact import Exact
-from orchestra.compat.place import within
+from orchestra.compat.place import Argument, within
 from orchestra.compat.text import template
 from orchestra.description.parts import Override, Param, Remap
 from orchestra.description.text import Constant, Template
@@ -76,7 +76,8 @@ def _override(parameter: Parameter) -> Override:
 
 def _file(file: ParameterFile, given: Span) -> Param:
     """Return the part for a file; one that was given as a path stands where that does."""
-    span = file._place.at("param_file") if file._place.kind is ParameterFile else given
+    place = file._place
+    span = given if isinstance(given, Argument) and given.place.span == place.span else place.at("param_file")
     allowed: dict[str, Any] = {"allow_substs": template("true", span)} if file.allow_substs else {}
     return Param.at(span, from_=template(file._written, span), **allowed)
 

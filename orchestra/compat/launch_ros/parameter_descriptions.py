@@ -17,6 +17,7 @@ from orchestra.compat.launch.utilities.type_utils import (
 from orchestra.compat.place import here
 from orchestra.compat.refusing import Refusing
 from orchestra.compat.text import normalized
+from orchestra.compat.wrong import WrongType
 
 if TYPE_CHECKING:
     from orchestra.compat.launch.launch_context import LaunchContext
@@ -112,9 +113,9 @@ class ParameterFile(Refusing):
         self.__made: Path | None = None
         self._place = here(self)
         if not isinstance(param_file, str | Substitution | bytes | os.PathLike | Iterable):
-            raise TypeError(f"a parameter file is a path, not {param_file!r}")
+            raise WrongType(f"a parameter file is a path, not {param_file!r}", path=("param_file",))
         if not isinstance(allow_substs, bool):
-            raise TypeError(f"allow_substs is True or False, not {allow_substs!r}")
+            raise WrongType(f"allow_substs is True or False, not {allow_substs!r}", path=("allow_substs",))
         self.__param_file = (
             param_file if isinstance(param_file, bytes | os.PathLike) else normalized(param_file)
         )

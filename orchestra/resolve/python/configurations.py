@@ -9,7 +9,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.place import here
-from orchestra.compat.refusing import ReportedError
+from orchestra.compat.reported import ReportedError
 from orchestra.location import Location
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import InlineParameter

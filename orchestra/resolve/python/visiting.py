@@ -10,6 +10,7 @@ from pydantic import ValidationError
 from orchestra.compat import faults
 from orchestra.compat.building import model_of
 from orchestra.compat.explanation import told
+from orchestra.compat.functions import name_of, returned_by
 from orchestra.compat.launch.action import Action, ModelledAction
 from orchestra.compat.launch.launch_description import LaunchDescription
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
@@ -17,6 +18,7 @@ from orchestra.compat.literals import item_span
 from orchestra.compat.misplaced import misplaced
 from orchestra.compat.place import Argument
 from orchestra.compat.refusing import is_lost
+from orchestra.compat.wrong import WrongType
 from orchestra.errors import Code
 from orchestra.location import displayed, point
 from orchestra.resolve.python.calling import user_code
@@ -62,11 +64,8 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
     if not _is_entity(entity):
         _refuse_other(entity, action.span, run)
         return
-    if is_lost(entity):
-        run.scope.ledger.incomplete = True
-        return
-    if isinstance(entity, ModelledAction) and entity._is_as_described():  # its model is faulty
-        visit_entity(entity, run)
+    if is_lost(entity) or (isinstance(entity, ModelledAction) and entity._is_as_described()):
+        visit_entity(entity, run)  # which it has no sound model for
         return
     if isinstance(entity, LaunchDescription) and entity.deprecated:
         message = f"{displayed(run.context.file or '')} is deprecated: {entity.deprecated_reason}"
@@ -81,12 +80,44 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
     context = run.engine.context
     with user_code(run, action.span):
         judged = isinstance(entity, Action) and type(entity).visit is Action.visit
-        made = entity.execute(context) if judged else entity.visit(context)
+        try:
+            made = entity.execute(context) if judged else entity.visit(context)
+        except TypeError as error:
+            at = _uncallable(entity, error)
+            if at is None:
+                raise
+            raise WrongType(f"{_name(entity)} is called with the context: {error}", at=at) from None
         if made is not None and (isinstance(made, str) or not isinstance(made, Iterable)):
-            raise TypeError(f"{_name(entity)} returns a list of actions or None, this is {told(made)}")
+            told_so = f"{_name(entity)} returns a list of actions or None, this is {told(made)}"
+            raise WrongType(told_so, at=_returned(entity, made))
         following = made
     if following is not None:
-        visit_entities(following, run, getattr(entity, "_place", None))
+        _visit_returned(entity, following, run)
+
+
+def _uncallable(entity: Any, error: TypeError) -> Span | None:
+    """Return where the function of an entity stands if it is one that takes no context; None for any other fault."""
+    function = getattr(entity, "function", None)
+    name = getattr(function, "__qualname__", None)
+    refused = name is not None and str(error).startswith(f"{name}() takes")
+    return name_of(function) if refused else None
+
+
+def _visit_returned(entity: Any, following: Iterable[Any], run: Resolution) -> None:
+    """Visit what code has returned; what is no entity stands where it is returned."""
+    if isinstance(following, list | tuple) and not all(map(_is_entity, following)):
+        returned = returned_by(getattr(entity, "function", None), following)
+        if returned is not None:
+            for index, item in enumerate(following):
+                if not _is_entity(item):
+                    _refuse_other(item, returned.item(index, len(following)).whole, run)
+            following = [item for item in following if _is_entity(item)]
+    visit_entities(following, run, getattr(entity, "_place", None))
+
+
+def _returned(entity: Any, made: Any) -> Span | None:
+    returned = returned_by(getattr(entity, "function", None), made)
+    return None if returned is None else returned.whole
 
 
 def _is_entity(value: Any) -> bool:
@@ -117,6 +148,6 @@ def _name(entity: Any) -> str:
     return f"{getattr(function, '__qualname__', '') or type(entity).__name__}"
 
 
-def _span(entity: Any, run: Resolution, around: Place | None = None, path: tuple[Step, ...] = ()) -> Span:
+def _span(entity: Any, run: Resolution, around: Place | None = None) -> Span:
     place: Place | None = getattr(entity, "__dict__", {}).get("_place", around)
     return place.span if place is not None else point(displayed(run.context.file or ""))

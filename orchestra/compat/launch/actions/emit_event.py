@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.launch.event import Event
+from orchestra.compat.wrong import WrongRuntime
 from orchestra.description.actions.emit_event import EmitEvent as EmitEventModel
 
 if TYPE_CHECKING:
@@ -23,7 +24,7 @@ class EmitEvent(ModelledAction):
     def __init__(self, *, event: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         if not (isinstance(event, Event) or (isinstance(event, type) and issubclass(event, Event))):
-            raise RuntimeError(f"EmitEvent takes a launch.Event, not {event!r}")  # noqa: TRY004 - as upstream
+            raise WrongRuntime(f"EmitEvent takes a launch.Event, not {event!r}", path=("event",))
         self.__event = event
         self.__emitted = event() if isinstance(event, type) else event
 

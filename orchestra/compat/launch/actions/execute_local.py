@@ -5,10 +5,11 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.explanation import told
 from orchestra.compat.extensions import RUNNING, extension_fields, taken
 from orchestra.compat.launch.action import Action, ModelledAction
 from orchestra.compat.launch.actions.shutdown_action import Shutdown
-from orchestra.compat.launch.event_handler import is_of_ours
+from orchestra.compat.launch.event_handler import entities_of, is_of_ours
 from orchestra.compat.launch.event_handlers.on_action_event_base import OnActionEventBase
 from orchestra.compat.launch.events.process.process_exited import ProcessExited
 from orchestra.compat.launch.events.process.process_io import ProcessIO
@@ -16,6 +17,7 @@ from orchestra.compat.launch.substitutions.launch_configuration import LaunchCon
 from orchestra.compat.place import within
 from orchestra.compat.text import normalized, template
 from orchestra.compat.values import optional, scalar, written
+from orchestra.compat.wrong import WrongType
 from orchestra.description.actions.executable import Executable as ExecutableModel
 from orchestra.description.actions.group import Group
 from orchestra.description.actions.register_event_handler import RegisterEventHandler
@@ -77,7 +79,7 @@ class ExecuteLocal(ModelledAction):
         self.__output_format = output_format
         self.__cached_output = cached_output
         self.__log_cmd = log_cmd
-        self.__on_exit = on_exit
+        self.__on_exit = _checked_exit(on_exit)
         self.__respawn = respawn if isinstance(respawn, bool) else normalized(respawn)
         self.__respawn_delay = respawn_delay
         self.__respawn_max_retries = respawn_max_retries
@@ -254,6 +256,17 @@ class ExecuteLocal(ModelledAction):
     def __timeout(self, name: str) -> list[Substitution]:
         value = self.__timeouts[name]
         return normalized(LaunchConfiguration(name, default="5") if value is None else written(value))
+
+
+def _checked_exit(done: Any) -> Any:
+    """Return what is to be done at the end. Raises `TypeError` for what can be seen to be no action."""
+    if isinstance(done, type):
+        raise WrongType(
+            f"on_exit is actions or a function, this is {told(done)}: brackets make an object", done
+        )
+    if isinstance(done, str | list | tuple):
+        entities_of(done)
+    return done
 
 
 def _delay(delay: Sub | float | None) -> Sub | float | None:

@@ -10,6 +10,7 @@ from orchestra.compat.building import model_of
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.launch.actions.opaque_function import OpaqueFunction
 from orchestra.compat.values import scalar
+from orchestra.compat.wrong import WrongType
 from orchestra.description.actions.timer import Timer
 
 if TYPE_CHECKING:
@@ -37,9 +38,11 @@ class OpaqueCoroutine(ModelledAction):
     ) -> None:
         super().__init__(**left_over_kwargs)
         if not iscoroutinefunction(coroutine):
-            raise TypeError(f"OpaqueCoroutine takes a coroutine function, not {coroutine!r}")
+            raise WrongType(
+                f"OpaqueCoroutine takes a coroutine function, not {coroutine!r}", path=("coroutine",)
+            )
         if kwargs is not None and not isinstance(kwargs, dict):
-            raise TypeError(f"the kwargs of an OpaqueCoroutine are a dict, not {kwargs!r}")
+            raise WrongType(f"the kwargs of an OpaqueCoroutine are a dict, not {kwargs!r}", path=("kwargs",))
         self.__coroutine = coroutine
         self.__args = () if args is None else tuple(args)
         self.__kwargs = kwargs or {}

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.action import Action
+from orchestra.compat.wrong import WrongType
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
@@ -29,7 +30,9 @@ class OpaqueFunction(Action):
     ) -> None:
         super().__init__(**left_over_kwargs)
         if not callable(function):
-            raise TypeError(f"the function of an OpaqueFunction cannot be called: {function!r}")
+            raise WrongType(
+                f"the function of an OpaqueFunction cannot be called: {function!r}", path=("function",)
+            )
         self.__function = function
         self.__args = () if args is None else tuple(args)
         self.__kwargs = {} if kwargs is None else dict(kwargs)

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.explanation import told
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.launch.event_handler import BaseEventHandler
+from orchestra.compat.wrong import WrongType
 from orchestra.description.actions.register_event_handler import RegisterEventHandler as RegisterModel
 
 if TYPE_CHECKING:
@@ -21,7 +23,10 @@ class RegisterEventHandler(ModelledAction):
     def __init__(self, event_handler: BaseEventHandler, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         if not isinstance(event_handler, BaseEventHandler):
-            raise TypeError(f"RegisterEventHandler takes an event handler, not {event_handler!r}")
+            raise WrongType(
+                f"RegisterEventHandler takes an event handler, this is {told(event_handler)}",
+                path=("event_handler",),
+            )
         self.__event_handler = event_handler
 
     @property

@@ -7,9 +7,11 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.building import models_of
 from orchestra.compat.described import described
+from orchestra.compat.explanation import told
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.text import Sub, normalized
 from orchestra.compat.values import scalar, written
+from orchestra.compat.wrong import WrongType
 from orchestra.description.actions.timer import Timer
 
 if TYPE_CHECKING:
@@ -40,7 +42,7 @@ class TimerAction(ModelledAction):
     ) -> None:
         super().__init__(**kwargs)
         if not isinstance(actions, Iterable):
-            raise TypeError(f"the actions of a timer are a list, not {actions!r}")
+            raise WrongType(f"the actions of a timer are a list, this is {told(actions)}", path=("actions",))
         self.__period = float(period) if isinstance(period, int | float) else normalized(written(period))
         self.__actions = actions if isinstance(actions, list) else list(actions)
         self.__cancel_on_shutdown = cancel_on_shutdown

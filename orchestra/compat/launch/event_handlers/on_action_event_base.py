@@ -13,6 +13,7 @@ from orchestra.compat.launch.events.process.process_io import ProcessIO
 from orchestra.compat.launch.events.process.process_started import ProcessStarted
 from orchestra.compat.launch.events.process.process_stderr import ProcessStderr
 from orchestra.compat.launch.events.process.process_stdout import ProcessStdout
+from orchestra.compat.wrong import WrongType
 
 if TYPE_CHECKING:
     from orchestra.compat.launch.action import Action
@@ -49,7 +50,9 @@ class OnActionEventBase(ReactingEventHandler):
         **kwargs: Any,
     ) -> None:
         if not (isinstance(target_event_cls, type) and issubclass(target_event_cls, Event)):
-            raise TypeError(f"target_event_cls is a kind of event, not {target_event_cls!r}")
+            raise WrongType(
+                f"target_event_cls is a kind of event, not {target_event_cls!r}", path=("target_event_cls",)
+            )
         _check_target(action_matcher, target_action_cls)
         super().__init__(matcher=self.__matches, reaction=on_event, **kwargs)
         self.__action_matcher = action_matcher

@@ -9,6 +9,7 @@ from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.performed import Concatenated
 from orchestra.compat.text import normalized
+from orchestra.compat.wrong import WrongType
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -29,7 +30,7 @@ class PathJoinSubstitution(ParsedSubstitution):
         super().__init__()
         self.__substitutions = [_component(item) for item in _listed(substitutions)]
         if not self.__substitutions:
-            raise TypeError("a PathJoinSubstitution needs at least one component")
+            raise WrongType("a PathJoinSubstitution needs at least one component", path=("substitutions",))
 
     @classmethod
     def parse(cls, data: Sequence[Sub]) -> tuple[type[Self], dict[str, Any]]:

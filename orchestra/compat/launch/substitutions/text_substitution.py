@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.wrong import WrongType
 from orchestra.description.text import Words
 from orchestra.description.written import escaped
 
@@ -19,7 +20,8 @@ class TextSubstitution(Substitution):
 
     def __init__(self, *, text: str) -> None:
         if not isinstance(text, str):
-            raise TypeError(f"the text of a TextSubstitution is a str, not {type(text).__name__}: {text!r}")
+            told = f"the text of a TextSubstitution is a str, not {type(text).__name__}: {text!r}"
+            raise WrongType(told, path=("text",))
         self.__text = text
 
     @property

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch_ros.actions.node import Node
 from orchestra.compat.launch_ros.descriptions.composable_node import component_models
+from orchestra.compat.wrong import WrongType
 from orchestra.description.actions.node_container import NodeContainer
 
 if TYPE_CHECKING:
@@ -28,7 +29,8 @@ class ComposableNodeContainer(Node):
         **kwargs: Any,
     ) -> None:
         if name is None:
-            raise TypeError("a ComposableNodeContainer needs a name, for components are loaded by it")
+            told = "a ComposableNodeContainer needs a name, for components are loaded by it"
+            raise WrongType(told, path=("name",))
         super().__init__(name=name, namespace=namespace, **kwargs)
         self.__composable_node_descriptions = composable_node_descriptions
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch_ros.actions.node import Node
 from orchestra.compat.values import scalar
+from orchestra.compat.wrong import WrongRuntime
 from orchestra.description.actions.lifecycle_node import LifecycleNode as LifecycleNodeModel
 
 if TYPE_CHECKING:
@@ -25,7 +26,8 @@ class LifecycleNode(Node):
         self, *, name: Sub, namespace: Sub | None, autostart: bool | Sub = False, **kwargs: Any
     ) -> None:
         if name is None:
-            raise RuntimeError("a LifecycleNode needs a name, for its services are asked by it")
+            told = "a LifecycleNode needs a name, for its services are asked by it"
+            raise WrongRuntime(told, path=("name",))
         super().__init__(name=name, namespace=namespace, **kwargs)
         self.__autostart = autostart
 

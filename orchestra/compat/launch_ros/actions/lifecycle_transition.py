@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.text import normalized, template
 from orchestra.compat.values import written
+from orchestra.compat.wrong import WrongNumber
 from orchestra.description.actions.lifecycle_transition import LifecycleTransition as LifecycleTransitionModel
 
 if TYPE_CHECKING:
@@ -28,9 +29,13 @@ class LifecycleTransition(ModelledAction):
     ) -> None:
         super().__init__(**kwargs)
         if not lifecycle_node_names:
-            raise ValueError("LifecycleTransition names no node in lifecycle_node_names")
+            raise WrongNumber(
+                "LifecycleTransition names no node in lifecycle_node_names", path=("lifecycle_node_names",)
+            )
         if not transition_ids:
-            raise ValueError("LifecycleTransition names no transition in transition_ids")
+            raise WrongNumber(
+                "LifecycleTransition names no transition in transition_ids", path=("transition_ids",)
+            )
         self.__lifecycle_node_names = [normalized(name) for name in lifecycle_node_names]
         self.__transition_ids = [normalized(written(transition)) for transition in transition_ids]
 

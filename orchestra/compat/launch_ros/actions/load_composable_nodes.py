@@ -11,6 +11,7 @@ from orchestra.compat.launch_ros.actions.composable_node_container import Compos
 from orchestra.compat.launch_ros.descriptions.composable_node import component_models
 from orchestra.compat.launch_ros.load_requests import get_composable_node_load_request
 from orchestra.compat.text import template
+from orchestra.compat.wrong import WrongType
 from orchestra.description.actions.group import Group
 from orchestra.description.actions.load_composable_node import LoadComposableNode
 from orchestra.description.text import Opaque, Template
@@ -40,9 +41,8 @@ class LoadComposableNodes(ModelledAction):
     ) -> None:
         super().__init__(**kwargs)
         if not isinstance(target_container, ComposableNodeContainer | str | Substitution | Iterable):
-            raise TypeError(
-                f"components are loaded into a container or the name of one, not {target_container!r}"
-            )
+            told_so = f"components are loaded into a container or the name of one, not {target_container!r}"
+            raise WrongType(told_so, path=("target_container",))
         self.__composable_node_descriptions = composable_node_descriptions
         self.__target_container = target_container
 

@@ -36,5 +36,5 @@ class SetRemap(ModelledAction):
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         source, target = self._place.at("src"), self._place.at("dst")
-        names = {"from_": template(self.src, source), "to": template(self.dst, target)}
-        return SetRemapModel.at(self._place.span, **names, **common)
+        names = template(self.src, source), template(self.dst, target)
+        return SetRemapModel.at(self._place.span, from_=names[0], to=names[1], **common)

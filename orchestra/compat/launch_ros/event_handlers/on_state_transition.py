@@ -2,18 +2,38 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.building import models_of
 from orchestra.compat.launch.event_handler import EventHandler, entities_of, is_of_ours
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.launch_ros.actions.lifecycle_node import LifecycleNode
 from orchestra.compat.launch_ros.events.lifecycle.state_transition import StateTransition
+from orchestra.compat.wrong import WrongRuntime, WrongType
+from orchestra.description.conditions import STATES
+from orchestra.errors import Code
+from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from orchestra.description.handlers import Handler
+
+# lifecycle_msgs: the labels that every lifecycle node of ROS 2 has.
+_STATES: Final = (
+    *STATES,
+    *("configuring", "cleaningup", "activating", "deactivating", "shuttingdown", "errorprocessing"),
+)
+_TRANSITIONS: Final = (
+    *("create", "configure", "cleanup", "activate", "deactivate", "destroy"),
+    *("unconfigured_shutdown", "inactive_shutdown", "active_shutdown"),
+    *(
+        f"{kind}_{outcome}"
+        for kind in ("on_configure", "on_cleanup", "on_activate", "on_deactivate", "on_shutdown", "on_error")
+        for outcome in ("success", "failure", "error")
+    ),
+    *("transition_success", "transition_failure", "transition_error"),
+)
 
 
 class OnStateTransition(EventHandler):
@@ -34,15 +54,14 @@ class OnStateTransition(EventHandler):
         **kwargs: Any,
     ) -> None:
         if target_lifecycle_node is not None and not isinstance(target_lifecycle_node, LifecycleNode):
-            raise RuntimeError(
-                f"OnStateTransition waits for a LifecycleNode, not for {target_lifecycle_node!r}"
-            )
+            told = f"OnStateTransition waits for a LifecycleNode, not for {target_lifecycle_node!r}"
+            raise WrongRuntime(told, path=("target_lifecycle_node",))
         self.__is_custom = matcher is not None
         self.__target = target_lifecycle_node
         self.__labels = {
-            "transition": _label(transition),
-            "start_state": _label(start_state),
-            "goal_state": _label(goal_state),
+            "transition": _label("transition", transition, _TRANSITIONS),
+            "start_state": _label("start_state", start_state, _STATES),
+            "goal_state": _label("goal_state", goal_state, _STATES),
         }
         super().__init__(
             matcher=matcher if matcher is not None else self.__matches, entities=entities, **kwargs
@@ -76,10 +95,16 @@ class OnStateTransition(EventHandler):
         return (self._model("state_changed", target=self.__target, **done, **self.__labels),)
 
 
-def _label(written: Any) -> str | None:
-    """Return the label of a transition or state. Upstream compares it as it is, so that only a text ever matches."""
-    if written is None or isinstance(written, str):
-        return written
-    if isinstance(written, TextSubstitution):
-        return written.text
-    raise TypeError(f"the label of a transition or state is a text, not {written!r}")
+def _label(name: str, written: Any, known: tuple[str, ...]) -> str | None:
+    """Return the label of a transition or state. Upstream compares it as it is, so that only a text ever matches.
+
+    Raises `TypeError` for anything else, and for what is nearly one of those that there are.
+    """
+    label = written.text if isinstance(written, TextSubstitution) else written
+    if label is not None and not isinstance(label, str):
+        raise WrongType(f"the label of a transition or state is a text, not {written!r}", path=(name,))
+    meant = None if label is None or label in known else nearest(label, known)
+    if meant is not None:
+        told = f"lifecycle nodes have no {name.replace('_', ' ')} {label!r}"
+        raise WrongType(told, path=(name,), code=Code.BAD_VALUE, suggestion=meant)
+    return label

@@ -16,6 +16,7 @@ from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 from orchestra.compat.launch_ros.utilities.exact import Exact, builtin
 from orchestra.compat.text import normalized
+from orchestra.compat.wrong import WrongType
 
 _SCALARS = (bool, int, float, str)
 
@@ -49,6 +50,8 @@ def _one(item: Any) -> Any:
         return normalize_parameter_dict(item)
     if isinstance(item, Parameter | ParameterFile):
         return item
+    if isinstance(item, list | tuple) and any(isinstance(part, Mapping) for part in item):
+        raise WrongType("parameters are dictionaries and files, this is a list in the list", item)
     if not isinstance(item, str | Substitution | os.PathLike | bytes | Iterable):
         raise TypeError(f"parameters are dictionaries and files, not {item!r}")
     return ParameterFile(item)
@@ -89,6 +92,8 @@ def _list(items: Sequence[Any]) -> tuple[Any, ...]:
 def _item(item: Any) -> tuple[Substitution, ...]:
     if isinstance(item, _SCALARS):
         return (Exact(builtin(item)),)
+    if isinstance(item, list | tuple) and not all(isinstance(part, str | Substitution) for part in item):
+        raise WrongType(f"a parameter cannot be a list of lists, as {item!r} in it", item)
     return tuple(normalized(item))
 
 

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.text import normalized
+from orchestra.compat.wrong import WrongType
 
 if TYPE_CHECKING:
     from orchestra.compat.launch.substitution import Substitution
@@ -26,5 +27,8 @@ def normalize_remap_rules(
 ) -> tuple[tuple[tuple[Substitution, ...], tuple[Substitution, ...]], ...]:
     """Return the two sides of several rules. Raises `TypeError` for anything but pairs in tuples."""
     if not isinstance(remap_rules, Iterable):
-        raise TypeError(f"remappings are a list of tuples of two names, not {remap_rules!r}")
+        raise WrongType(f"remappings are a list of tuples of two names, not {remap_rules!r}", remap_rules)
+    if isinstance(remap_rules, tuple) and remap_rules and all(isinstance(item, str) for item in remap_rules):
+        told = f"remappings are a list of tuples of two names, this is one of them: {remap_rules!r}"
+        raise WrongType(told, remap_rules)
     return tuple(normalize_remap_rule(rule) for rule in remap_rules)

@@ -1,0 +1,148 @@
+"""A call that an object could not be made by: what is wrong with it, and what is left of it."""
+
+from __future__ import annotations
+
+import inspect
+import re
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.compat.explanation import in_their_words
+from orchestra.compat.given import path_of, without
+from orchestra.compat.keywords import keyword_meant, parameters_of, shown
+from orchestra.compat.literals import argument, keyword_span
+from orchestra.compat.place import Place
+from orchestra.compat.reported import ReportedError
+from orchestra.compat.wrong import WrongValue
+from orchestra.errors import Code, Problem, Severity
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from types import FrameType
+
+    from orchestra.compat.place import Step
+    from orchestra.location import Span
+
+_MISSING: Final = re.compile(r"missing \d+ required [\w-]+ arguments?: (.*)")
+_NAME: Final = re.compile(r"'\w+'")
+_Parameter = inspect.Parameter
+
+
+class FaultyCall:
+    """A call, with the arguments that are still to be tried: by name, but those (`words`) that have none.
+
+    `found` is what is wrong with it, without the way to it.
+    """
+
+    def __init__(
+        self,
+        made: Any,
+        constructor: Callable[..., None],
+        given: tuple[tuple[Any, ...], Mapping[str, Any]],
+        caller: FrameType,
+        outer: Place,
+    ) -> None:
+        words, named = given
+        self.kind = _owner(type(made), constructor)
+        self.parameters = {item.name: item for item in parameters_of(self.kind)}
+        own = list(inspect.signature(constructor).parameters.values())[1:]
+        by_place = [item.name for item in own if item.kind is _Parameter.POSITIONAL_OR_KEYWORD]
+        open_ended = any(item.kind is _Parameter.VAR_POSITIONAL for item in own)
+        self.words = words if open_ended else ()
+        self.surplus = len(by_place) if len(words) > len(by_place) and not open_ended else None
+        self.named = {**({} if open_ended else dict(zip(by_place, words, strict=False))), **named}
+        self.original = {**{f"*{index}": word for index, word in enumerate(self.words)}, **self.named}
+        inner = Place(caller.f_code, caller.f_lasti, self.kind)
+        self.places = (inner,) if outer.span == inner.span else (inner, outer)
+        self.told: set[tuple[Step, ...]] = set()
+        self.found: list[Problem] = []
+        self.is_lost = False
+
+    def explain(self, error: Exception) -> bool:
+        """Find what an error means and leave that out; return whether it is known."""
+        if isinstance(error, ReportedError):
+            self.found += error.problems
+            self.is_lost = True
+            return True
+        if self.surplus is not None:
+            return self._surplus(self.surplus)
+        unknown = [name for name in self.named if name not in self.parameters]
+        if unknown and isinstance(error, TypeError):
+            return self._unknown(unknown)
+        missing = _MISSING.search(str(error))
+        if missing is not None and isinstance(error, TypeError):
+            return self._missing(_NAME.findall(missing[1]))
+        return self._wrong(error)
+
+    def _surplus(self, index: int) -> bool:
+        name = self.kind.__name__
+        message = f"{name} takes {index or 'no'} argument{'s' * (index != 1)} without a name"
+        note = f"it is written {name}({shown(self.parameters)})"
+        self._tell(Code.WRONG_TYPE, message, self._at((f"*{index}",)), notes=(note,))
+        self.is_lost = True
+        return True
+
+    def _unknown(self, names: list[str]) -> bool:
+        for name in names:
+            meant = keyword_meant(name, self.parameters, self.named)
+            spans = (keyword_span(place, name) for place in self.places)
+            span = next((span for span in spans if span is not None), None)
+            message = f"{self.kind.__name__} has no argument '{name}'"
+            if span is None:  # it comes out of a mapping that is made elsewhere
+                notes = () if meant is None else (f"did you mean '{meant}'?",)
+                self._tell(Code.UNKNOWN_KEY, message, self.places[0].span, notes=notes)
+            else:
+                self._tell(Code.UNKNOWN_KEY, message, span, meant)
+            value = self.named.pop(name)
+            self.original.pop(name)
+            if meant is not None and meant not in self.named:
+                self.named[meant] = self.original[meant] = value
+        return True
+
+    def _missing(self, names: list[str]) -> bool:
+        if not self.found:
+            message = f"{self.kind.__name__} needs {' and '.join(names)}"
+            self._tell(Code.MISSING_KEY, message, self.places[-1].span)
+        self.is_lost = True
+        return True
+
+    def _wrong(self, error: Exception) -> bool:
+        path = path_of(error, self.original, self.told)
+        if path is None:
+            return False
+        code = error.code if isinstance(error, WrongValue) else Code.WRONG_TYPE
+        suggestion = error.suggestion if isinstance(error, WrongValue) else None
+        at = self._at(path, whole=suggestion is None)
+        self._tell(code, in_their_words(" ".join(str(error).split())), at, suggestion)
+        self.told.add(path)
+        name = str(path[0])
+        kept = without(self.original, self.told)
+        self.named = {key: value for key, value in kept.items() if not key.startswith("*")}
+        needed = name.startswith("*") or self.parameters[name].default is _Parameter.empty
+        self.is_lost = needed and name not in self.named
+        return True
+
+    def _at(self, path: tuple[Step, ...], *, whole: bool = True) -> Span:
+        found = (argument(place, path) for place in self.places)
+        written = next((item for item in found if item.node is not None), None)
+        if written is None:
+            return self.places[0].span
+        return written.whole if whole else written.span
+
+    def _tell(
+        self,
+        code: Code,
+        message: str,
+        span: Span,
+        suggestion: str | None = None,
+        notes: tuple[str, ...] = (),
+    ) -> None:
+        self.found.append(Problem(code, Severity.ERROR, message, span, (), suggestion, notes))
+
+
+def _owner(made: type[Any], constructor: Callable[..., None]) -> type[Any]:
+    """Return the class of ours whose constructor was called."""
+    return next(
+        kind
+        for kind in made.__mro__
+        if getattr(vars(kind).get("__init__"), "__wrapped__", None) is constructor
+    )

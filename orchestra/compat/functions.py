@@ -1,0 +1,69 @@
+"""Where functions of the user's code stand, and what they return."""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING, Any
+
+from orchestra.compat.literals import Literal
+from orchestra.compat.place import span_in
+from orchestra.compat.syntax_trees import node_span, tree_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from types import CodeType
+
+    from orchestra.compat.syntax_trees import Function
+    from orchestra.location import Span
+
+
+def name_of(function: Any) -> Span | None:
+    """Return where the name of a function stands, None where it is not written in a file."""
+    found = _found(function)
+    if found is None:
+        return None
+    code, node = found
+    asynchronous = isinstance(node, ast.AsyncFunctionDef)
+    begin = node.col_offset + len("async def " if asynchronous else "def ")
+    return span_in(code.co_filename, (node.lineno, node.lineno, begin, begin + len(node.name.encode())))
+
+
+def returned_by(function: Any, made: Any) -> Literal | None:
+    """Return the expression of what a function returns; its name where it is not told by one alone."""
+    found = _found(function)
+    if found is None:
+        return None
+    code, node = found
+    file, tree = code.co_filename, tree_of(code.co_filename)
+    around = name_of(function)
+    if around is None:
+        return None
+    returns = [item for item in _inside(node) if isinstance(item, ast.Return)]
+    if made is None:
+        empty = [item for item in returns if item.value is None or _is_none(item.value)]
+        return Literal(file, None, node_span(file, empty[0]) if len(empty) == 1 else around, tree)
+    values = [item.value for item in returns if item.value is not None and not _is_none(item.value)]
+    return Literal(file, values[0] if len(values) == 1 else None, around, tree)
+
+
+def _found(function: Any) -> tuple[CodeType, Function] | None:
+    code = getattr(getattr(function, "__func__", function), "__code__", None)
+    tree = None if code is None else tree_of(code.co_filename)
+    if code is None or tree is None:
+        return None
+    node = tree.function(code.co_name, code.co_firstlineno)
+    return None if node is None else (code, node)
+
+
+def _inside(function: Function) -> Iterator[ast.AST]:
+    """Yield the statements of a function, without those of functions in it."""
+    waiting: list[ast.AST] = list(function.body)
+    while waiting:
+        node = waiting.pop(0)
+        yield node
+        if not isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef | ast.expr):
+            waiting.extend(ast.iter_child_nodes(node))
+
+
+def _is_none(node: ast.expr) -> bool:
+    return isinstance(node, ast.Constant) and node.value is None

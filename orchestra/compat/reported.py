@@ -1,0 +1,16 @@
+"""What stops user code in silence."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from orchestra.errors import Problem
+
+
+class ReportedError(RuntimeError):
+    """Stops user code for a fault that has been reported, or will be with `problems`."""
+
+    def __init__(self, message: str, problems: tuple[Problem, ...] = ()) -> None:
+        super().__init__(message)
+        self.problems = problems

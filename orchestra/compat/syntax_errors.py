@@ -1,0 +1,56 @@
+"""Where an error of syntax stands, in code points.
+
+CPython counts columns in bytes up to 3.12 where it reads bytes, and always in what its compiler finds after parsing.
+"""
+
+from __future__ import annotations
+
+import linecache
+from typing import TYPE_CHECKING
+
+from orchestra.compat.place import code_points, shown
+from orchestra.location import Span
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+
+def span_of_syntax(error: SyntaxError) -> Span:
+    """Return the range of the text that is wrong, one character at least."""
+    file = str(error.filename)
+    line, column = error.lineno or 1, max(error.offset or 1, 1)
+    end_line, end_column = error.end_lineno or line, error.end_offset or 0
+    text = linecache.getline(file, line).rstrip("\n")
+    if isinstance(error, IndentationError):
+        column = len(text) - len(text.lstrip()) + 1
+    elif not text.isascii():
+        column, end_column = _in_code_points(error, file, (line, column, end_line, end_column))
+    if (end_line, end_column) <= (line, column):
+        end_line, end_column = line, column + (column <= len(text))
+    return Span(shown(file), line, column, end_line, end_column)
+
+
+def _in_code_points(error: SyntaxError, file: str, given: tuple[int, int, int, int]) -> tuple[int, int]:
+    """Return first and last column: as of the text where that cannot be parsed, else converted."""
+    line, column, end_line, end_column = given
+    source = "".join(linecache.getlines(file))
+    try:
+        compile(source, file, "exec", dont_inherit=True)
+    except SyntaxError as told:
+        if (told.lineno, told.msg) != (error.lineno, error.msg):
+            return column, end_column
+        if told.offset != error.offset or told.end_offset != error.end_offset or not _parses(source):
+            return max(told.offset or 1, 1), told.end_offset or 0
+    return code_points(file, line, column - 1) + 1, code_points(file, end_line, max(end_column - 1, 0)) + 1
+
+
+def _parses(source: str) -> bool:
+    # Here, because only mistakes need it.
+    from ast import parse  # noqa: PLC0415
+
+    parsing: Callable[[str], object] = parse
+    try:
+        parsing(source)
+    except SyntaxError:
+        return False
+    return True
