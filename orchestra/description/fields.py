@@ -14,8 +14,8 @@ from typing import Annotated, Protocol, TypeAlias
 from pydantic import PlainValidator, ValidationError, ValidationInfo, WithJsonSchema
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
-from orchestra.description.source import Written, kind_of
-from orchestra.description.text import Constant, Template, Words
+from orchestra.description.source import Listed, Written, kind_of
+from orchestra.description.text import Constant, NoItems, Template, Words
 from orchestra.nearest import nearest
 
 TRUE_WORDS = frozenset({"true", "1", "yes", "on"})
@@ -125,10 +125,6 @@ def _is_integer(text: str) -> bool:
 def _any_value(value: object, info: ValidationInfo) -> Value | tuple[Value, ...]:
     if isinstance(value, tuple | Constant):
         return value
-    if isinstance(value, list) and not value:
-        raise PydanticCustomError(
-            "wrong_type", "an empty list has no type: expected a value or a list of values"
-        )
     return text_or_list(value, info)
 
 
@@ -136,6 +132,8 @@ def text_or_list(value: object, info: ValidationInfo) -> Template | tuple[Templa
     """Read a text, or a list of texts."""
     if isinstance(value, tuple):
         return value
+    if isinstance(value, Listed) and not value:
+        return NoItems(value.span)
     if isinstance(value, list):
         return items_of(value, _text, info)
     return _text(value, info)

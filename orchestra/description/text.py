@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, Self, TypeAlias
 
 from orchestra.location import Span
 from orchestra.values import ParameterValue
@@ -82,8 +82,22 @@ class Constant:
     span: Span
 
 
+class NoItems(tuple[()]):  # noqa: SLOT001 - a tuple has no room for slots
+    """An empty list, which knows where it stands."""
+
+    span: Span
+
+    def __new__(cls, span: Span) -> Self:
+        """Return the list that stands at a place."""
+        made = super().__new__(cls)
+        made.span = span
+        return made
+
+
 def span_of(value: Template | Constant | tuple[Template | Constant, ...]) -> Span | None:
-    """Return where a value begins, None for an empty list."""
+    """Return where a value begins, None for an empty list of Python code."""
+    if isinstance(value, NoItems):
+        return value.span
     if isinstance(value, tuple):
         return value[0].span if value else None
     return value.span
