@@ -44,7 +44,7 @@ _XML = """\
     <executable cmd="/bin/echo $(var frame)" name="hello" output="screen" if="$(var debug)"/>
     <node pkg="bringup" exec="ekf" name="ekf{n}">
       <param from="$(dirname)/../shared/params{shared}.yaml"/>
-      <param name="frequency" value="{n}.0"/>
+      <param name="frequency" value="2{n}.0"/>
       <remap from="odom" to="odom{n}"/>
     </node>
   </group>
@@ -74,7 +74,7 @@ def generate_launch_description():
         ExecuteProcess(cmd=["/bin/echo", robot], output="screen", condition=IfCondition(LaunchConfiguration("slam"))),
         Node(
             package="bringup", executable="ekf", name="ekf{n}",
-            parameters=[os.path.join(shared, "params{shared}.yaml"), {{"frequency": {n}.0, "frame": robot}}],
+            parameters=[os.path.join(shared, "params{shared}.yaml"), {{"frequency": 2{n}.0, "world_frame": robot}}],
             remappings=[("odom", "odom{n}")],
         ),
         IncludeLaunchDescription(
@@ -86,12 +86,13 @@ def generate_launch_description():
 _DRIVER = """\
 <launch>
   <arg name="device"/>
+  <log message="$(var device)"/>
   <arg name="namespace" default=""/>
   <group>
     <push_ros_namespace namespace="$(var namespace)"/>
     <node pkg="bringup" exec="velocity_controller" name="driver{n}">
-      <param name="device" value="$(var device)" type="str"/>
-      <param from="params{n}.yaml"/>
+      <param name="mode" value="wander" type="str"/>
+      <param from="driving{n}.yaml"/>
     </node>
   </group>
 </launch>
@@ -104,12 +105,15 @@ launch:
 _PARAMETERS = """\
 /**:
   ros__parameters:
-    use_sim_time: true
-    offsets: [0.1, 0.2, {n}.0]
-    map:
-      frame: map
-      size: [{n}, 20]
-    names: [a, b, c]
+    frequency: {n}0.0
+    two_d_mode: true
+    odom0: wheel/odometry
+    odom0_config: [false, false, false, false, false, false, true, true, false, false, false, false, false, false, false]
+"""
+_DRIVING = """\
+/**:
+  ros__parameters:
+    max_linear_vel: 0.{n}
 """
 _SHARED = 20
 
@@ -120,7 +124,8 @@ def write_tree(folder: Path, files: int) -> list[Path]:
     shared = folder / "shared"
     shared.mkdir(parents=True, exist_ok=True)
     for n in range(_SHARED):
-        (shared / f"params{n}.yaml").write_text(_PARAMETERS.format(n=n))
+        (shared / f"params{n}.yaml").write_text(_PARAMETERS.format(n=n + 1))
+        (shared / f"driving{n}.yaml").write_text(_DRIVING.format(n=n))
         for name, text in ((f"driver{n}.launch.xml", _DRIVER), (f"tools{n}.launch.yaml", _TOOLS)):
             (shared / name).write_text(text.format(n=n))
             written.append(shared / name)

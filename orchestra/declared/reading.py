@@ -4,16 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from orchestra.declared.documents import Document, read_document
 from orchestra.declared.generated import is_definition, read_definition
 from orchestra.declared.json_schema import is_schema, read_schema
-from orchestra.errors import Code
+from orchestra.errors import Code, Problems
 
 if TYPE_CHECKING:
     from orchestra.declared.model import ParameterSchema
-    from orchestra.errors import Problems
     from orchestra.location import Location
     from orchestra.resolve.model import NamedSchema
 
@@ -49,6 +50,22 @@ def read_named(named: NamedSchema, problems: Problems) -> ParameterSchema | None
 
 def read_file(path: str, named_at: Location | None, problems: Problems) -> ParameterSchema | None:
     """Return the schema in a file, whatever way it is written; `named_at` is where a description names it."""
+    try:
+        content = Path(path).read_bytes()
+    except OSError:
+        content = b""
+    return _sound(path, content) or _read(path, named_at, problems)
+
+
+@lru_cache(maxsize=64)  # by content: many nodes are declared in the same file
+def _sound(path: str, content: bytes) -> ParameterSchema | None:  # noqa: ARG001 - what it depends on
+    """Return the schema in a file in which nothing is wrong."""
+    found = Problems()
+    schema = _read(path, None, found)
+    return None if len(found) else schema
+
+
+def _read(path: str, named_at: Location | None, problems: Problems) -> ParameterSchema | None:
     document = read_document(path, named_at, problems)
     if document is None:
         return None

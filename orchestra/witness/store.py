@@ -27,6 +27,7 @@ class Store:
     def __init__(self, folder: str, most: int = _MOST) -> None:
         self._folder = folder
         self._most = most
+        self._made = False
 
     def read(self, key: str) -> tuple[Record, Any] | None:
         """Return what a result depends on, and the result; None where there is none that can be read."""
@@ -58,7 +59,9 @@ class Store:
         path = self._path(key)
         own = f"{path}.{os.getpid()}"
         try:
-            os.makedirs(self._folder, mode=0o700, exist_ok=True)
+            if not self._made:
+                os.makedirs(self._folder, mode=0o700, exist_ok=True)
+                self._made = True
             with open(own, "wb") as file:
                 file.write(digest_of(body).encode() + b"\n" + body)
             os.replace(own, path)
