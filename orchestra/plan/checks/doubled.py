@@ -8,7 +8,6 @@ from orchestra.errors import Code
 from orchestra.location import is_python
 from orchestra.plan.ids import node_name
 from orchestra.resolve.model import InlineParameter
-from orchestra.resolve.rcl.patterns import matches
 
 if TYPE_CHECKING:
     from orchestra.errors import Problems
@@ -57,8 +56,9 @@ def _check_file(
     """Report values before a file that has others for the very node, whose name it gives."""
     if name is None:
         return
-    for section in source.sections:
-        if "*" in section.pattern or not matches(section.pattern, name):
+    bare = name.removeprefix("/")
+    for section in source.sections if first else ():
+        if section.pattern.removeprefix("/") != bare:
             continue
         for entry in section.entries:
             earlier = first.get(entry.name)

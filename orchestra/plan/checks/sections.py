@@ -18,7 +18,7 @@ from orchestra.resolve.rcl.patterns import matches
 from orchestra.resolve.typos import is_typo
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from orchestra.errors import Problems
     from orchestra.plan.model import Plan
@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     _Node: TypeAlias = "ResolvedProcess | ResolvedComponent"
 
 
+_MOST = 100
 _MADE = "${run}/"  # what code of a launch file has written is nothing to show
 
 
@@ -97,7 +98,10 @@ def _check(file: _File, names: _Names, resolved: Resolved, problems: Problems, t
     sections = file.source.sections
     exact = {_absolute(section.pattern) for section in sections}
     wild = list(dict.fromkeys(section.pattern for section in sections if "*" in section.pattern))
-    idle = [section for section in sections if not names.any(section.pattern)]
+    idle: dict[str, list[Section]] = {}
+    for section in sections:
+        if not names.any(section.pattern):
+            idle.setdefault(section.pattern.rpartition("/")[2], []).append(section)
     without: list[str] = []
     for name in file.users:
         if name in exact:
@@ -109,20 +113,29 @@ def _check(file: _File, names: _Names, resolved: Resolved, problems: Problems, t
         elif not served:
             without.append(name)
     if len(without) == len(file.users) and not file.open:
-        _report_without(file, without, idle, problems, told)
+        _report_without(file, without, problems, told, idle=bool(idle))
 
 
-def _meant(name: str, idle: Sequence[Section], *, served: bool, resolved: Resolved) -> Section | None:
-    """Return the section that was meant for a node, None where none plainly was."""
+def _meant(
+    name: str, idle: Mapping[str, Sequence[Section]], *, served: bool, resolved: Resolved
+) -> Section | None:
+    """Return the section that was meant for a node, None where none plainly was; `idle` are those of no node by name.
+
+    In a file with very many of them no slip is looked for: it is one for a whole fleet.
+    """
     namespace, _, own = name.rpartition("/")
-    for section in idle:
-        there, _, last = _absolute(section.pattern).rpartition("/")
-        if last == own and there != namespace and (not there or not served):
+    for section in idle.get(own, ()):
+        there = _absolute(section.pattern).rpartition("/")[0]
+        if there != namespace and (not there or not served):
             return section  # beside a wildcard, one for another namespace is for another robot
-    for section in idle:
-        there, _, last = _absolute(section.pattern).rpartition("/")
-        if last not in resolved.lost and there in ("", "/**", namespace) and is_typo(last, own):
-            return section
+    if len(idle) > _MOST:
+        return None
+    for last, sections in idle.items():
+        if last in resolved.lost or not is_typo(last, own):
+            continue
+        for section in sections:
+            if _absolute(section.pattern).rpartition("/")[0] in ("", "/**", namespace):
+                return section
     return None
 
 
@@ -160,7 +173,7 @@ def _report(
 
 
 def _report_without(
-    file: _File, names: Sequence[str], idle: Sequence[Section], problems: Problems, told: set[object]
+    file: _File, names: Sequence[str], problems: Problems, told: set[object], *, idle: bool
 ) -> None:
     """Report nodes for which a file has nothing: at its one section, else where the file is given to the node."""
     sections = file.source.sections
