@@ -26,7 +26,11 @@ def _with(key: str, *others: str) -> Schema:
     return {"if": {"required": [key]}, "then": _one_of(*others)}
 
 
-_CONDITIONS: Final = _never("if", "unless")
+# Keys of any entity that has both.
+_PAIRS: Final = (
+    ("if", "unless"),
+    *(("restart", key) for key in ("respawn", "respawn_delay", "respawn_max_retries")),
+)
 _FACTS: Final = (
     *("log", "message", "topic", "node", "service", "action", "parameter", "lifecycle", "tf", "tcp", "http"),
     *("file", "command", "notify"),
@@ -41,7 +45,14 @@ _RULES: Final[dict[str, list[Schema]]] = {
         _one_of("node", "process", "label"),
         *(_never(*pair) for pair in (("node", "process"), ("node", "label"), ("process", "label"))),
     ],
-    "Limits": [_with("exclusive", "cores"), _with("priority", "scheduler")],
+    "Limits": [
+        _with("exclusive", "cores"),
+        _with("priority", "scheduler"),
+        {
+            "if": {"required": ["memory_lock"]},
+            "then": {"properties": {"rlimits": {"properties": {"memlock": False}}}},
+        },
+    ],
     "Param": [
         _one_of("value", "param", "from"),
         *(_never(*pair) for pair in (("value", "param"), ("name", "from"), ("value", "from"))),
@@ -56,9 +67,9 @@ _RULES: Final[dict[str, list[Schema]]] = {
 
 def with_rules(name: str, schema: Schema) -> Schema:
     """Return the schema of an entity with what holds between its keys."""
-    rules = list(_RULES.get(name, ()))
-    if {"if", "unless"} <= schema.get("properties", {}).keys():
-        rules.insert(0, _CONDITIONS)
+    keys = schema.get("properties", {}).keys()
+    pairs = [_never(*pair) for pair in _PAIRS if set(pair) <= keys]
+    rules = [*pairs, *_RULES.get(name, ())]
     return {**schema, "allOf": rules} if rules else schema
 
 

@@ -43,5 +43,11 @@ CoreLoader.add_constructor("tag:yaml.org,2002:float", _float)
 
 
 def core(text: str) -> Any:
-    """Return the value of a text."""
-    return yaml.load(text, CoreLoader)  # noqa: S506 - it constructs plain values alone
+    """Return the value of a text; keys are texts, as in JSON."""
+    return _with_texts(yaml.load(text, CoreLoader))  # noqa: S506 - it constructs plain values alone
+
+
+def _with_texts(value: Any) -> Any:
+    if isinstance(value, dict):
+        return {str(key): _with_texts(item) for key, item in value.items()}
+    return [_with_texts(item) for item in value] if isinstance(value, list) else value

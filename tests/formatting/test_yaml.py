@@ -81,11 +81,10 @@ _TABLES: dict[str, tuple[str, str | None]] = {
         "a:\n  b: {c: 1,  # x\n      d: 2}\n",
     ),
 }
+_ALL = _CASES | _COMMENTS | _TABLES
 
 
-@pytest.mark.parametrize(
-    ("written", "wanted"), {**_CASES, **_COMMENTS, **_TABLES}.values(), ids={**_CASES, **_COMMENTS, **_TABLES}
-)
+@pytest.mark.parametrize(("written", "wanted"), _ALL.values(), ids=_ALL)
 def test_a_text_has_one_form(written: str, wanted: str | None) -> None:
     wanted = written if wanted is None else wanted
     assert yaml_formatted(written, WIDTH) == wanted
