@@ -10,11 +10,12 @@ from orchestra.plan.model import Candidate, Via
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, Sequence
 
+    from orchestra.location import Span
     from orchestra.resolve.context import Read, Value
     from orchestra.resolve.model import EnvironmentChange, ParameterSource
     from orchestra.resolve.rcl.effective import Setting, Written
 
-    Origins = Mapping[Location, tuple[Read, ...]]
+    Origins = Mapping[Location, ParameterSource]
 
 FROM_COMMAND_LINE = "the command line wins"
 _OVERRULED = "overruled by the command line"
@@ -24,8 +25,8 @@ _LONGEST = 200
 
 
 def origins(sources: Iterable[ParameterSource]) -> Origins:
-    """Return what was read to make each parameter, and the path of each file, by the place where it is written."""
-    return {source.location: source.through for source in sources if source.through}
+    """Return the parameters and files for which something was read, by the place where they are written."""
+    return {source.location: source for source in sources if source.through or getattr(source, "within", ())}
 
 
 def passage(through: Sequence[Read]) -> tuple[Via, ...]:
@@ -45,11 +46,26 @@ def _steps(through: Sequence[Read], depth: int, seen: set[tuple[object, ...]]) -
 
 
 def behind(location: Location, known: Origins) -> tuple[Via, ...]:
-    """Return what was read to make the value at a place: the value itself, or the path of the file it stands in."""
+    """Return what was read to make the value at a place.
+
+    For one in a file that is what was read in that place of it, and then what was read to make its path.
+    """
     if location in known:
-        return passage(known[location])
+        return passage(known[location].through)
     chain = location.included_from
-    return passage(known.get(Location(chain[0], chain[1:]), ())) if chain else ()
+    source = known.get(Location(chain[0], chain[1:])) if chain else None
+    if source is None:
+        return ()
+    within = getattr(source, "within", ())
+    inside = [read for span, reads in within if _touch(span, location.span) for read in reads]
+    return passage([*inside, *source.through])
+
+
+def _touch(one: Span, other: Span) -> bool:
+    """Return whether two spans of one file have something in common."""
+    starts = (one.line, one.column), (other.line, other.column)
+    ends = (one.end_line, one.end_column), (other.end_line, other.end_column)
+    return starts[0] < ends[1] and starts[1] < ends[0]
 
 
 def of_parameter(below: Setting | None, above: Setting | None, known: Origins) -> tuple[Candidate, ...]:

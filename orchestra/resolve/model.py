@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any, Literal, TypeAlias
 
-from orchestra.location import Location
+from orchestra.location import Location, Span
 from orchestra.resolve.awaited import ResolvedAlive, ResolvedReady
 from orchestra.resolve.context import Read, Value
 from orchestra.resolve.rcl.sections import Entry, Section
@@ -55,7 +55,7 @@ class FileParameters:
     """The sections of a parameter file, as far as it could be read; `everywhere` as with a single parameter.
 
     `plain` are the parameters of a file that has no sections at all, which only components take. `through` is what was
-    read to make its path.
+    read to make its path, `within` what was read for the substitutions in it, by their places.
     """
 
     path: str
@@ -64,6 +64,7 @@ class FileParameters:
     everywhere: bool = False
     plain: tuple[Entry, ...] = ()
     through: tuple[Read, ...] = field(default=(), compare=False, repr=False)
+    within: tuple[tuple[Span, tuple[Read, ...]], ...] = field(default=(), compare=False, repr=False)
 
 
 ParameterSource: TypeAlias = InlineParameter | FileParameters

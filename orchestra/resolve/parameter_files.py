@@ -16,7 +16,7 @@ from orchestra.resolve.paths import beside, existing_file, folder_of
 from orchestra.resolve.rcl.files import read_parameter_file, read_plain_file
 from orchestra.resolve.rcl.sections import included
 from orchestra.resolve.rcl.strays import SECTION_KEY
-from orchestra.resolve.substituted import Back, placed_back, substituted
+from orchestra.resolve.substituted import Back, Reads, placed_back, substituted
 
 if TYPE_CHECKING:
     from orchestra.description.text import Template
@@ -92,11 +92,12 @@ def read_file(
         return None
     file, chain = displayed(path), (location.span, *location.included_from)
     back: Back | None = None
+    reads: Reads = ()
     if substitute:
         evaluated = substituted(text, file, replace(run.context, included_from=chain))
         if evaluated is None:
             return None
-        text, back = evaluated
+        text, back, reads = evaluated
     bare = plain and SECTION_KEY not in text
     sections, found = _read(text, file, bare=bare)
     for problem in found:
@@ -109,9 +110,9 @@ def read_file(
         sections = tuple(placed_back(section, back) for section in sections)
     if bare:
         return FileParameters(
-            path, (), location, plain=tuple(item for part in sections for item in part.entries)
+            path, (), location, plain=tuple(item for part in sections for item in part.entries), within=reads
         )
-    return FileParameters(path, sections, location)
+    return FileParameters(path, sections, location, within=reads)
 
 
 @lru_cache(maxsize=64)  # by content: many nodes and files have the same one

@@ -16,14 +16,17 @@ from orchestra.resolve.evaluate import perform
 
 if TYPE_CHECKING:
     from orchestra.location import Location, Span
-    from orchestra.resolve.context import Context
+    from orchestra.resolve.context import Context, Read
     from orchestra.resolve.rcl.sections import Entry, Section
 
 Back: TypeAlias = Callable[["Span"], "Span"]
+Reads: TypeAlias = "tuple[tuple[Span, tuple[Read, ...]], ...]"
 
 
-def substituted(text: str, file: str, context: Context) -> tuple[str, Back] | None:
+def substituted(text: str, file: str, context: Context) -> tuple[str, Back, Reads] | None:
     """Return a text evaluated, with a function from its spans to those of the file; None where it is faulty.
+
+    With it comes what was read for each substitution that read something.
 
     As upstream, backslashes escape in the whole text. What is faulty has been reported to the context's collector.
     """
@@ -34,17 +37,22 @@ def substituted(text: str, file: str, context: Context) -> tuple[str, Back] | No
         context.problems.report(replace(problem, included_from=context.included_from))
     made = _Made(whole)
     sound = not template.faulty
+    read: list[tuple[Span, tuple[Read, ...]]] = []
     for part in template.parts:
         if isinstance(part, Words):
             made.words(part)
-        elif isinstance(value := perform(part, context), Value):
+            continue
+        with context.variables.tracing() as reads:
+            value = perform(part, context)
+        if isinstance(value, Value):
             made.value(value.text, part.span)
+            read += [(part.span, tuple(reads))] if reads else []
         else:
             sound = False
     if not sound:
         return None
     evaluated = source(file, "".join(made.texts))
-    return evaluated.text, lambda span: made.back(span, evaluated)
+    return evaluated.text, lambda span: made.back(span, evaluated), tuple(read)
 
 
 def placed_back(section: Section, back: Back) -> Section:

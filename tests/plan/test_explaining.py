@@ -268,3 +268,26 @@ def test_components_and_code_are_followed_too(tmp_path: Path) -> None:
     rule = _one(made, "/cam:image")
     assert rule.value == "/seen"
     assert [(via.name, via.setter) for via in rule.candidates[0].through] == [("topic", "let")]
+
+
+def test_substitutions_in_a_file_are_followed_too(tmp_path: Path) -> None:
+    (tmp_path / "p.yaml").write_text("/**:\n  ros__parameters: {a: $(var x), b: 1, c: <$(var y)$(var x)>}\n")
+    (tmp_path / "main.launch.yaml").write_text(
+        "launch:\n"
+        "  - arg: {name: x, default: '5'}\n"
+        "  - let: {name: y, value: $(var x)}\n"
+        "  - arg: {name: file, default: p.yaml}\n"
+        "  - node: {exec: /bin/true, name: n, namespace: /,"
+        " param: [{from: $(dirname)/$(var file), allow_substs: true}]}\n"
+    )
+    made = collect(str(tmp_path / "main.launch.yaml"), inputs_from([], environment={}), Problems())
+    assert made is not None
+    told = {
+        name: [(via.name, via.depth) for via in _one(made, f"n.{name}").candidates[0].through]
+        for name in "abc"
+    }
+    assert told == {
+        "a": [("x", 0), ("file", 0)],
+        "b": [("file", 0)],
+        "c": [("y", 0), ("x", 1), ("file", 0)],
+    }
