@@ -113,7 +113,7 @@ _PARAMETERS = """\
 _DRIVING = """\
 /**:
   ros__parameters:
-    max_linear_vel: 0.{n}
+    max_linear_vel: 0.2{n}
 """
 _SHARED = 20
 

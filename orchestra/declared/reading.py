@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
+from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from orchestra.declared.documents import Document, read_document
-from orchestra.declared.generated import is_definition, read_definition
-from orchestra.declared.json_schema import is_schema, read_schema
+from orchestra.declared.kinds import is_definition, is_schema
 from orchestra.errors import Code, Problems
 
 if TYPE_CHECKING:
@@ -28,14 +28,23 @@ class Reader(Protocol):
 
 @dataclass(frozen=True, slots=True)
 class Way:
-    """One way to declare parameters in a file: whether a file is of it, and what reads it."""
+    """One way to declare parameters in a file: whether a file is of it, and what reads it, in a module of its own."""
 
     is_it: Callable[[Any], bool]
-    read: Reader
+    module: str
+    name: str
+
+    @property
+    def read(self) -> Reader:
+        """What reads it: imported when the first such file is read."""
+        reader: Reader = getattr(import_module(self.module), self.name)
+        return reader
 
 
+_SCHEMA: Final = Way(is_schema, "orchestra.declared.json_schema", "read_schema")
+_DEFINITION: Final = Way(is_definition, "orchestra.declared.generated", "read_definition")
 # The first that knows a file reads it.
-WAYS: Final = (Way(is_schema, read_schema), Way(is_definition, read_definition))
+WAYS: Final = (_SCHEMA, _DEFINITION)
 
 
 def read_named(named: NamedSchema, problems: Problems) -> ParameterSchema | None:
@@ -59,7 +68,9 @@ def read_file(path: str, named_at: Location | None, problems: Problems) -> Param
 
 @lru_cache(maxsize=64)  # by content: many nodes are declared in the same file
 def _sound(path: str, content: bytes) -> ParameterSchema | None:  # noqa: ARG001 - what it depends on
-    """Return the schema in a file in which nothing is wrong."""
+    """Return the schema in a file in which nothing is wrong, None for one that may lean on other files."""
+    if b"$ref" in content:
+        return None
     found = Problems()
     schema = _read(path, None, found)
     return None if len(found) else schema
@@ -73,7 +84,7 @@ def _read(path: str, named_at: Location | None, problems: Problems) -> Parameter
     if way is not None:
         return way.read(document, problems)
     if _may_be_definition(document.data):
-        return read_definition(document, problems)  # which says what is wrong with it
+        return _DEFINITION.read(document, problems)  # which says what is wrong with it
     told = "this is neither a JSON Schema of an object nor a definition of generate_parameter_library"
     problems.error(Code.BROKEN_DECLARATION, told, document.at())
     return None
