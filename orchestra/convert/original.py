@@ -72,8 +72,9 @@ def opened(path: str, environment: Mapping[str, str]) -> Iterator[Original]:
     Raises `DescriptionError` where it cannot be read without a fault.
     """
     problems = Problems()
-    packages = InstalledPackages(environment)
     inputs = inputs_from([], environment=environment)
+    environment = inputs.environment
+    packages = InstalledPackages(environment)
 
     def begin_alone(found: Problems) -> Resolution:
         return begin(inputs, found, load=load, packages=packages, run_command=run_command)

@@ -6,15 +6,17 @@
 from __future__ import annotations
 
 import ast
+import os
 import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.place import span_in
 from orchestra.convert.mapped import mapped, with_parts
 from orchestra.description.actions.set_env import SetEnv
 from orchestra.description.actions.unset_env import UnsetEnv
 from orchestra.description.text import Call, Constant, Template, Words
-from orchestra.location import Span, point
+from orchestra.location import point
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -22,7 +24,15 @@ if TYPE_CHECKING:
     from orchestra.convert.original import Original
     from orchestra.convert.remarks import Remarks
     from orchestra.description.entity import Action
+    from orchestra.location import Span
 
+_SURROUNDINGS = {
+    ("os", "environ"),
+    ("os", "getenv"),
+    ("sys", "argv"),
+    ("platform", "node"),
+    ("socket", "gethostname"),
+}
 _FOLDER_OF_FILE = re.compile(r"\b__file__\b")
 
 
@@ -33,7 +43,7 @@ def recovered(actions: tuple[Action, ...], original: Original, remarks: Remarks)
         folder = str(Path(original.path).parent)
         places.setdefault(original.path, ("filename", ""))
         places.setdefault(folder, ("dirname", ""))
-    _warn_of_environment(original, remarks)
+    _warn_of_surroundings(original, remarks)
     recovery = _Recovery(places, original.text, remarks)
     return tuple(mapped(action, recovery.of) for action in (*_environment(original), *actions))
 
@@ -56,6 +66,7 @@ class _Recovery:
         self._places = places
         self._source = source
         self._remarks = remarks
+        self._environment = frozenset(os.environ.values())
         longest_first = sorted(places, key=len, reverse=True)
         found = f"({'|'.join(map(re.escape, longest_first))})(?![\\w.-])"
         self._pattern = re.compile(found) if places else None
@@ -94,21 +105,19 @@ class _Recovery:
     def _look_at(self, text: str, span: Span, *, alone: bool) -> None:
         """Tell of a path of this machine that the file does not spell out."""
         path = Path(text)
-        if alone and path.is_absolute() and len(text) > 1 and text not in self._source and _is_there(path):
+        known = text in self._source or text in self._environment
+        if alone and path.is_absolute() and len(text) > 1 and not known and _is_there(path):
             self._remarks.warn(f"code has come to the path {text}: the result has it as it is here", span)
 
 
-def _warn_of_environment(original: Original, remarks: Remarks) -> None:
-    """Tell of code that reads the environment: what it comes to here and now stands in the result."""
+def _warn_of_surroundings(original: Original, remarks: Remarks) -> None:
+    """Tell of code that reads the environment or the command line: the result has what these come to here and now."""
     for node in ast.walk(ast.parse(original.text)):
         match node:
-            case ast.Attribute(value=ast.Name(id="os"), attr="environ" | "getenv" as name):
-                told = f"os.{name} is read when the file is converted: the result has what that comes to here"
-                end = node.end_col_offset or node.col_offset
-                at = Span(
-                    original.file, node.lineno, node.col_offset + 1, node.end_lineno or node.lineno, end + 1
-                )
-                remarks.warn(told, at)
+            case ast.Attribute(value=ast.Name(id=module), attr=name) if (module, name) in _SURROUNDINGS:
+                told = f"{module}.{name} is read when the file is converted: the result has what it is then"
+                positions = (node.lineno, node.end_lineno, node.col_offset, node.end_col_offset)
+                remarks.warn(told, span_in(original.path, positions))
 
 
 def _is_there(path: Path) -> bool:
