@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from orchestra.declared.convention import definition_beside, names_of_class, schema_beside
-from orchestra.declared.documents import read_document
-from orchestra.declared.generated import is_definition
+from orchestra.declared.kinds import is_definition
 from orchestra.errors import Problems
 
 
@@ -15,5 +14,9 @@ def schema_of_package(share: str, called: str) -> str | None:
     if found is not None:
         return found
     path = definition_beside(share, names)
-    document = None if path is None else read_document(path, None, Problems())
+    if path is None:
+        return None
+    from orchestra.declared.documents import read_document  # noqa: PLC0415 - few packages have such files
+
+    document = read_document(path, None, Problems())
     return path if document is not None and is_definition(document.data) else None

@@ -2,21 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
-from orchestra.declared.model import Parameter
+if TYPE_CHECKING:
+    from orchestra.declared.model import RosType
 
-# rclcpp: node_time_source, type_description_service, qos_overrides; rclpy: Node.__init__. Jazzy.
-COMMON: Final = {
-    parameter.name: parameter
-    for parameter in (
-        Parameter("use_sim_time", ("bool",)),
-        Parameter("start_type_description_service", ("bool",)),
-    )
-}
-GROUPS: Final = ("qos_overrides",)
+# By name, with their types. rclcpp: node_time_source, type_description_service, qos_overrides; rclpy: Node. Jazzy.
+COMMON: Final[dict[str, RosType]] = {"use_sim_time": "bool", "start_type_description_service": "bool"}
+_GROUPS: Final = ("qos_overrides",)
 
 
 def is_common(name: str) -> bool:
     """Return whether every node may have a parameter of this name."""
-    return name in COMMON or name.partition(".")[0] in GROUPS
+    return name in COMMON or name.partition(".")[0] in _GROUPS

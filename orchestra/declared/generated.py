@@ -12,8 +12,9 @@ from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.declared.documents import Document
-from orchestra.declared.generated_rules import FIXED, RULES, element_of, rule_of
+from orchestra.declared.generated_rules import RULES, element_of, rule_of
 from orchestra.declared.judging import DeclaredParameters, value_faults
+from orchestra.declared.kinds import FIXED, NONE, TYPES, is_leaf, is_type
 from orchestra.declared.model import Declarations, Parameter, RosType
 from orchestra.declared.rules import objections
 from orchestra.errors import Code, Problems
@@ -23,45 +24,8 @@ if TYPE_CHECKING:
     from orchestra.declared.documents import Way
     from orchestra.values import ParameterValue
 
-TYPES: Final[dict[str, RosType]] = {
-    "bool": "bool",
-    "int": "integer",
-    "double": "double",
-    "string": "string",
-    "bool_array": "bool_array",
-    "int_array": "integer_array",
-    "double_array": "double_array",
-    "string_array": "string_array",
-}
-_NONE: Final = "none"
 _MAP: Final = "__map_"
 _KEYS: Final = ("type", "default_value", "description", "read_only", "validation", "additional_constraints")
-
-
-def is_definition(data: Any) -> bool:  # noqa: ANN401 - whatever a file holds
-    """Return whether data can be nothing else than a definition: one root, and below it parameters with known types."""
-    if not isinstance(data, dict) or len(data) != 1:
-        return False
-    ((_, root),) = data.items()
-    types = list(_types_in(root))
-    return bool(types) and None not in types and all(_is_type(item) for item in types)
-
-
-def _types_in(tree: Any) -> list[Any]:  # noqa: ANN401 - as above
-    """Return the types of all leaves, None for what is no leaf and no level."""
-    if not isinstance(tree, dict) or not tree:
-        return [None]
-    if _is_leaf(tree):
-        return [tree["type"]]
-    return [item for inner in tree.values() for item in _types_in(inner)]
-
-
-def _is_leaf(tree: dict[Any, Any]) -> bool:
-    return "type" in tree and not isinstance(tree["type"], dict)
-
-
-def _is_type(word: Any) -> bool:  # noqa: ANN401 - as above
-    return isinstance(word, str) and (FIXED.sub("", word) in TYPES or word == _NONE)
 
 
 def read_definition(document: Document, problems: Problems) -> DeclaredParameters | None:
@@ -95,7 +59,7 @@ class _Definition:
                 self.refuse(f"'{name}' is no parameter: that is a mapping with a `type`", here)
             elif name.startswith(_MAP):
                 self.level(inner, here, f"{above}{{}}.", (*keys, f"{above}|{name.removeprefix(_MAP)}"))
-            elif _is_leaf(inner):
+            elif is_leaf(inner):
                 self.parameter(inner, here, f"{above}{name}", keys)
             elif inner and all(isinstance(item, dict) for item in inner.values()):
                 self.level(inner, here, f"{above}{name}.", keys)
@@ -108,14 +72,14 @@ class _Definition:
             near = nearest(str(word), _KEYS)
             if word not in _KEYS and near is not None and near not in leaf and is_slip(str(word), near):
                 self.refuse(f"a parameter has no key '{word}'", (*way, word), meant=near, key=True)
-        if leaf["type"] == _NONE:
+        if leaf["type"] == NONE:
             self.groups.append(name.partition(".{}")[0])
             return
-        if not _is_type(leaf["type"]):
+        if not is_type(leaf["type"]):
             self.refuse(
                 f"'{leaf['type']}' is no type of a parameter",
                 (*way, "type"),
-                meant=nearest(str(leaf["type"]), (*TYPES, _NONE)),
+                meant=nearest(str(leaf["type"]), (*TYPES, NONE)),
             )
             self.groups.append(name.partition(".{}")[0])
             return

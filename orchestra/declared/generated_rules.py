@@ -6,17 +6,15 @@ in octets, as `std::string::size` does.
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.declared.kinds import FIXED
 from orchestra.declared.rules import OneOf, Range, Rule, Size, Unique
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from orchestra.declared.model import RosType
-
-FIXED: Final = re.compile(r"_fixed_(?P<size>\d+)$")
 
 
 def rule_of(function: str, arguments: list[Any], kind: RosType) -> Rule | None:

@@ -35,7 +35,7 @@ class DeclaredParameters:
         for name, value in values.items():
             declared = [known[name]] if name in known else self._by_pattern(name)
             if not declared and name in COMMON:
-                declared = [COMMON[name]]
+                declared = [Parameter(name, (COMMON[name],))]
             for parameter in declared:
                 yield from value_faults(parameter, name, value)
             if declared:
@@ -119,3 +119,10 @@ def _is_meant(name: str, meant: set[str]) -> bool:
 
 def _is_below(name: str, groups: tuple[str, ...]) -> bool:
     return any(not group or name == group or name.startswith(f"{group}.") for group in groups)
+
+
+def of_every_node(values: Mapping[str, ParameterValue]) -> Iterator[Fault]:
+    """Yield what is wrong with values of parameters that every node has."""
+    for name, kind in COMMON.items():
+        if name in values:
+            yield from value_faults(Parameter(name, (kind,)), name, values[name])

@@ -11,7 +11,7 @@ from pydantic import BaseModel, PydanticUserError, ValidationError
 from orchestra.declared.judging import missing
 from orchestra.declared.model import Fault
 from orchestra.declared.shape import Level, level, ros_types
-from orchestra.declared.structured import of_every_node, settled, structured, undeclared, unlike, unsaid
+from orchestra.declared.structured import common_faults, settled, structured, undeclared, unlike, unsaid
 from orchestra.declared.texts import nearest_text
 from orchestra.declared.typing_of_values import rewritten
 from orchestra.errors import Code
@@ -73,7 +73,7 @@ class _Model:
             told.add(fault.name)
             yield fault
         yield from unlike(found, told)
-        yield from of_every_node(values, found)
+        yield from common_faults(values, found)
 
 
 def _validated(model: type[BaseModel], found: Structured) -> list[Fault]:

@@ -67,7 +67,7 @@ def read_file(path: str, named_at: Location | None, problems: Problems) -> Param
 
 
 @lru_cache(maxsize=64)  # by content: many nodes are declared in the same file
-def _sound(path: str, content: bytes) -> ParameterSchema | None:  # noqa: ARG001 - what it depends on
+def _sound(path: str, content: bytes) -> ParameterSchema | None:
     """Return the schema in a file in which nothing is wrong, None for one that may lean on other files."""
     if b"$ref" in content:
         return None

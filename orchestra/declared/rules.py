@@ -10,7 +10,7 @@ from orchestra.declared.texts import listed, nearest_text, shown
 from orchestra.values import Scalar
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from orchestra.values import ParameterValue
 
@@ -70,20 +70,26 @@ Rule: TypeAlias = Range | OneOf | Size | Unique
 def objections(rule: Rule, value: ParameterValue) -> Iterator[Objection]:
     """Yield what is wrong with a value of a type that the rule is about; of others nothing is said."""
     match rule:
-        case Range() | OneOf():
-            judge = _out_of_range if isinstance(rule, Range) else _none_of
-            if not rule.items:
-                told = None if isinstance(value, tuple) else judge(rule, value)  # type: ignore[arg-type]  # as above
-                yield from () if told is None else (told,)
-            elif isinstance(value, tuple):
-                for index, item in enumerate(value):
-                    told = judge(rule, item)  # type: ignore[arg-type]  # as above
-                    if told is not None:
-                        yield Objection(told.told, told.meant, index)
+        case Range() | OneOf() if rule.items:
+            if isinstance(value, tuple):
+                yield from _of_items(rule, value)
+        case Range():
+            told = None if isinstance(value, tuple) else _out_of_range(rule, value)
+            yield from () if told is None else (told,)
+        case OneOf():
+            told = _none_of(rule, value)
+            yield from () if told is None else (told,)
         case Size():
             yield from _wrong_size(rule, value)
         case Unique():
             yield from _repeated(value)
+
+
+def _of_items(rule: Range | OneOf, items: Sequence[Scalar]) -> Iterator[Objection]:
+    for index, item in enumerate(items):
+        told = _out_of_range(rule, item) if isinstance(rule, Range) else _none_of(rule, item)
+        if told is not None:
+            yield Objection(told.told, told.meant, index)
 
 
 def _out_of_range(rule: Range, value: Scalar) -> Objection | None:
@@ -113,7 +119,7 @@ def _bounds(rule: Range) -> str:
     return " and ".join(part for part in (low, high) if part)
 
 
-def _none_of(rule: OneOf, value: Scalar) -> Objection | None:
+def _none_of(rule: OneOf, value: ParameterValue) -> Objection | None:
     if any(value == one and isinstance(value, bool) == isinstance(one, bool) for one in rule.values):
         return None
     texts = [one for one in rule.values if isinstance(one, str)]

@@ -10,8 +10,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from orchestra.declared.common import COMMON, is_common
-from orchestra.declared.judging import value_faults, wrong_type
+from orchestra.declared.common import is_common
+from orchestra.declared.judging import of_every_node, wrong_type
 from orchestra.declared.misnamed import misnamed
 from orchestra.declared.model import Fault, Parameter
 from orchestra.declared.plain_schema import ROS_TYPE
@@ -50,11 +50,9 @@ def structured(values: Mapping[str, ParameterValue], root: Level) -> Structured:
     return Structured(own, {name: places[name] for name in own}, root)
 
 
-def of_every_node(values: Mapping[str, ParameterValue], found: Structured) -> Iterator[Fault]:
-    """Yield what is wrong with values of parameters that every node has."""
-    for name, parameter in COMMON.items():
-        if name in values and name not in found.values:
-            yield from value_faults(parameter, name, values[name])
+def common_faults(values: Mapping[str, ParameterValue], found: Structured) -> Iterator[Fault]:
+    """Yield what is wrong with values of parameters that every node has, and of which the schema says nothing."""
+    return of_every_node({name: value for name, value in values.items() if name not in found.values})
 
 
 def unlike(found: Structured, told: set[str]) -> Iterator[Fault]:

@@ -15,9 +15,10 @@ import pytest
 import yaml
 
 from orchestra.declared.documents import Document
-from orchestra.declared.generated import is_definition, read_definition
+from orchestra.declared.generated import read_definition
 from orchestra.declared.interfaces.model import Qos
 from orchestra.declared.interfaces.own_form import read_interface
+from orchestra.declared.kinds import is_definition
 from orchestra.declared.plain_schema import read_plain
 from orchestra.errors import Problems
 
@@ -219,7 +220,9 @@ def test_what_makes_no_sense(words: list[str], told: str) -> None:
 def test_a_node_of_a_run_is_reached_as_those_of_the_run(tmp_path: Path) -> None:
     """It is in another domain than the command."""
     launch = tmp_path / "a.launch.yaml"
-    launch.write_text(f"launch: [{{executable: {{cmd: [{sys.executable}, {_NODE}, /robot2/declaring]}}}}]", "utf-8")
+    launch.write_text(
+        f"launch: [{{executable: {{cmd: [{sys.executable}, {_NODE}, /robot2/declaring]}}}}]", "utf-8"
+    )
     home = {**os.environ, **_REACH, "ORCHESTRA_HOME": str(tmp_path / "home")}
     orchestra = [sys.executable, "-m", "orchestra"]
     started = subprocess.run(

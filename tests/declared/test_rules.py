@@ -8,8 +8,9 @@ import pytest
 import yaml
 
 from orchestra.declared.documents import Document
-from orchestra.declared.generated import TYPES, read_definition
+from orchestra.declared.generated import read_definition
 from orchestra.declared.generated_rules import RULES
+from orchestra.declared.kinds import TYPES
 from orchestra.errors import Code, Problems
 
 if TYPE_CHECKING:

@@ -6,7 +6,7 @@ import math
 import re
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.declared.generated import TYPES
+from orchestra.declared.kinds import TYPES
 
 if TYPE_CHECKING:
     from orchestra.declared.capturing.model import Captured, CapturedParameter

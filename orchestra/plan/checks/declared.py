@@ -2,22 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from orchestra.declared.beside import schema_of_package
 from orchestra.declared.common import COMMON
-from orchestra.declared.judging import value_faults
-from orchestra.declared.model import ParameterSchema
 from orchestra.errors import Code, Problem, Problems, Severity
 from orchestra.location import is_python
 from orchestra.plan.written import Written, written_of
 from orchestra.resolve.model import NamedSchema, ResolvedComponent
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
-    from orchestra.declared.model import Fault, FaultKind
+    from orchestra.declared.model import Fault, FaultKind, ParameterSchema
     from orchestra.location import Location
     from orchestra.plan.model import Component, Plan, Process
     from orchestra.resolve.model import Resolved, ResolvedProcess
@@ -53,12 +50,12 @@ def nodes_of(
     yield from zip(resolved.components, plan.components, strict=True)
 
 
-@dataclass(slots=True)
 class _Schemas:
     """The schemas of a description; each is read once."""
 
-    problems: Problems
-    _read: dict[object, ParameterSchema | None] = field(default_factory=dict)
+    def __init__(self, problems: Problems) -> None:
+        self._problems = problems
+        self._read: dict[object, ParameterSchema | None] = {}
 
     def of(self, node: ResolvedProcess | ResolvedComponent) -> tuple[ParameterSchema | None, bool]:
         """Return the schema of a node, and whether its description names it."""
@@ -79,14 +76,16 @@ class _Schemas:
 
         key = named.path or id(named.model)
         if key not in self._read:
-            self._read[key] = read_named(named, self.problems)
+            self._read[key] = read_named(named, self._problems)
         return self._read[key]
 
 
-def _of_every_node(values: dict[str, ParameterValue]) -> Iterator[Fault]:
-    for name, parameter in COMMON.items():
-        if name in values:
-            yield from value_faults(parameter, name, values[name])
+def _of_every_node(values: dict[str, ParameterValue]) -> Iterable[Fault]:
+    if all(isinstance(values.get(name, True), bool) for name in COMMON):
+        return ()
+    from orchestra.declared.judging import of_every_node  # noqa: PLC0415 - hardly any description needs it
+
+    return of_every_node(values)
 
 
 def _is_whole(node: ResolvedProcess | ResolvedComponent) -> bool:
