@@ -9,6 +9,7 @@ import os
 import platform
 import shutil
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -54,7 +55,12 @@ def fault_of(path: str, environment: Mapping[str, str]) -> Fault | None:
 
 def program_on_path(name: str, environment: Mapping[str, str]) -> str | None:
     """Return the path of a program of the search path, None where it has none of that name."""
-    return shutil.which(name, path=environment.get("PATH", os.defpath))
+    return _which(name, environment.get("PATH", os.defpath))
+
+
+@lru_cache(maxsize=256)  # a description starts the same programs again and again
+def _which(name: str, path: str) -> str | None:
+    return shutil.which(name, path=path)
 
 
 def programs_on_path(environment: Mapping[str, str]) -> set[str]:

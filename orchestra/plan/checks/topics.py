@@ -75,7 +75,8 @@ def _alike(uses: Iterable[_Use]) -> Iterator[list[_Use]]:
     for use in uses:
         groups.setdefault(use.name.replace("/", "").lower(), []).append(use)
         bare = use.written.text.removeprefix("/")
-        if use.namespace != "/" and bare not in _GLOBAL and not bare.startswith("~"):
+        plain = use.name in (f"/{bare}", f"{use.namespace}/{bare}")
+        if plain and use.namespace != "/" and bare not in _GLOBAL:
             groups.setdefault((use.namespace, bare), []).append(use)
     for group in groups.values():
         if len({use.name for use in group}) > 1:

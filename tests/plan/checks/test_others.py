@@ -103,6 +103,8 @@ RIGHT: dict[str, str] = {
     + node("b", namespace="r", remap=_to("cmd_vel"))
     + node("c", remap=_to("/cmd_vel"))
     + node("d", remap=_to("/cmd_vel")),
+    "a name that is remapped to several": node("a", namespace="r", remap=_to("/t1"), ready="{topic: x}")
+    + node("b", namespace="r", remap=_to("/t2"), ready="{topic: x}"),
     "names in two namespaces": node("a", namespace="r1", remap=_to("scan"))
     + node("b", namespace="r2", remap=_to("scan")),
     "transforms": node("a", namespace="r", remap="[{from: /tf, to: tf}]")
