@@ -69,6 +69,9 @@ def _call(call: Call) -> Iterable[Any]:
         for index, argument in enumerate(arguments):
             yield from ("/", *argument) if index else argument
         return
+    if call.name == "string-join" and not arguments[0]:
+        yield from (part for argument in arguments[1:] for part in argument)
+        return
     default = _DEFAULTS.get(call.name)
     if default is not None and len(arguments) > 1 and arguments[-1] == (default,):
         arguments.pop()

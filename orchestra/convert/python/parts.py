@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.convert.argv import words_of
 from orchestra.convert.comments.kept import Comments
@@ -20,6 +20,9 @@ from orchestra.description.text import Constant, Template
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
+
+# Keys of Orchestra's own that hold a text or a list of texts.
+_SEVERAL: Final = frozenset({"cores"})
 
 
 @dataclass(frozen=True, slots=True)
@@ -131,7 +134,7 @@ class Parts:
             return a_list(self.extension(item, kind) for item in value)
         if isinstance(value, dict):
             items = (
-                Element(self.extension(item, kind), f"{string(key).text}: ") for key, item in value.items()
+                Element(self._several(item, kind), f"{string(key).text}: ") for key, item in value.items()
             )
             return Bracket("{", tuple(items), "}")
         return self.flag(value) if kind is Kind.FLAG else self.plain(value)
@@ -155,9 +158,15 @@ class Parts:
         kind = kind_of(type(entity), field)
         if kind is Kind.VALUE:
             return value(inner, None, self.texts, quotes=True)
+        if kind is Kind.ARGV:
+            return self.words(inner)
         if isinstance(inner, Entity):
             return self.keyed(inner, short_key(type(entity), field))
-        return self.extension(inner, kind)
+        return self._several(inner, kind) if field in _SEVERAL else self.extension(inner, kind)
+
+    def _several(self, value: Any, kind: Kind) -> Code:  # noqa: ANN401 - a part of a description, whatever it is
+        """Return a text, or a list of several, where a list is no text in parts."""
+        return self.texts.whole(value) if isinstance(value, Template) else self.extension(value, kind)
 
     def _key(self, template: Template) -> str:
         code = self.texts.key(template)

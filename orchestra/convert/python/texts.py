@@ -59,6 +59,13 @@ class Texts:
         """Return the expression for a text: a string, an object, or a list of both. Raises `UnsayableError`."""
         return self._parts(normal(template), template.span)
 
+    def whole(self, template: Template) -> Code:
+        """Return the same where a list means several values: what is concatenated is one object."""
+        code = self.of(template)
+        if isinstance(code, Bracket) and code.start == "[":
+            return call(self.name("StringJoinSubstitution"), [Element(code)])
+        return code
+
     def key(self, template: Template) -> Code:
         """Return the same as the key of a dictionary, where a list cannot stand."""
         code = self.of(template)
