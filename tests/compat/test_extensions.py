@@ -412,7 +412,7 @@ def test_a_fault_is_told_as_in_yaml_at_the_words_that_are_wrong(
     head = "from launch_ros.actions import *\nELSEWHERE = {'node': 'x'}"
     # The accent is one code point and two bytes.
     path = plans.write(
-        tmp_path / "a.launch.py", f"Node(executable='é', name='a',\n  cwd='é', {keyword})", head
+        tmp_path / "a.launch.py", f"Node(executable='é', name='a',\n  exec_name='é', {keyword})", head
     )
     problems = Problems()
     plan = collect(str(path), inputs_from([], environment={"PATH": "/bin"}), problems)

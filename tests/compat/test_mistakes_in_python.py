@@ -441,7 +441,7 @@ def _file(code: str) -> str:
     code = dedent(code)
     if code.startswith("["):
         code = f"return LaunchDescription({code})"
-    if "def generate_launch_descrip" in code:
+    if "def generate_launch_descrip" in re.sub("[«»]", "", code):
         return code if "launch_ros" in code or "import" in code else f"{_HEAD}{code}"
     return f"{_HEAD}def generate_launch_description():\n{indent(code, '    ')}\n"
 

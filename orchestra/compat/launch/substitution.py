@@ -23,6 +23,10 @@ class Substitution(Refusing):
     that the launch language can say overrides `_parts` (see `orchestra.compat.calls`).
     """
 
+    def __str__(self) -> str:
+        """Return the class: what users make texts of, as in an f-string, shows that there is no text yet."""
+        return f"<{type(self).__name__}>"
+
     def describe(self) -> str:
         """Return what the substitution is, for people."""
         return self.__repr__()
