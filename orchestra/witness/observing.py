@@ -7,14 +7,13 @@ from __future__ import annotations
 
 import os
 import sys
-import sysconfig
 from contextlib import contextmanager
 from functools import wraps
-from importlib.util import source_from_cache
 from types import CodeType
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from orchestra.witness import looking, unknowable
+from orchestra.witness.origins import INSTALLED, OF_THE_KERNEL, OURS, is_python, source_of
 from orchestra.witness.record import Record, question
 from orchestra.witness.variables import ObservedData
 
@@ -25,19 +24,8 @@ if TYPE_CHECKING:
 
 _AnswerT = TypeVar("_AnswerT")
 
-_OURS: Final = os.path.dirname(os.path.dirname(os.path.abspath(__file__))) + os.sep
-_PYTHON: Final = tuple(
-    os.path.join(path, "")
-    for name in ("stdlib", "platstdlib")
-    for path in {sysconfig.get_path(name), os.path.realpath(sysconfig.get_path(name))}
-)
-_INSTALLED: Final = tuple(
-    os.path.join(path, "")
-    for name in ("purelib", "platlib")
-    for path in {sysconfig.get_path(name), os.path.realpath(sysconfig.get_path(name))}
-)
 _LOOKING: Final = (("stat", "mode"), ("lstat", "own_mode"), ("readlink", "link"), ("access", "access"))
-_OF_THE_KERNEL: Final = ("/proc/", "/sys/", "/dev/")
+_MOST_PATHS: Final = 100_000  # that are remembered
 _WRITING: Final = os.O_WRONLY | os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_TRUNC
 
 
@@ -54,7 +42,9 @@ class Observer:
         self._installed: Record = Record()
         self._of_users = False
         self._environment: dict[str, str] = {}
-        self._paths: set[tuple[str, ...]] = set()
+        self._paths: set[tuple[Any, ...]] = set()
+        self._harmless: set[str] = set()
+        self._wholes: dict[str, str | None] = {}
         self._installing = False
 
     @property
@@ -81,6 +71,8 @@ class Observer:
         """Begin a record; `environment` is the one that counts as being outside."""
         self.record, self._seen, self._of_users = Record(), {}, False
         self._environment, self._paths = environment, set()
+        if len(self._wholes) > _MOST_PATHS:
+            self._wholes.clear()
 
     def end(self) -> Record:
         """Return the record, complete with what the files were that have been opened."""
@@ -210,14 +202,20 @@ class Observer:
             text = os.fsdecode(path)
         except TypeError:
             return None
-        whole = text if text.startswith("/") else os.path.join(os.getcwd(), text)
+        if not text.startswith("/"):
+            return self._outside(os.path.join(os.getcwd(), text))
+        if text not in self._wholes:
+            self._wholes[text] = self._outside(text)
+        return self._wholes[text]
+
+    def _outside(self, whole: str) -> str | None:
         if self.scratch is not None and whole.startswith(self.scratch):
             return None
-        return None if whole.startswith((_OURS, *_PYTHON, "/proc/self/task")) else whole
+        return None if whole.startswith((OURS, "/proc/self/task")) or is_python(whole) else whole
 
     def _heard(self, event: str, args: tuple[Any, ...]) -> None:
         """Be told of something by the interpreter; called for everything in this process, so it is quick."""
-        if self.record is None or self._aside:
+        if event in self._harmless or self.record is None or self._aside:
             return
         try:
             self._note(event, args)
@@ -238,6 +236,8 @@ class Observer:
                 self.unknown(f"{event} changes something")
         elif unknowable.is_unknowable(event):
             self.unknown(event)
+        else:
+            self._harmless.add(event)
 
     def _opened(self, path: Any, mode: str | None, flags: int) -> None:
         if isinstance(path, int):
@@ -249,12 +249,12 @@ class Observer:
             self.unknown(f"{whole} is written")
             return
         if whole.endswith(".pyc"):
-            whole = _source(whole)
-        if whole.startswith(_OF_THE_KERNEL):
+            whole = source_of(whole)
+        if whole.startswith(OF_THE_KERNEL):
             self.unknown(f"{whole} is another one each time")
             return
         self.file(whole)
-        if whole.startswith(_INSTALLED) and whole.endswith(".py"):
+        if whole.startswith(INSTALLED) and whole.endswith(".py"):
             before = looking.signature(whole)
             with self.aside():
                 self._complete(self._installed, whole, before)
@@ -269,32 +269,27 @@ class Observer:
 
     def _imports(self, module: str, file: str | None, path: Any) -> None:
         top = module.partition(".")[0]
-        if file is not None and not file.startswith(_PYTHON):
+        if file is not None and not is_python(file):
             self.foreign.add(module)
         if top == "orchestra" or top in sys.stdlib_module_names or not isinstance(path, list):
             return
+        if tuple(path) in self._paths:
+            return
+        self._paths.add(tuple(path))
         for folder in path:
             if isinstance(folder, str) and (whole := self._whole(folder or ".")) is not None:
                 self._look("listing", whole)
 
     def _executes(self, code: Any) -> None:
-        if not isinstance(code, CodeType) or code.co_filename.startswith((_OURS, "<frozen", *_PYTHON)):
+        if not isinstance(code, CodeType):
             return
-        if code.co_filename.startswith(_INSTALLED):
+        file = code.co_filename
+        if file.startswith((OURS, "<frozen", *INSTALLED)) or is_python(file):
             return
         self._of_users = True
         sign = unknowable.sign_in(code)
         if sign is not None:
             self.unknown(f"code uses {sign}")
-
-
-def _source(cached: str) -> str:
-    """Return the source of a file with bytecode, that file where there is none."""
-    try:
-        source = source_from_cache(cached)
-    except ValueError:
-        return cached
-    return source if looking.signature(source) is not None else cached
 
 
 _OBSERVER: Final = Observer()
