@@ -25,7 +25,9 @@ Kind: TypeAlias = Literal["launch", "parameters"]
 
 _YAML_NAME = re.compile(r"\.ya?ml$")
 # The key of every section, spelled as it may be by mistake.
-_PARAMETERS_KEY = re.compile(r"""^[^#\n]*\bros[_-]*p[a-z]{1,4}m[a-z]{0,6}["']?\s*:""", re.MULTILINE)
+_PARAMETERS_KEY = re.compile(
+    r"""^[^#\n]*\bros[_-]*p[a-z]{1,4}m[a-z]{0,6}["']?\s*:""", re.MULTILINE | re.IGNORECASE
+)
 _NODE_KEY = re.compile(r"""^["']?/[\w/*]*["']?\s*:""", re.MULTILINE)
 
 
@@ -73,7 +75,7 @@ def _kind_of_file(file: Path, *, named: bool = False) -> Kind | None:
     if file.suffix not in TEXTS or is_launch_name(file.name):
         return kind_of(file.name, "")
     try:
-        text = file.read_text("utf-8", errors="replace")
+        text = file.read_text("utf-8-sig", errors="replace")
     except OSError:
         text = ""  # whoever checks it by its name will say that it cannot be read
     kind = kind_of(file.name, text)

@@ -106,9 +106,9 @@ def beginning_of(value: Any, head: Span) -> Span:  # noqa: ANN401 - a tree
     if not isinstance(value, Keyed | Listed | Written) or (isinstance(value, Written) and value.null):
         return head
     span = value.span
-    if span.line == span.end_line or isinstance(value, Written):
-        return span
     first = min(value.keys_at.values(), default=None) if isinstance(value, Keyed) else None
     if first is not None and (first.line, first.column) == (span.line, span.column):
         return first
+    if span.line == span.end_line or isinstance(value, Written):
+        return span
     return Span(span.file, span.line, span.column, span.line, span.column + 1)

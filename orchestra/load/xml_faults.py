@@ -130,8 +130,9 @@ def _invalid(at: int, whole: Source, opened: Opened | None) -> Fault:
     """Return the cause of what the parser calls an invalid token, or a syntax error outside the root."""
     text = whole.text
     begin = text.rfind("<", 0, at)
-    if text.startswith("<!--", begin) and text.find("-->", begin, at) < 0:
-        return _fault("'--' cannot stand inside a comment", whole, at - 2, at)
+    comment = _comment(at, whole)
+    if comment is not None:
+        return comment
     ampersand = text.rfind("&", 0, at)
     if ampersand >= 0 and re.fullmatch(r"&[\w.#-]*", text[ampersand:at]):
         return _fault("'&' begins an entity: write &amp;", whole, ampersand, ampersand + 1, "&amp;")
@@ -146,6 +147,18 @@ def _invalid(at: int, whole: Source, opened: Opened | None) -> Fault:
         line = text[at:].partition("\n")[0].rstrip()
         return _fault(f"this is not XML: it begins with '{shortened(line)}'", whole, at, at + len(line))
     return _fault("this is not XML", whole, at, at + len(here))
+
+
+def _comment(at: int, whole: Source) -> Fault | None:
+    """Return what is wrong with the comment that an offset is inside of, None where it is in none."""
+    text = whole.text
+    begin = text.rfind("<!--", 0, at)
+    outer = text.rfind("<!--", 0, begin) if text.startswith("<!--", at - 4) else begin
+    if outer < 0 or text.find("-->", outer, at) >= 0:
+        return None
+    if outer < begin and "\n" in text[outer:begin]:  # the next comment begins, and this one has not ended
+        return _fault("this comment is not closed: '-->' is missing", whole, outer, outer + 4)
+    return _fault("'--' cannot stand inside a comment", whole, at - 2, at)
 
 
 def _in_tag(begin: int, at: int, whole: Source) -> Fault | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -34,6 +35,15 @@ def test_a_mistake_is_told_once_at_its_place(
 ) -> None:
     monkeypatch.chdir(checker.folder)
     assert checker.differences(case) == ""
+
+
+@pytest.mark.parametrize("case", _CASES[::6])
+def test_a_byte_order_mark_and_the_line_ends_of_windows_move_nothing(
+    case: Case, checker: Checker, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(checker.folder)
+    files = {name: "\ufeff" + text.replace("\n", "\r\n") for name, text in case.files.items()}
+    assert checker.differences(replace(case, files=files)) == ""
 
 
 def test_every_case_has_a_mistake_and_a_name_of_its_own() -> None:
