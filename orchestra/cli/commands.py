@@ -37,7 +37,7 @@ COMMANDS: Final[dict[str, Command]] = {
     ),
     "schema": Command(
         "orchestra.cli.schema",
-        "print the JSON Schema of launch or parameter files, plans, events or problems",
+        "print the JSON Schema of files, or capture that of a running node",
     ),
     "completion": Command(
         "orchestra.cli.completion", "print what makes a shell complete these command lines"
