@@ -6,13 +6,13 @@ import re
 from typing import TYPE_CHECKING
 
 from orchestra.formatting.lines import indentation, shifted
+from orchestra.formatting.yaml_nodes import Mapping, Node, Scalar, Sequence
 from orchestra.formatting.yaml_scalars import STEP
-from orchestra.formatting.yaml_tree import Mapping, Node, Scalar, Sequence
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from orchestra.formatting.yaml_tree import File
+    from orchestra.formatting.yaml_nodes import File
 
 # Numbers and booleans, which read well in rows.
 _SHORT = re.compile(r"[-+.0-9][-+.0-9a-fA-FxXeE]*|[Tt]rue|[Ff]alse|[-+]?\.(?:nan|inf)", re.IGNORECASE)

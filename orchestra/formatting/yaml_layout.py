@@ -6,12 +6,13 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from orchestra.formatting.yaml_flow import filled, is_table, key_text, one_line, table
+from orchestra.formatting.yaml_nodes import File, Mapping, Node, Scalar, Sequence
 from orchestra.formatting.yaml_page import Page
 from orchestra.formatting.yaml_scalars import STEP, scalar_lines
-from orchestra.formatting.yaml_tree import File, Mapping, Node, Scalar, Sequence, parsed
+from orchestra.formatting.yaml_tree import parsed
 
 if TYPE_CHECKING:
-    from orchestra.formatting.yaml_tree import Document
+    from orchestra.formatting.yaml_nodes import Document
 
 
 def yaml_formatted(text: str, width: int) -> str:

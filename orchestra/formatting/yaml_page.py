@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from orchestra.formatting.lines import Line, Tail, joined
-from orchestra.formatting.yaml_tree import File
+from orchestra.formatting.yaml_nodes import File
 
 if TYPE_CHECKING:
     from orchestra.formatting.yaml_comments import Comment

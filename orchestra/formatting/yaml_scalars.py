@@ -9,7 +9,7 @@ from orchestra.formatting.lines import indentation, shifted
 from orchestra.formatting.refusal import NotFormatted
 
 if TYPE_CHECKING:
-    from orchestra.formatting.yaml_tree import Scalar
+    from orchestra.formatting.yaml_nodes import Scalar
 
 STEP = 2
 

@@ -16,7 +16,8 @@ from typing import Any, TypeAlias
 import yaml
 
 from orchestra.formatting.refusal import NotFormatted
-from orchestra.formatting.yaml_comments import Comment, comments_between
+from orchestra.formatting.yaml_comments import comments_between
+from orchestra.formatting.yaml_nodes import Document, File, Mapping, Node, Scalar, Sequence
 from orchestra.formatting.yaml_scalars import block_end
 
 LOADER: type[Any] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
@@ -26,80 +27,6 @@ _Event: TypeAlias = Any
 
 _DEEPEST = 100
 _PROPERTIES = re.compile(r"[&!]\S*(?:[ \t]+[&!]\S*)*")
-
-
-@dataclass(frozen=True, slots=True)
-class Scalar:
-    """A scalar or an alias: the offsets of its text, tag and anchor included, its value and its style."""
-
-    start: int
-    end: int
-    value: str = ""
-    style: str | None = None
-
-    @property
-    def empty(self) -> bool:
-        """Whether nothing stands there."""
-        return self.start == self.end
-
-
-@dataclass(frozen=True, slots=True)
-class Sequence:
-    """A list. `properties` are its tag and anchor; `flow` is one in brackets."""
-
-    start: int
-    end: int
-    properties: str
-    flow: bool
-    items: tuple[Node, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Mapping:
-    """A mapping. One in `flow` may be without braces of its own: `[a: 1]`."""
-
-    start: int
-    end: int
-    properties: str
-    flow: bool
-    pairs: tuple[tuple[Scalar, Node], ...]
-    braces: bool = True
-
-
-Node: TypeAlias = Scalar | Sequence | Mapping
-
-
-@dataclass(frozen=True, slots=True)
-class Document:
-    """One document: the offsets of `%YAML`, `---` and `...` where these are written."""
-
-    root: Node
-    directive: int | None
-    begun: int | None
-    ended: int | None
-
-
-@dataclass(frozen=True, slots=True)
-class File:
-    """A file: its text, documents and comments in order.
-
-    One that `ends_in_text` has a block scalar at its end, and no line break: with one the value would be another.
-    """
-
-    text: str
-    documents: tuple[Document, ...]
-    comments: tuple[Comment, ...]
-    ends_in_text: bool
-
-    def column(self, offset: int) -> int:
-        """Return the column of an offset, from 0, tabs counted to the next multiple of eight."""
-        return len(self.text[self.text.rfind("\n", 0, offset) + 1 : offset].expandtabs())
-
-    def dash(self, after: int, before: int) -> int:
-        """Return the offset of the last dash between two others, outside of comments."""
-        at = self.text.rfind("-", after, before)
-        inside = next((item for item in self.comments if item.start < at < item.end), None)
-        return at if inside is None else self.dash(after, inside.start)
 
 
 def parsed(text: str) -> File:
