@@ -25,6 +25,8 @@ def span_of_syntax(error: SyntaxError) -> Span:
         column = len(text) - len(text.lstrip()) + 1
     elif not text.isascii():
         column, end_column = _in_code_points(error, file, (line, column, end_line, end_column))
+    if end_line == line:
+        end_column = min(end_column, len(text) + 1)
     if (end_line, end_column) <= (line, column):
         end_line, end_column = line, column + (column <= len(text))
     return Span(shown(file), line, column, end_line, end_column)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import linecache
+import warnings
 from functools import lru_cache
 from typing import TYPE_CHECKING, Final, TypeAlias
 
@@ -106,7 +107,8 @@ def node_span(file: str, node: ast.expr | ast.stmt | ast.keyword, *, quotes: boo
 @lru_cache(maxsize=16)
 def _tree(text: str) -> Tree | None:
     try:
-        return Tree(ast.parse(text))
+        with warnings.catch_warnings(action="ignore"):  # told when the file was run
+            return Tree(ast.parse(text))
     except (SyntaxError, ValueError):
         return None
 

@@ -52,11 +52,11 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
         (prefix / f"lib/demo/{program}").chmod(0o755)
     work = tmp_path / "work"
     work.mkdir()
-    for folder in (work, prefix / "share/demo/launch"):
-        (folder / "inner.launch.py").write_text(_INNER, "utf-8")
-        (folder / "defaulted.launch.py").write_text(_DEFAULTED, "utf-8")
-    for folder in (work, prefix / "share/demo/config"):
-        (folder / "params.yaml").write_text(_PARAMETERS, "utf-8")
+    for place in (work, prefix / "share/demo/launch"):
+        (place / "inner.launch.py").write_text(_INNER, "utf-8")
+        (place / "defaulted.launch.py").write_text(_DEFAULTED, "utf-8")
+    for place in (work, prefix / "share/demo/config"):
+        (place / "params.yaml").write_text(_PARAMETERS, "utf-8")
     monkeypatch.chdir(work)
     return prefix
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import quote
 
-from orchestra.cli.explaining.page import has_page, page_of
+from orchestra.cli.explaining.page import page_of
 from orchestra.errors import Code, Problem
 
 if TYPE_CHECKING:
@@ -39,11 +39,13 @@ def render(problems: Sequence[Problem], _sources: Sources, _paint: Paint) -> str
 
 def _rule(code: Code) -> dict[str, Any]:
     words = code.name.lower().replace("_", " ")
-    rule = {"id": code.value, "name": words.title().replace(" ", ""), "shortDescription": {"text": words}}
-    if not has_page(code):
-        return rule
     page = page_of(code)
-    return {**rule, "help": {"text": page.text, "markdown": page.markdown}}
+    return {
+        "id": code.value,
+        "name": words.title().replace(" ", ""),
+        "shortDescription": {"text": words},
+        "help": {"text": page.text, "markdown": page.markdown},
+    }
 
 
 def _result(problem: Problem) -> dict[str, Any]:
