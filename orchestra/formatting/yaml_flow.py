@@ -64,14 +64,9 @@ def is_table(node: Node, file: File) -> bool:
     """
     if isinstance(node, Scalar) or "\n" not in file.text[node.start : node.end]:
         return False
-    if has_comments(node, file):
+    if file.comment_in(node.start, node.end) is not None:
         return True
     return one_line(node, file.text) is None or (isinstance(node, Sequence) and _is_plain(node))
-
-
-def has_comments(node: Node, file: File) -> bool:
-    """Tell whether comments stand inside of the brackets."""
-    return any(node.start < comment.start < node.end for comment in file.comments)
 
 
 def _is_plain(node: Sequence) -> bool:

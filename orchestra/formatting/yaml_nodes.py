@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from dataclasses import dataclass
+from operator import attrgetter
 from typing import TypeAlias
 
 from orchestra.formatting.yaml_comments import Comment
@@ -75,8 +77,24 @@ class File:
         """Return the column of an offset, from 0, tabs counted to the next multiple of eight."""
         return len(self.text[self.text.rfind("\n", 0, offset) + 1 : offset].expandtabs())
 
+    def breaks_before(self, offset: int) -> int:
+        """Return how many line breaks stand right before an offset, blanks aside."""
+        begin = offset
+        while begin and self.text[begin - 1] in " \t\n":
+            begin -= 1
+        return self.text.count("\n", begin, offset)
+
+    def comment_in(self, start: int, end: int) -> Comment | None:
+        """Return the first comment that begins between two offsets."""
+        index = bisect_left(self.comments, start, key=attrgetter("start"))
+        found = self.comments[index] if index < len(self.comments) else None
+        return found if found is not None and found.start < end else None
+
     def dash(self, after: int, before: int) -> int:
         """Return the offset of the last dash between two others, outside of comments."""
-        at = self.text.rfind("-", after, before)
-        inside = next((item for item in self.comments if item.start < at < item.end), None)
-        return at if inside is None else self.dash(after, inside.start)
+        at = after
+        while (comment := self.comment_in(at, before)) is not None:
+            if (dash := self.text.rfind("-", at, comment.start)) >= 0:
+                return max(dash, self.dash(comment.end, before))
+            at = comment.end
+        return self.text.rfind("-", at, before)

@@ -112,7 +112,6 @@ class Page:
         """Add an empty line where one or more stand before an offset, unless a level begins there."""
         if self.fresh or self.lead is not None:
             return
-        before = self.file.text[:offset]
         last = self.lines[-1]
-        if before.count("\n", len(before.rstrip())) > 1 and (last.text.strip() or last.tail):
+        if self.file.breaks_before(offset) > 1 and (last.text.strip() or last.tail):
             self.lines.append(Line(""))
