@@ -8,8 +8,12 @@ from __future__ import annotations
 
 import re
 from functools import cache
+from typing import TYPE_CHECKING
 
 from orchestra.resolve.names import Fault, rmw_namespace_fault, rmw_node_name_fault
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
 _WILDCARDS = frozenset({"*", "**"})
 
@@ -34,6 +38,12 @@ def pattern_fault(pattern: str) -> Fault | None:
         return None
     fault = rmw_node_name_fault(name)
     return fault and Fault(fault.reason, offset + fault.offset)
+
+
+def instead(keys: Sequence[str]) -> str | None:
+    """Return what to write for a key with a wildcard in a part of a name, where it is the only key of a section."""
+    only = not any(keys[:-1])
+    return "/**" if only and "*" in keys[-1] else None
 
 
 @cache

@@ -12,7 +12,7 @@ from orchestra.errors import Code, Problems
 from orchestra.location import Location, Span
 from orchestra.resolve.rcl.joined import Joined, joined
 from orchestra.resolve.rcl.opened import OpenList, OpenParameter, OpenSection
-from orchestra.resolve.rcl.patterns import pattern_fault
+from orchestra.resolve.rcl.patterns import instead, pattern_fault
 from orchestra.resolve.rcl.sections import Entry, Section
 from orchestra.resolve.rcl.strays import SECTION_KEY, Key, Strays, is_misspelt_section, is_section
 from orchestra.resolve.rcl.table import kind_of
@@ -108,16 +108,16 @@ class Reader:
         if not self.node.count:
             raise self.unreadable(f"'{SECTION_KEY}' must stand below the name of a node", event)
         pattern, said = self.node.text, joined("/", self.keys[1:])
-        fault, named_at = pattern_fault(pattern), self.key_places[-1] or at
+        fault, named = pattern_fault(pattern), self.key_places[-1] or at
         if fault is not None:
-            self.error(f"'{pattern}' cannot be the name of a node: {fault.reason}", named_at)
+            self.error(f"'{pattern}' cannot be the name of a node: {fault.reason}", named, instead(self.keys))
         elif pattern != said:
             self.surprise(f"rcl reads this as the section of '{pattern}', not of '{said}'", at)
         if not is_section(name):
             self.error(f"'{name}' is not '{SECTION_KEY}', below which parameters belong", at, SECTION_KEY)
         elif name != SECTION_KEY:
             self.surprise(f"rcl reads '{name}' as '{SECTION_KEY}'", at)
-        self.found.append(OpenSection(pattern, named_at, sound=fault is None))
+        self.found.append(OpenSection(pattern, named, sound=fault is None))
         self.before_key = copy.copy(self.node)
         self.node.shrink()
         self.node_depth = len(self.keys)
