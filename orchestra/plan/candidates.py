@@ -8,7 +8,7 @@ from orchestra.location import Location
 from orchestra.plan.model import Candidate, Via
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Mapping, Sequence
 
     from orchestra.location import Span
     from orchestra.resolve.context import Read, Value
@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 FROM_COMMAND_LINE = "the command line wins"
 _OVERRULED = "overruled by the command line"
 # Of a chain that branches, so many variables are told, and so many characters of the value of each.
-_MOST = 32
+_MOST = 16
 _LONGEST = 200
 
 
@@ -31,18 +31,23 @@ def origins(sources: Iterable[ParameterSource]) -> Origins:
 
 def passage(through: Sequence[Read]) -> tuple[Via, ...]:
     """Return what was read on the way to a value, each once: what is behind one follows it, a step deeper."""
-    return tuple(_steps(through, 0, set()))[:_MOST]
-
-
-def _steps(through: Sequence[Read], depth: int, seen: set[tuple[object, ...]]) -> Iterator[Via]:
-    for read in through:
-        key = (read.kind, read.name, read.value, read.location)
-        if key in seen or len(seen) >= _MOST:
+    found: list[Via] = []
+    seen: set[tuple[str, str, int]] = set()
+    waiting = [(read, 0) for read in reversed(through)]
+    while waiting and len(found) < _MOST:
+        read, depth = waiting.pop()
+        key = (read.kind, read.name, id(read.location))  # a variable that is set has one object for its place
+        if key in seen:
             continue
         seen.add(key)
-        value = read.value if len(read.value) <= _LONGEST else f"{read.value[:_LONGEST]}..."
-        yield Via(read.kind, read.name, value, read.setter, read.location, depth)
-        yield from _steps(read.through, depth + 1, seen)
+        found.append(_via(read, depth))
+        waiting += [(other, depth + 1) for other in reversed(read.through)]
+    return tuple(found)
+
+
+def _via(read: Read, depth: int) -> Via:
+    value = read.value if len(read.value) <= _LONGEST else f"{read.value[:_LONGEST]}..."
+    return Via(read.kind, read.name, value, read.setter, read.location, depth)
 
 
 def behind(location: Location, known: Origins) -> tuple[Via, ...]:
