@@ -57,7 +57,7 @@ def convert(
     Raises `DescriptionError` where the file has faults, `UsageError` where it is in that language.
     """
     if language_of(path) == language:
-        raise UsageError(f"{path} is in {language} already")
+        raise UsageError(f"{path} is in {language} already: `orchestra format` brings it into one form")
     remarks = Remarks()
     with opened(path, environment) as original:
         description = _described(original, remarks)

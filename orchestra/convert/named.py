@@ -58,25 +58,25 @@ class _Naming:
         return value.model_copy(update=updates) if any(updates[n] != given[n] for n in updates) else value
 
     def _full_name(self, target: Template) -> Template:
-        """Return the full name of a container; one below a namespace that is pushed is not known."""
+        """Return the full name of a node; that of one below a namespace that is pushed is not known."""
         process = self._processes.get(id(target.action))
         if not isinstance(process, Node) or process.name is None:
             return target
         namespace = process.namespace
         constant = None if namespace is None else namespace.constant
-        below = constant if constant is not None else ""
+        below = "" if constant is None else constant
         if self._pushed and not below.startswith("/"):
             return target
-        if namespace is None or constant == "":
-            return process.name
         slash = Words("" if below.endswith("/") else "/", target.span)
-        return Template((*namespace.parts, slash, *process.name.parts), "", target.span)
+        parts = () if namespace is None else namespace.parts
+        return Template((*parts, slash, *process.name.parts), "", target.span)
 
     def _dependency(self, target: Template) -> dict[str, Template | None]:
         process = self._processes.get(id(target.action))
-        if process is None or process.name is None or not isinstance(process, Node):
-            return {"process": target if process is None or process.name is None else process.name}
-        return {"process": None, "node": process.name}
+        if isinstance(process, Node) and process.name is not None:
+            full = self._full_name(target)
+            return {"process": None, "node": process.name if full is target else full}
+        return {"process": target if process is None or process.name is None else process.name}
 
 
 def _all(entities: Iterable[Entity]) -> Iterator[Entity]:

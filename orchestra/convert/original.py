@@ -12,6 +12,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING
+from warnings import catch_warnings, filterwarnings
 
 from orchestra.compat.seam import connected
 from orchestra.description.entity import Action
@@ -81,7 +82,10 @@ def opened(path: str, environment: Mapping[str, str]) -> Iterator[Original]:
 
     with isolated(environment, ("ros2", "launch", path)) as isolation:
         connection = _Asked(packages, begin_alone, isolation.prepare, problems=problems, launching=False)
-        with connected(connection):
+        with connected(connection), catch_warnings():
+            filterwarnings(
+                "ignore", message="the share folder of "
+            )  # which packages that are not here have not
             description = load(str(Path(path).absolute()), problems)
             if description is None or problems.errors:
                 raise DescriptionError(problems.ordered)

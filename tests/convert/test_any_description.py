@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 _ENVIRONMENT = {"PATH": "/bin", "A_1": "outside"}
 _quickly = settings(
-    max_examples=15,
+    max_examples=10,
     deadline=None,
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )

@@ -36,7 +36,7 @@ def test_the_bringup_says_the_same_everywhere(name: str, tmp_path: Path) -> None
     path = _bringup(tmp_path) / name
     assert not seen(path, _ENVIRONMENT, _BRINGUP[name]).errors
     same_everywhere(path, _ENVIRONMENT, _BRINGUP[name])
-    round_trip(path, _ENVIRONMENT, _BRINGUP[name])
+    round_trip(path, _ENVIRONMENT, _BRINGUP[name], rounds=2)
 
 
 def test_the_whole_bringup_in_python_starts_the_same(tmp_path: Path) -> None:

@@ -72,10 +72,12 @@ def _plain(value: Any, name: str) -> Any:
     return value.replace(name, "FILE") if isinstance(value, str) else value
 
 
-def round_trip(path: Path, environment: Mapping[str, str], words: Sequence[str] = ()) -> None:
+def round_trip(
+    path: Path, environment: Mapping[str, str], words: Sequence[str] = (), *, rounds: int = 1
+) -> None:
     """Convert a launch file to each other language in turn and back: the plan stays, and after one round the text."""
     plan = seen(path, environment, words)
-    for index in range(2):
+    for index in range(rounds):
         there = path
         for language in (*others(path), language_of(str(path)) or ""):
             there = turned(there, language, environment, f"{path.name.split('.')[0]}_{index}")
