@@ -196,27 +196,41 @@ def test_what_a_run_adds_is_there(tmp_path: Path) -> None:
     ("sent", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143), (signal.SIGHUP, 129)]
 )
 def test_a_signal_ends_everything_gently(tmp_path: Path, sent: signal.Signals, status: int) -> None:
-    """Each process hears the signal that it wants, and what it has started hears it too."""
+    """Each process hears the signal that it wants."""
     program = 'trap "echo ended >>$1; exit 0" INT; touch $2; while :; do sleep 0.05; done'
     started = [
         process(name, "sh", "-c", program, "-", str(tmp_path / "log"), str(tmp_path / name)) for name in "ab"
     ]
-    stubborn = process(
-        "c",
-        "sh",
-        "-c",
-        f"trap '' INT TERM; (sleep 1000 & touch {tmp_path}/c; wait)",
-        stop=Stop(timeout=0.3, kill_timeout=0.3),
-    )
-    gentle = [process(item.id, *item.command, stop=Stop(timeout=0.3, kill_timeout=0.3)) for item in started]
-    with _running(_script(tmp_path, plan(*gentle, stubborn))) as running:
-        for name in "abc":
+    with _running(_script(tmp_path, plan(*started))) as running:
+        for name in "ab":
             _until(tmp_path / name)
         running.send_signal(sent)
         assert running.wait(_PATIENCE) == status
     assert (tmp_path / "log").read_text() == "ended\n" * 2
-    left = subprocess.run(["pgrep", "-f", f"touch {tmp_path}/c"], capture_output=True, check=False)
-    assert left.stdout == b""
+
+
+def test_what_does_not_heed_signals_is_killed_with_all_that_it_has_started(tmp_path: Path) -> None:
+    program = "trap '' INT TERM; sleep 1000 & echo $! >$1.new; mv $1.new $1; wait"
+    stop = Stop(timeout=0.3, kill_timeout=0.3)
+    stubborn = process("c", "sh", "-c", program, "-", str(tmp_path / "pid"), stop=stop)
+    with _running(_script(tmp_path, plan(stubborn))) as running:
+        _until(tmp_path / "pid")
+        running.send_signal(signal.SIGINT)
+        assert running.wait(_PATIENCE) == 130
+    pid = int((tmp_path / "pid").read_text())
+    deadline = time.monotonic() + _PATIENCE
+    while _lives(pid):
+        assert time.monotonic() < deadline
+        time.sleep(0.02)
+
+
+def _lives(pid: int) -> bool:
+    """Return whether a process is there that has not ended."""
+    try:
+        with open(f"/proc/{pid}/stat") as file:  # noqa: PTH123 - it is no file
+            return file.read().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
 
 
 def test_the_end_of_what_is_required_ends_the_rest_with_its_status(tmp_path: Path) -> None:
