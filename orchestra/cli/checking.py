@@ -61,12 +61,12 @@ def check(targets: Sequence[Target], inputs: Inputs, manner: Manner) -> Checked:
     """
     kept = Kept(inputs, wanted=manner.cache)
     findings, unchanged = _findings(targets, inputs, manner, kept)
-    behind = _behind(findings)
-    more, _ = _findings(behind, inputs, manner, kept)
+    every = list(findings)
+    while behind := _behind(every):
+        every += _findings(behind, inputs, manner, kept)[0]
     if unchanged < len(findings):
         kept.tidy()
     found = Problems()
-    every = [*findings, *more]
     named = {path for finding in every for path in finding.named}
     for finding in _outermost(every):
         lacks = _LACKS if finding.path in named else ()
