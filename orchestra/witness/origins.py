@@ -1,0 +1,37 @@
+"""Where files are from: Orchestra, Python, what is installed for it, the kernel, or a project."""
+
+from __future__ import annotations
+
+import os
+import sysconfig
+from importlib.util import source_from_cache
+from typing import Final
+
+from orchestra.witness import looking
+
+OURS: Final = os.path.dirname(os.path.dirname(os.path.abspath(__file__))) + os.sep
+PYTHON: Final = tuple(
+    os.path.join(path, "")
+    for name in ("stdlib", "platstdlib")
+    for path in {sysconfig.get_path(name), os.path.realpath(sysconfig.get_path(name))}
+)
+INSTALLED: Final = tuple(
+    os.path.join(path, "")
+    for name in ("purelib", "platlib")
+    for path in {sysconfig.get_path(name), os.path.realpath(sysconfig.get_path(name))}
+)
+OF_THE_KERNEL: Final = ("/proc/", "/sys/", "/dev/")
+
+
+def is_python(path: str) -> bool:
+    """Tell whether a file is part of Python itself, and changes with it alone."""
+    return path.startswith(PYTHON) and "/site-packages/" not in path and "/dist-packages/" not in path
+
+
+def source_of(cached: str) -> str:
+    """Return the source of a file with bytecode, that file where there is none."""
+    try:
+        source = source_from_cache(cached)
+    except ValueError:
+        return cached
+    return source if looking.signature(source) is not None else cached
