@@ -91,6 +91,8 @@ def _check(options: Namespace) -> None:
         raise UsageError("--exit-code goes with --diff")
     if options.host and options.format not in ("text", "sh"):
         raise UsageError(f"--host is for text; a plan as {options.format} is that of every machine")
+    if options.portable and options.format == "sh":
+        raise UsageError("a portable plan cannot be run: it has symbols where a script needs paths")
     if options.diff and not options.words:
         raise UsageError("a launch file is missing: --diff takes all words behind it, so it stands last")
 

@@ -171,6 +171,7 @@ def test_packages_of_the_repository_are_those_of_the_revision(
         (("--diff", "v1:nothing.yaml"), "there is no nothing.yaml in v1"),
         (("--diff", "nothing.yaml"), "nothing.yaml"),
         (("--exit-code",), "--exit-code goes with --diff"),
+        (("--portable", "--format", "sh"), "a portable plan cannot be run"),
         (("--diff", "who:=x", "--format", "sh"), "--diff answers as text or json"),
         (("--explain", "greet", "--format", "yaml"), "--explain answers as text or json"),
         (("--explain", "greet", "--diff", "HEAD"), "not allowed with"),
