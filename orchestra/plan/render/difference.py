@@ -33,6 +33,7 @@ _FATES: Final = {
     "argument": {"start": "is new", "stop": "is gone", "restart": "", "change": "has changed"},
 }
 _SIGNS: Final = {"start": "+", "stop": "-", "restart": "!", "change": "~"}
+_STYLES: Final = {"+": "help", "-": "error", "!": "warning", "~": "faint"}
 
 
 def render(difference: Difference, before: str, after: str, paint: Paint = plain) -> str:
@@ -59,7 +60,9 @@ def _summary(difference: Difference) -> str:
 def _item(item: Item, paint: Paint) -> str:
     sign, told = _SIGNS[item.fate], _FATES[item.kind][item.fate]
     name = item.id if item.kind == "process" else f"{item.kind} {item.id}"
-    lines = [f"{sign} {paint('strong', name)} {told}  {paint('faint', f'({place(item.at)})')}"]
+    lines = [
+        f"{paint(_STYLES[sign], sign)} {paint('strong', name)} {told}  {paint('faint', f'({place(item.at)})')}"
+    ]
     for change in item.changes:
         lines += [f"    {line}" for line in _change(change, item, paint)]
     return "".join(f"{line}\n" for line in lines)
@@ -76,7 +79,7 @@ def _change(change: Change, item: Item, paint: Paint) -> Iterator[str]:
         if change.absent != side:
             unset = change.field == "environment" and data is None
             text = "unset" if unset else _shown(change, data)
-            yield f"  {sign} {text}{paint('faint', _at(location, item))}"
+            yield f"  {paint(_STYLES[sign], sign)} {text}{paint('faint', _at(location, item))}"
             yield from (f"      {line}" for line in via_lines(_told(through, change, side)))
 
 

@@ -33,7 +33,7 @@ class Additions:
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """How something is painted (`strong`, `faint`), and what the run adds, None where that is not to be shown."""
+    """How something is painted (`strong`, `faint`, `help`, `warning`, `error`), and what the run adds, None where that is not to be shown."""
 
     paint: Paint = plain
     additions: Additions | None = None
