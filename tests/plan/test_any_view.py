@@ -57,7 +57,7 @@ def test_everything_can_be_explained_and_the_winner_is_the_value(
     tmp_path: Path, written: Actions, inner: Actions
 ) -> None:
     made = _planned(tmp_path, written, inner)
-    for record in (*made.processes, *made.components):
+    for record in _records(made):
         assert explanation.render(explain(made, record.id, {}))
         for subject in _subjects(record):
             (found,) = explain(made, subject, {}).values
@@ -67,6 +67,10 @@ def test_everything_can_be_explained_and_the_winner_is_the_value(
             if found.subject != "remapping" and won:
                 assert codec.encode(found.value) == codec.encode(won[0].value)
             assert explanation.render(explain(made, subject, {}))
+
+
+def _records(made: Plan) -> list[Process | Component]:
+    return [*made.processes, *made.components]
 
 
 def _subjects(record: Process | Component) -> list[str]:
@@ -83,10 +87,10 @@ def test_parts_hold_what_they_are_asked_for_and_nothing_else(
     tmp_path: Path, written: Actions, inner: Actions
 ) -> None:
     made = _planned(tmp_path, written, inner)
-    ids = [record.id for record in (*made.processes, *made.components)]
+    ids = [record.id for record in _records(made)]
     for wanted in ids:
         part = selected(made, {wanted})
-        kept = {record.id for record in (*part.processes, *part.components)}
+        kept = {record.id for record in _records(part)}
         held = {component.id for component in made.components if component.process == wanted}
         assert kept == {wanted} | held
         assert FORMATS["sh"](part)

@@ -33,7 +33,10 @@ class Additions:
 
 @dataclass(frozen=True, slots=True)
 class Setting:
-    """How something is painted (`strong`, `faint`, `help`, `warning`, `error`), and what the run adds, None where that is not to be shown."""
+    """How something is painted, and what the run adds, None where that is not to be shown.
+
+    The styles are `strong`, `faint`, `help`, `warning` and `error`.
+    """
 
     paint: Paint = plain
     additions: Additions | None = None
