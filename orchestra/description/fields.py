@@ -7,6 +7,7 @@ evaluating (a constant) is checked when the file is read.
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 from typing import Annotated, Protocol, TypeAlias
@@ -22,6 +23,9 @@ TRUE_WORDS = frozenset({"true", "1", "yes", "on"})
 FALSE_WORDS = frozenset({"false", "0", "no", "off"})
 # What is suggested for what is no flag.
 FLAG_WORDS = ("true", "false", "yes", "no", "on", "off")
+
+_WITH_UNIT = re.compile(r"([0-9]+(?:\.[0-9]+)?)\s*(ms|msec|s|sec|secs|seconds?|min|minutes?)", re.IGNORECASE)
+_UNITS = {"ms": 0.001, "s": 1.0, "se": 1.0, "mi": 60.0}
 
 # The kind of a fault that is one of a key, not of what stands behind it.
 STRAY_KEY = "stray_key"
@@ -82,10 +86,12 @@ def constant_of(
     accepts: Callable[[str], bool],
     words: tuple[str, ...] = (),
     elsewhere: Mapping[str, str] = MappingProxyType({}),
+    meant: Callable[[str], str | None] | None = None,
 ) -> Callable[[object, ValidationInfo], Template]:
     """Return a validator of texts that checks constants; `wanted` says to people what is accepted.
 
-    Of the `words` the nearest is suggested; `elsewhere` are those that mean one of them in other languages.
+    Of the `words` the nearest is suggested; `elsewhere` are those that mean one of them in other languages. `meant`
+    finds out what else may be suggested.
     """
 
     def validate(value: object, info: ValidationInfo) -> Template:
@@ -94,8 +100,9 @@ def constant_of(
         template = _text(value, info)
         constant = template.constant
         if constant is not None and not accepts(constant):
-            meant = elsewhere.get(constant.lower()) or nearest(constant, words)
-            facts = {"wanted": wanted, "found": f"'{constant}'", "suggestion": meant}
+            near = elsewhere.get(constant.lower()) or nearest(constant, words)
+            near = meant(constant) if near is None and meant is not None else near
+            facts = {"wanted": wanted, "found": f"'{constant}'", "suggestion": near}
             raise PydanticCustomError("wrong_type", "expected {wanted}, found {found}", facts)
         return template
 
@@ -112,6 +119,12 @@ def _is_duration(text: str) -> bool:
     except ValueError:
         return False
     return math.isfinite(number) and number >= 0
+
+
+def _seconds_of(text: str) -> str | None:
+    """Return the number of seconds that a text with a unit stands for."""
+    found = _WITH_UNIT.fullmatch(text.strip())
+    return None if found is None else f"{float(found[1]) * _UNITS[found[2][:2].lower()]:g}"
 
 
 def _is_integer(text: str) -> bool:
@@ -177,7 +190,7 @@ Flag: TypeAlias = Annotated[
 ]
 Seconds: TypeAlias = Annotated[
     Template,
-    PlainValidator(constant_of("a number of seconds", _is_duration)),
+    PlainValidator(constant_of("a number of seconds", _is_duration, meant=_seconds_of)),
     WithJsonSchema(
         {"anyOf": [{"type": "number", "minimum": 0}, {"type": "string", "pattern": r"\$\(|^[0-9.eE+-]+$"}]}
     ),

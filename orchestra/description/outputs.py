@@ -15,7 +15,9 @@ OUTPUTS = ("screen", "log", "both", "own_log", "full")
 STREAMS = ("stdout", "stderr", "both")
 PLACES = ("screen", "log", "own_log")
 
-_word = word(*OUTPUTS)
+_word = word(
+    *OUTPUTS, elsewhere={"console": "screen", "file": "log", "stdout": "screen", "terminal": "screen"}
+)
 _place = word(*PLACES)
 
 _PLACE = {"enum": list(PLACES)}

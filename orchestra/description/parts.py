@@ -42,6 +42,31 @@ _TYPES_ELSEWHERE = {
     "list_of_double": "list_of_float",
 }
 
+# The words of container engines and of service managers.
+_CONDITIONS_ELSEWHERE = {
+    "done": "completed",
+    "finished": "completed",
+    "healthy": "ready",
+    "process_completed": "exited",
+    "process_completed_successfully": "completed",
+    "process_healthy": "ready",
+    "process_started": "started",
+    "running": "started",
+    "service_completed_successfully": "completed",
+    "service_healthy": "ready",
+    "service_started": "started",
+    "succeeded": "completed",
+}
+_POLICIES_ELSEWHERE = {
+    "false": "no",
+    "never": "no",
+    "on-abnormal": "on-failure",
+    "on_error": "on-failure",
+    "true": "always",
+    "unless-stopped": "always",
+    "yes": "always",
+}
+
 TypeWord: TypeAlias = Annotated[
     Template, PlainValidator(word(*VALUE_TYPES, elsewhere=_TYPES_ELSEWHERE)), worded(*VALUE_TYPES)
 ]
@@ -106,9 +131,12 @@ class DependsOn(Entity):
     )
     process: Text | None = Field(default=None, description="A process, by its name.")
     label: Text | None = Field(default=None, description="Every process of the include with this label.")
-    condition: Annotated[Template, PlainValidator(word(*CONDITIONS)), worded(*CONDITIONS)] | None = Field(
-        default=None, description="What is waited for; `started` where nothing is said."
-    )
+    condition: (
+        Annotated[
+            Template, PlainValidator(word(*CONDITIONS, elsewhere=_CONDITIONS_ELSEWHERE)), worded(*CONDITIONS)
+        ]
+        | None
+    ) = Field(default=None, description="What is waited for; `started` where nothing is said.")
     timeout: Seconds | None = Field(default=None, description="How long to wait, in seconds.")
     required: Flag | None = Field(
         default=None,
@@ -127,9 +155,9 @@ class DependsOn(Entity):
 class Restart(Entity):
     """When an ended process is started again."""
 
-    policy: Annotated[Template, PlainValidator(word(*POLICIES)), worded(*POLICIES)] = Field(
-        description="`no`, after a failure alone, or whenever it ends."
-    )
+    policy: Annotated[
+        Template, PlainValidator(word(*POLICIES, elsewhere=_POLICIES_ELSEWHERE)), worded(*POLICIES)
+    ] = Field(description="`no`, after a failure alone, or whenever it ends.")
     delay: Seconds | None = Field(default=None, description="Least delay before a new start, in seconds.")
     max_delay: Seconds | None = Field(
         default=None, description="What the growing delay stops at, in seconds."

@@ -23,6 +23,7 @@ _WORD = re.compile(_NAME)
 _ENTITY = re.compile(r"&(?!(?:amp|lt|gt|quot|apos);|#)([^;\s&<]*;?)")
 _CHARACTER = re.compile(r"&#[^;\s&<]*;?")
 _ATTRIBUTE = re.compile(rf"""(\s*)({_NAME})(?:\s*=\s*(?:("[^"<]*"?|'[^'<]*'?)|({_NAME}))?)?""")
+_DOUBLED = re.compile(r"\s*=\s*=")
 _CURLY = "\u201c\u201d\u201e\u2018\u2019"
 _KNOWN_ENTITIES = "XML knows &amp; &lt; &gt; &quot; &apos; and numbers such as &#10;"
 
@@ -172,21 +173,29 @@ def _in_tag(begin: int, at: int, whole: Source) -> Fault | None:
         message = "'<' begins a tag, and a name follows at once: a '<' of a text is written &lt;"
         return _fault(message, whole, begin, begin + 1, "&lt;")
     while (found := _ATTRIBUTE.match(text, place)) and found.start() <= at:
-        blank, name, quoted, bare = found.groups()
-        if not blank and text[place - 2] == "=":
+        if not found[1] and text[place - 2] == "=":
             return _unquoted(begin, place, whole)
-        if not blank:
-            return _fault(f"a space is missing before '{name}'", whole, found.start(2), found.end(2))
-        if bare:
-            return _fault(
-                f"the value of '{name}' needs quotes", whole, *found.span(4), f'"{bare.strip(_CURLY)}"'
-            )
-        if not quoted:
-            message = f"the attribute '{name}' has no value: write {name}=\"...\""
-            return _fault(message, whole, *found.span(2))
-        if len(quoted) == 1 or quoted[-1] != quoted[0]:
-            return _in_value(name, found.start(3), found.end(3), whole)
+        if (fault := _in_attribute(found, whole)) is not None:
+            return fault
         place = found.end()
+    return None
+
+
+def _in_attribute(found: re.Match[str], whole: Source) -> Fault | None:
+    """Return what is wrong with one attribute: a blank before it, a name, a value in quotes or without."""
+    blank, name, quoted, bare = found.groups()
+    if not blank:
+        return _fault(f"a space is missing before '{name}'", whole, found.start(2), found.end(2))
+    if bare:
+        meant = f'"{bare.strip(_CURLY)}"'
+        return _fault(f"the value of '{name}' needs quotes", whole, *found.span(4), meant)
+    if not quoted and (doubled := _DOUBLED.match(whole.text, found.end(2))):
+        return _fault("one '=' stands between name and value", whole, doubled.end() - 1, doubled.end())
+    if not quoted:
+        message = f"the attribute '{name}' has no value: write {name}=\"...\""
+        return _fault(message, whole, *found.span(2))
+    if len(quoted) == 1 or quoted[-1] != quoted[0]:
+        return _in_value(name, found.start(3), found.end(3), whole)
     return None
 
 

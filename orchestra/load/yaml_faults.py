@@ -77,14 +77,21 @@ def _open(failure: Failure) -> Fault:
     last = next((piece for piece in reversed(failure.pieces()) if piece.begin > failure.context), None)
     around = last.end if last is not None and last.end <= failure.at else failure.at
     begun = last.begin if last is not None else failure.context
+    alone = failure.text[failure.context + 1 :].partition("\n")[0].strip() == ""
+    if alone and failure.here == ":" and last is not None and "\n" in failure.text[last.begin : last.end]:
+        return _without_comma(failure, last.begin, last.end, closer)
     begun_earlier = failure.line_of(begun) < failure.line_of(failure.at) and not failure.here.isalnum()
     if failure.here in ("", *"]}") or begun_earlier or "\n" in failure.text[around : failure.at]:
         message = f"this {opening} is not closed: a {closer} is missing"
         return failure.fault(message, failure.context, failure.context + 1)
-    begin = failure.at
     if failure.here == ":" and last is not None and last.end == failure.at and not last.quoted:
-        begin = last.begin + len(re.split(r"\S+$", failure.text[last.begin : last.end])[0])
-    end = failure.end_of_word(begin)
+        return _without_comma(failure, last.begin, last.end, closer)
+    return _without_comma(failure, failure.at, failure.end_of_word(failure.at), closer)
+
+
+def _without_comma(failure: Failure, begin: int, end: int, closer: str) -> Fault:
+    """Explain the last word of a stretch, before which a comma is missing."""
+    begin += len(re.split(r"\S+$", failure.text[begin:end])[0])
     message = f"a ',' or '{closer}' is missing before '{shortened(failure.text[begin:end])}'"
     return failure.fault(message, begin, end)
 
@@ -108,12 +115,26 @@ def _without_colon(failure: Failure, begin: int) -> Fault:
     """Explain a key whose colon, or the blank behind it, is missing."""
     end = failure.line_end(begin)
     written = failure.text[begin:end]
+    if _is_item(failure, begin):
+        return failure.fault("an item of the list begins with '- '", begin, end, f"- {written}")
     if ":" in written:
         name, _, value = written.partition(":")
         return failure.fault(f"a blank is missing behind '{name}:'", begin, end, f"{name}: {value}")
     name, blank, value = re.match(r"([^\s=]*)(\s*=?\s*)(.*)", written).groups()  # type: ignore[union-attr] # matches
+    name = name.rstrip(",;")
     meant = f"{name}: {value}" if blank and " " not in value else f"{name}:" if not blank else None
     return failure.fault(f"a ':' is missing behind '{shortened(name)}'", begin, end, meant)
+
+
+def _is_item(failure: Failure, begin: int) -> bool:
+    """Return whether the line above is an item of a list that stands where this line does."""
+    line, column = failure.whole.place(begin)
+    above = failure.whole.lines[line - 2] + column - 1 if line > 1 else -1
+    return (
+        above >= 0
+        and failure.text.startswith("- ", above)
+        and not failure.text[above - column + 1 : above].strip()
+    )
 
 
 def _no_key(failure: Failure) -> Fault | None:

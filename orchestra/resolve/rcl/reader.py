@@ -103,10 +103,9 @@ class Reader:
     def open_section(self, name: str, event: yaml.ScalarEvent, *, told: bool) -> None:
         """Take the key `ros__parameters`: rcl looks only at how it begins."""
         at = self.at(event)
-        if not self.node.count and told:
-            raise Unreadable
         if not self.node.count:
-            raise self.unreadable(f"'{SECTION_KEY}' must stand below the name of a node", event)
+            message = f"'{SECTION_KEY}' must stand below the name of a node"
+            raise Unreadable if told else self.unreadable(message, event)
         pattern, said = self.node.text, joined("/", self.keys[1:])
         fault, named = pattern_fault(pattern), self.key_places[-1] or at
         if fault is not None:
@@ -184,7 +183,8 @@ class Reader:
         if self.inside and not empty:
             self.error(f"'{SECTION_KEY}' must hold a mapping from names to values", self.at(event))
         else:
-            self.strays.value(Key(self.last_key, at, self.depth), self.keys, self.emptied, empty=empty)
+            key, around = Key(self.last_key, at, self.depth), self.key_places[-1]
+            self.strays.value(key, self.keys, around, self.emptied, empty=empty)
         self.node, self.inside, self.expects_key = self.before_key, False, True
 
     def open_mapping(self, event: yaml.MappingStartEvent) -> None:

@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
 SECTION_KEY: Final = "ros__parameters"
 
+_UNPREFIXED: Final = ("parameter", "parameters", "params")
 _MISSPELT: Final = re.compile(r"ros[_-]*p[a-z]{1,4}m[a-z]{0,6}", re.IGNORECASE)
 
 
@@ -52,16 +53,28 @@ class Strays:
         """Return whether a stray has been told of the node that these keys are of."""
         return _outermost(keys) in self.told
 
-    def value(self, key: Key, keys: Sequence[str], ended: Location | None, *, empty: bool) -> None:
+    def value(
+        self,
+        key: Key,
+        keys: Sequence[str],
+        above: Location | None,
+        ended: Location | None,
+        *,
+        empty: bool,
+    ) -> None:
         """Take a value above the parameters.
 
-        `keys` are those of the mappings around its key; `ended` is the place of an empty mapping that has ended the
-        parameters for rcl.
+        `keys` are those of the mappings around its key, the innermost of them is `above`; `ended` is the place of an
+        empty mapping that has ended the parameters for rcl.
         """
         if empty:
             self.empty = key
         elif not self.has_told(keys):
             self.told.add(_outermost(keys))
+            if keys[-1] in _UNPREFIXED and len(keys) > 2 and above is not None:  # noqa: PLR2004 - a node around it
+                message = f"'{keys[-1]}' is not '{SECTION_KEY}', below which parameters belong"
+                self.problems.error(Code.PARAMETER_SYNTAX, message, above, suggestion=SECTION_KEY)
+                return
             notes = () if ended is None else (f"the empty mapping at {ended} ends the section for rcl",)
             message = f"'{key.name}' stands outside '{SECTION_KEY}': parameters belong below '{SECTION_KEY}' of a node"
             self.problems.error(Code.PARAMETER_SYNTAX, message, key.at, notes=notes)
