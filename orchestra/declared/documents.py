@@ -19,7 +19,10 @@ if TYPE_CHECKING:
 Way: TypeAlias = "tuple[str | int, ...]"
 
 _LOADER: Final = getattr(yaml, "CSafeLoader", yaml.SafeLoader)
-_MOST = 4_000_000  # characters; no declaration is as long
+# No declaration is as long, in characters, has as many parts or is as deep.
+_MOST = 4_000_000
+_MOST_PARTS = 200_000
+_DEEPEST = 60
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,8 +70,24 @@ def read_document(path: str, named_at: Location | None, problems: Problems) -> D
         told = "it nests too deep" if isinstance(error, RecursionError) else str(error)
         _refuse(f"cannot be read: {told}", 1, 1, file, chain, problems)
     else:
-        return Document(path, text, data, chain)
+        if _is_reasonable(data):
+            return Document(path, text, data, chain)
+        _refuse("it nests too deep, or its aliases expand to too much", 1, 1, file, chain, problems)
     return None
+
+
+def _is_reasonable(data: Any) -> bool:  # noqa: ANN401 - whatever a file holds
+    """Return whether all parts can be visited: aliases of YAML may make a few lines endless."""
+    waiting = [(data, 0)]
+    for _ in range(_MOST_PARTS):
+        if not waiting:
+            return True
+        item, depth = waiting.pop()
+        if depth > _DEEPEST:
+            return False
+        inner = item.values() if isinstance(item, dict) else item if isinstance(item, list) else ()
+        waiting += [(part, depth + 1) for part in inner]
+    return False
 
 
 def _refuse(

@@ -9,6 +9,7 @@ distance of allowed values from `minimum`.
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any, Final, get_args
 
@@ -85,7 +86,8 @@ def _level(schema: Mapping[str, Any], above: str, found: _Found, *, outermost: b
         ):
             raise NotPlainError
     for pattern, inner in patterns.items():
-        if any(_matches(pattern, name) for name in properties):
+        expression = _expression(pattern)
+        if any(expression.search(name) for name in properties):
             raise NotPlainError
         found.patterns.append((pattern, _parameter(inner, pattern, required=False)))
     return undeclared
@@ -101,11 +103,9 @@ def _mapping(schema: Mapping[str, Any], key: str) -> dict[str, Any]:
     return value
 
 
-def _matches(pattern: str, name: str) -> bool:
-    import re  # noqa: PLC0415 - few schemas have patterns
-
+def _expression(pattern: str) -> re.Pattern[str]:
     try:
-        return re.search(pattern, name) is not None
+        return re.compile(pattern)
     except re.error:
         raise NotPlainError from None
 

@@ -22,7 +22,6 @@ Lookup: TypeAlias = Callable[[str], tuple[Any, "Lookup"]]
 
 _BRANCHES = ("allOf", "anyOf", "oneOf")
 _SINGLE = ("if", "then", "else")
-_DEEPEST = 24
 
 
 @dataclass(frozen=True, slots=True)
@@ -85,20 +84,23 @@ class Level:
 
 def level(*schemas: tuple[Any, Lookup]) -> Level:
     """Return what schemas say together, with all that they refer to."""
-    return Level(tuple(item for schema, lookup in schemas for item in _said(schema, lookup, 0)))
+    seen: set[int] = set()
+    return Level(tuple(item for schema, lookup in schemas for item in _said(schema, lookup, seen)))
 
 
-def _said(schema: Any, lookup: Lookup, depth: int) -> Iterator[tuple[Schema, Lookup]]:  # noqa: ANN401 - whatever a file holds
-    if not isinstance(schema, Mapping) or depth > _DEEPEST:
+def _said(schema: Any, lookup: Lookup, seen: set[int]) -> Iterator[tuple[Schema, Lookup]]:  # noqa: ANN401 - whatever a file holds
+    """Yield a schema and those that apply with it, each once: they may refer to each other in a circle."""
+    if not isinstance(schema, Mapping) or id(schema) in seen:
         return
+    seen.add(id(schema))
     yield schema, lookup
     if isinstance(schema.get("$ref"), str):
-        yield from _said(*lookup(schema["$ref"]), depth + 1)
+        yield from _said(*lookup(schema["$ref"]), seen)
     inner = [schema[key] for key in _SINGLE if key in schema]
     for key in _BRANCHES:
         inner += schema[key] if isinstance(schema.get(key), list) else []
     for item in inner:
-        yield from _said(item, lookup, depth + 1)
+        yield from _said(item, lookup, seen)
 
 
 def _part(schema: Schema, key: str) -> Mapping[str, Any]:

@@ -6,9 +6,10 @@ integer is declared, or the other way round, and names that the schema neither d
 
 from __future__ import annotations
 
+from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.declared.common import is_common
 from orchestra.declared.judging import of_every_node, wrong_type
@@ -21,6 +22,9 @@ from orchestra.values import ParameterValue
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
+
+# A schema that holds itself has levels without end.
+_MOST_LEVELS: Final = 200
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,16 +73,21 @@ def unlike(found: Structured, told: set[str]) -> Iterator[Fault]:
             yield wrong_type(exact, name, value, certain=certain and taken is False)
 
 
-def known_names(at: Level, above: str = "", depth: int = 0) -> Iterator[str]:
-    """Yield the dotted names of all parameters that a schema names."""
-    if depth > 8:  # noqa: PLR2004 - a schema may hold itself
-        return
-    for name in at.names:
-        inner = at.below(name)
-        if inner is not None and inner.is_object:
-            yield from known_names(inner, f"{above}{name}.", depth + 1)
-        else:
-            yield f"{above}{name}"
+def known_names(root: Level) -> list[str]:
+    """Return the dotted names of all parameters that a schema names; of one that holds itself, the outer ones."""
+    names: list[str] = []
+    waiting = deque([("", root)])
+    for _ in range(_MOST_LEVELS):
+        if not waiting:
+            break
+        above, at = waiting.popleft()
+        for name in at.names:
+            inner = at.below(name)
+            if inner is not None and inner.is_object:
+                waiting.append((f"{above}{name}.", inner))
+            else:
+                names.append(f"{above}{name}")
+    return names
 
 
 def undeclared(name: str, found: Structured, *, certain: bool) -> Fault:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -34,7 +35,8 @@ def read_validated(document: Document, problems: Problems) -> ParameterSchema | 
     """Return what a schema says of parameters, None where it is none (which is reported)."""
     from jsonschema.validators import Draft202012Validator, validator_for  # noqa: PLC0415 - few schemas need it
 
-    kind = validator_for(document.data, default=Draft202012Validator)
+    draft = document.data.get("$schema", "")
+    kind = validator_for(document.data if isinstance(draft, str) else {}, default=Draft202012Validator)
     faults = list(kind(kind.META_SCHEMA).iter_errors(document.data))
     for error in faults:
         at = document.at(tuple(error.absolute_path))
@@ -44,7 +46,8 @@ def read_validated(document: Document, problems: Problems) -> ParameterSchema | 
         return None
     registry = _registry(document)
     resolver = registry.resolver(document.data.get("$id", "") if isinstance(document.data, dict) else "")
-    if _refuse_dead_references(document, resolver, problems):
+    dead = _refuse_dead_references(document, resolver, problems)
+    if _refuse_patterns(document, problems) or dead:
         return None
     root = level((document.data, partial(_lookup, resolver)))
     return _Schema(kind(document.data, registry=registry), root)
@@ -67,7 +70,7 @@ class _Schema:
     def _found(self, values: Mapping[str, ParameterValue]) -> Iterator[Fault]:
         found = structured(values, self.root)
         told: set[str] = set()
-        for error in self.validator.iter_errors(found.tree):
+        for error in self._errors(found):
             for fault in _faults_of(error, found):
                 told.add(fault.name)
                 yield fault
@@ -76,6 +79,40 @@ class _Schema:
             yield fault
         yield from unlike(found, told)
         yield from common_faults(values, found)
+
+    def _errors(self, found: Structured) -> list[Any]:
+        try:
+            return list(self.validator.iter_errors(found.tree))
+        except RecursionError:
+            return []  # it refers to itself without end, so that it says nothing
+
+
+def _refuse_patterns(document: Document, problems: Problems) -> bool:
+    """Report what is no regular expression; return whether there is any."""
+    wrong = False
+    for pattern, way, key in _patterns(document.data):
+        try:
+            re.compile(pattern)
+        except re.error as error:
+            wrong = True
+            told = f"'{pattern}' is no regular expression: {error}"
+            problems.error(Code.BROKEN_DECLARATION, told, document.at(way, key=key))
+    return wrong
+
+
+def _patterns(data: Any, way: Way = ()) -> Iterator[tuple[str, Way, bool]]:  # noqa: ANN401 - whatever a file holds
+    """Yield the patterns of a document, and whether each is a key."""
+    if isinstance(data, dict):
+        if isinstance(data.get("pattern"), str):
+            yield data["pattern"], (*way, "pattern"), False
+        named = data.get("patternProperties")
+        for name in named if isinstance(named, dict) else ():
+            yield str(name), (*way, "patternProperties", name), True
+        for key, value in data.items():
+            yield from _patterns(value, (*way, key))
+    elif isinstance(data, list):
+        for index, value in enumerate(data):
+            yield from _patterns(value, (*way, index))
 
 
 def _faults_of(error: Any, found: Structured) -> Iterator[Fault]:  # noqa: ANN401 - of the library

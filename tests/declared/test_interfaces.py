@@ -6,7 +6,7 @@ from math import inf
 from typing import TYPE_CHECKING
 
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from orchestra.declared.interfaces.compatibility import misfits
@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from orchestra.errors import Problem
 
+_PATIENT = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 _PACKAGE = {
     "demo_talk/__init__.py": "",
     **{f"demo_talk/nodes/{name}.py": "" for name in ("__init__", "talker", "listener", "other")},
@@ -135,6 +136,7 @@ _qos = st.builds(
 )
 
 
+@_PATIENT
 @given(_qos, _qos)
 def test_what_is_offered_fits_itself_and_one_of_two_fits_the_other(one: Qos, other: Qos) -> None:
     assert not list(misfits(one, one))

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import jsonschema
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 from orchestra.declared.documents import Document
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from orchestra.declared.model import Fault, ParameterSchema
     from orchestra.values import ParameterValue
 
+_PATIENT = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 _names = st.sampled_from(["a", "b", "ab", "limits.max", "limits.min", "c.d.e", "odom0", "odom0_config"])
 _numbers = st.integers(-3, 3) | st.sampled_from([-1.5, 0.0, 0.5, 1.0, 2.5])
 _words = st.sampled_from(["", "a", "ab", "abc", "fast", "slow"])
@@ -120,12 +121,14 @@ def _agree(found: list[Fault], *, taken: bool) -> None:
     assert (certain == []) if taken else found
 
 
+@_PATIENT
 @given(_schemas(), _given)
 def test_the_library_says_the_same_by_way_of_the_tree(schema: dict[str, Any], values: dict[str, Any]) -> None:
     taken = jsonschema.Draft202012Validator(schema).is_valid(_instance(schema, values))
     _agree(list(_by_library(schema).faults(values)), taken=taken)
 
 
+@_PATIENT
 @given(_schemas(), _given)
 def test_what_is_read_plainly_means_what_the_library_says(
     schema: dict[str, Any], values: dict[str, Any]

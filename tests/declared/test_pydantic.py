@@ -6,7 +6,7 @@ from enum import Enum
 from typing import TYPE_CHECKING, Any, Literal
 
 import pytest
-from hypothesis import given
+from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, field_validator, model_validator
 
@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from orchestra.declared.model import ParameterSchema
     from orchestra.values import ParameterValue
 
+_PATIENT = settings(deadline=None, suppress_health_check=[HealthCheck.too_slow])
 _AT = Location(point("x.launch.yaml"))
 
 
@@ -144,6 +145,7 @@ _values = st.dictionaries(
 )
 
 
+@_PATIENT
 @given(_values)
 def test_what_pydantic_takes_is_taken(values: dict[str, Any]) -> None:
     try:
