@@ -10,16 +10,14 @@ from orchestra.compat.explanation import in_their_words
 from orchestra.compat.given import path_of, without
 from orchestra.compat.keywords import keyword_meant, parameters_of, shown
 from orchestra.compat.literals import argument, keyword_span
-from orchestra.compat.place import Place
 from orchestra.compat.reported import ReportedError
 from orchestra.compat.wrong import WrongValue
 from orchestra.errors import Code, Problem, Severity
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
-    from types import FrameType
+    from collections.abc import Callable, Mapping, Sequence
 
-    from orchestra.compat.place import Step
+    from orchestra.compat.place import Place, Step
     from orchestra.location import Span
 
 _MISSING: Final = re.compile(r"missing \d+ required [\w-]+ arguments?: (.*)")
@@ -38,7 +36,7 @@ class FaultyCall:
         made: Any,
         constructor: Callable[..., None],
         given: tuple[tuple[Any, ...], Mapping[str, Any]],
-        caller: FrameType,
+        way: Sequence[Place],
         outer: Place,
     ) -> None:
         words, named = given
@@ -51,8 +49,9 @@ class FaultyCall:
         self.surplus = len(by_place) if len(words) > len(by_place) and not open_ended else None
         self.named = {**({} if open_ended else dict(zip(by_place, words, strict=False))), **named}
         self.original = {**{f"*{index}": word for index, word in enumerate(self.words)}, **self.named}
-        inner = Place(caller.f_code, caller.f_lasti, self.kind)
-        self.places = (inner,) if outer.span == inner.span else (inner, outer)
+        way[0].kind = self.kind
+        self.places = (way[0],) if outer.span == way[0].span else (way[0], outer)
+        self.way = way
         self.told: set[tuple[Step, ...]] = set()
         self.found: list[Problem] = []
         self.is_lost = False
@@ -84,7 +83,7 @@ class FaultyCall:
     def _unknown(self, names: list[str]) -> bool:
         for name in names:
             meant = keyword_meant(name, self.parameters, self.named)
-            spans = (keyword_span(place, name) for place in self.places)
+            spans = (keyword_span(place, name) for place in (*self.places, *self.way))
             span = next((span for span in spans if span is not None), None)
             message = f"{self.kind.__name__} has no argument '{name}'"
             if span is None:  # it comes out of a mapping that is made elsewhere
@@ -122,11 +121,12 @@ class FaultyCall:
         return True
 
     def _at(self, path: tuple[Step, ...], *, whole: bool = True) -> Span:
-        found = (argument(place, path) for place in self.places)
-        written = next((item for item in found if item.node is not None), None)
-        if written is None:
-            return self.places[0].span
-        return written.whole if whole else written.span
+        """Return where a value stands, or the smallest expression that it comes out of."""
+        for place in self.places:
+            written = argument(place, path)
+            if written.span != place.span:
+                return written.whole if whole else written.span
+        return self.places[0].span
 
     def _tell(
         self,
@@ -136,7 +136,8 @@ class FaultyCall:
         suggestion: str | None = None,
         notes: tuple[str, ...] = (),
     ) -> None:
-        self.found.append(Problem(code, Severity.ERROR, message, span, (), suggestion, notes))
+        if (code, span) not in [(problem.code, problem.span) for problem in self.found]:
+            self.found.append(Problem(code, Severity.ERROR, message, span, (), suggestion, notes))
 
 
 def _owner(made: type[Any], constructor: Callable[..., None]) -> type[Any]:

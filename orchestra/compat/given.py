@@ -15,6 +15,12 @@ if TYPE_CHECKING:
     from orchestra.compat.place import Step
 
 _DEPTH: Final = 8
+# Arguments of which each item stands for itself: others are texts that are joined.
+_SEVERAL: Final = (
+    *("actions", "additional_env", "arguments", "choices", "composable_node_descriptions", "env"),
+    *("extra_arguments", "initial_entities", "launch_arguments", "launch_configurations", "parameters"),
+    *("remappings", "ros_arguments"),
+)
 _View: Final[type[Any]] = type({}.items())
 _VIEWS: Final = (_View, list, tuple)
 _NOTHING: Final = object()
@@ -61,6 +67,8 @@ def without(given: Mapping[str, Any], paths: Iterable[tuple[Step, ...]]) -> dict
 def _cut(path: tuple[Step, ...], given: Mapping[str, Any]) -> tuple[Step, ...]:
     """Return the place of the smallest thing that can be left out to have a value left out."""
     value: Any = given[str(path[0])]
+    if path[0] not in _SEVERAL:
+        return path[:1]
     found = path[:2]
     for index, step in enumerate(path[1:], start=2):
         if isinstance(value, Mapping | _View):

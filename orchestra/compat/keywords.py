@@ -11,11 +11,13 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
 _Parameter = inspect.Parameter
+_SHORT: Final = 3
 # Words of other languages of launch files, of former releases, and what people write for them.
 _MEANINGS: Final = {
     "args": ("arguments",),
     "command": ("cmd", "command"),
     "default": ("default_value", "default"),
+    "destination": ("dst",),
     "env": ("additional_env",),
     "exec": ("executable",),
     "file": ("launch_description_source",),
@@ -29,7 +31,8 @@ _MEANINGS: Final = {
     "params": ("parameters",),
     "pkg": ("package",),
     "remap": ("remappings",),
-    "target": ("target_action", "target_container"),
+    "source": ("src",),
+    "target": ("target_action", "target_container", "dst"),
     "text": ("msg",),
 }
 
@@ -39,6 +42,9 @@ def keyword_meant(written: str, known: Mapping[str, inspect.Parameter], given: I
     for meaning in _MEANINGS.get(written, ()):
         if meaning in known:
             return meaning
+    longer = [name for name in known if len(written) >= _SHORT and name.startswith(written)]
+    if len(longer) == 1:
+        return longer[0]
     word = nearest(written, [word for word, meanings in _MEANINGS.items() if known.keys() & set(meanings)])
     have = set(given)
     missing = [name for name, item in known.items() if item.default is _Parameter.empty and name not in have]

@@ -128,6 +128,9 @@ class Literal:
 
     def item(self, index: int, count: int | None) -> Literal:
         """Return where an item of a list stands that has so many, or the value of the entry of a dictionary."""
+        node = self._meaning()
+        if isinstance(node, ast.ListComp | ast.GeneratorExp):
+            return self._inside(node.elt)
         items = self._items()
         if items is None or (count is not None and len(items) != count):
             return self._inside(None)

@@ -38,7 +38,8 @@ def settled(
     """Report what is wrong with a call, and make the object without it; return whether the error is dealt with so."""
     if _is_caught(caller) or _is_of_users(error):
         return False
-    call = FaultyCall(made, constructor, given, caller, here(made))
+    places = list(_calls(caller))
+    call = FaultyCall(made, constructor, given, places, here(made))
     is_made, fault = False, error
     for _ in range(_MOST):
         if not call.explain(fault) or call.is_lost:
@@ -56,7 +57,7 @@ def settled(
         made._refused = True
     else:
         vars(made)["_lost"] = True
-    way = dict.fromkeys(f"called at {place.span}" for place in _calls(caller))
+    way = dict.fromkeys(f"called at {place.span}" for place in places)
     notes = tuple(way)[1 : _MOST_CALLS + 1]
     for problem in call.found:
         problems.report(replace(problem, included_from=chain, notes=(*problem.notes, *notes)))

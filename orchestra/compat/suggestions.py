@@ -39,7 +39,7 @@ def in_place(problem: Problem) -> Problem:
         problem = replace(problem, span=found.span)
     if meant is None:
         return replace(problem, span=_narrower(problem, found))
-    wrong = _wrong(found, meant)
+    wrong = _wrong(found, meant, problem.message)
     if wrong is None:
         return replace(problem, suggestion=None, notes=(*problem.notes, f"did you mean '{meant}'?"))
     return replace(problem, span=wrong[0], suggestion=wrong[1])
@@ -75,18 +75,30 @@ def _narrower(problem: Problem, found: Literal) -> Span:
     return problem.span or found.span
 
 
-def _wrong(found: Literal, meant: str) -> tuple[Span, str] | None:
-    """Return where the text stands that something else was meant by, and what should stand there."""
+def _wrong(found: Literal, meant: str, message: str) -> tuple[Span, str] | None:
+    """Return where the text stands that something else was meant by, and what should stand there.
+
+    It is part of what the message tells of.
+    """
     if found.node is None:  # a name, or the part of something
-        named = text_at(found.file, found.span).replace(".", "").isidentifier()
-        return (
-            (found.span, meant) if named else next(_replaced(quoted_in(found.file, found.span), meant), None)
-        )
+        if text_at(found.file, found.span).replace(".", "").isidentifier():
+            return found.span, meant
+        return next(_replaced(_told(quoted_in(found.file, found.span), message), meant), None)
     if isinstance(found.node, ast.Constant):
         text = str(found.node.value)
         whole = "$(" not in meant and text.count("/") == meant.count("/")
         return (found.span, meant) if whole else next(_replaced({text: found.span}, meant), None)
-    return next(_replaced(found.texts, meant), None)
+    return next(_replaced(_told(found.texts, message), meant), None)
+
+
+def _told(texts: dict[str, Span], message: str) -> dict[str, Span]:
+    """Return the texts that stand in a message."""
+    return {text: span for text, span in texts.items() if _stands(text, message)}
+
+
+def _stands(text: str, message: str) -> bool:
+    begin, end = (r"(?<![\w.-])" if text[:1].strip("/") else ""), r"(?![\w-])"
+    return bool(text) and re.search(begin + re.escape(text) + end, message) is not None
 
 
 def _replaced(texts: dict[str, Span], meant: str) -> Iterator[tuple[Span, str]]:
@@ -100,14 +112,16 @@ def _replaced(texts: dict[str, Span], meant: str) -> Iterator[tuple[Span, str]]:
     for text, place in texts.items():
         if text in meant:
             continue
-        part = nearest(text, _parts(meant, text.count("/")))
+        part = nearest(text, _parts(meant, text))
         if part is not None:
             yield place, part
 
 
-def _parts(meant: str, slashes: int) -> Iterator[str]:
-    """Yield the parts of a path, or of a text with substitutions, that have so many slashes."""
+def _parts(meant: str, text: str) -> Iterator[str]:
+    """Yield the parts of a path, or of a text with substitutions, that have as many slashes as a text."""
+    first = "/" if text.startswith("/") else ""
+    count = text.removeprefix("/").count("/") + 1
     for token in _BETWEEN.split(meant):
         steps = token.split("/")
-        for begin in range(len(steps) - slashes):
-            yield "/".join(steps[begin : begin + slashes + 1])
+        for begin in range(len(steps) - count + 1):
+            yield first + "/".join(steps[begin : begin + count])

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
+from orchestra.compat.wrong import WrongType
 from orchestra.description.text import Template
 
 if TYPE_CHECKING:
@@ -25,13 +26,16 @@ def normalized(subs: Sub) -> list[Substitution]:
     if isinstance(subs, Substitution):
         return [subs]
     if not isinstance(subs, Iterable):
-        raise TypeError(_wrong(subs))
+        raise WrongType(_wrong(subs), subs)
     return [_one(item) for item in subs]
 
 
 def template(subs: Sub, span: Span, *, quoted: bool = False) -> Template:
     """Return the template of some substitutions; those without a place of their own are at `span`."""
-    items = normalized(subs)
+    try:
+        items = normalized(subs)
+    except WrongType as error:
+        raise WrongType(str(error), error.value, at=span) from None
     parts = tuple(part for item in items for part in item._parts(span))
     if len(parts) == 1:
         span = parts[0].span
@@ -44,7 +48,7 @@ def _one(item: Any) -> Substitution:
         return TextSubstitution(text=item)
     if isinstance(item, Substitution):
         return item
-    raise TypeError(_wrong(item))
+    raise WrongType(_wrong(item), item)
 
 
 def _wrong(value: object) -> str:

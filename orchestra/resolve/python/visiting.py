@@ -67,6 +67,9 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
     if is_lost(entity) or (isinstance(entity, ModelledAction) and entity._is_as_described()):
         visit_entity(entity, run)  # which it has no sound model for
         return
+    if entity._refused:  # its code would miss what was wrong
+        run.scope.ledger.incomplete = True
+        return
     if isinstance(entity, LaunchDescription) and entity.deprecated:
         message = f"{displayed(run.context.file or '')} is deprecated: {entity.deprecated_reason}"
         run.problems.warning(Code.DEPRECATED, message, run.at(action.span))
@@ -76,9 +79,14 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
     if run.later:
         put_off(Deferred("entity", entity), run.at(action.span), run)
         return
+    _carry_out(entity, action.span, run)
+
+
+def _carry_out(entity: Any, span: Span, run: Resolution) -> None:
+    """Run the code of an entity, and visit what it returns."""
     following: Any = None
     context = run.engine.context
-    with user_code(run, action.span):
+    with user_code(run, span):
         judged = isinstance(entity, Action) and type(entity).visit is Action.visit
         try:
             made = entity.execute(context) if judged else entity.visit(context)

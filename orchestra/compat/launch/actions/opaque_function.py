@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.explanation import told
 from orchestra.compat.launch.action import Action
 from orchestra.compat.wrong import WrongType
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Mapping
 
     from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
@@ -33,6 +35,8 @@ class OpaqueFunction(Action):
             raise WrongType(
                 f"the function of an OpaqueFunction cannot be called: {function!r}", path=("function",)
             )
+        if args is not None and not isinstance(args, Iterable):
+            raise WrongType(f"the args of an OpaqueFunction are a list, this is {told(args)}", path=("args",))
         self.__function = function
         self.__args = () if args is None else tuple(args)
         self.__kwargs = {} if kwargs is None else dict(kwargs)
