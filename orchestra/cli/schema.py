@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.cli.boundary import OK
 from orchestra.cli.parser import CommandParser
-from orchestra.cli.schemas.table import SCHEMAS, schema_text
+from orchestra.cli.schemas.table import FILES, schema_text
 from orchestra.errors import RunError, UsageError
 
 if TYPE_CHECKING:
@@ -36,7 +36,7 @@ def parser() -> CommandParser:
     made.add_argument(
         "name",
         nargs="?",
-        choices=[*sorted(SCHEMAS), _CAPTURE],
+        choices=[*sorted(FILES), _CAPTURE],
         default="launch",
         help="which one (default: launch)",
     )

@@ -13,7 +13,7 @@ import jsonschema
 import pytest
 import yaml
 
-from orchestra.cli.schemas.table import SCHEMAS, schema_text
+from orchestra.cli.schemas.table import FILES, SCHEMAS, schema_text
 from orchestra.errors import Code, Problems
 from orchestra.load.files import load
 from orchestra.plan import codec
@@ -56,19 +56,17 @@ def _faults(name: str, document: Any) -> list[str]:
     return [f"{error.json_path}: {error.message}" for error in _validator(name).iter_errors(document)]
 
 
-@pytest.mark.parametrize("name", SCHEMAS)
+@pytest.mark.parametrize("name", FILES)
 def test_the_committed_schema_is_up_to_date(name: str) -> None:
-    """Where this fails: `orchestra schema NAME > schemas/NAME.schema.json`."""
-    assert (_ROOT / "schemas" / f"{name}.schema.json").read_text("utf-8") == schema_text(name)
+    """Where this fails: `orchestra schema NAME > schemas/...`."""
+    assert (_ROOT / "schemas" / FILES[name]).read_text("utf-8") == schema_text(name)
 
 
 def test_every_schema_is_committed_and_no_other() -> None:
-    assert {path.name for path in (_ROOT / "schemas").iterdir()} == {
-        f"{name}.schema.json" for name in SCHEMAS
-    }
+    assert {path.name for path in (_ROOT / "schemas").iterdir()} == set(FILES.values())
 
 
-@pytest.mark.parametrize("name", SCHEMAS)
+@pytest.mark.parametrize("name", FILES)
 def test_the_command_prints_it(orchestra: Command, name: str) -> None:
     found = orchestra("schema", name)
     assert (found.returncode, found.stderr, found.stdout) == (0, "", schema_text(name))

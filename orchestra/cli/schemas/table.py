@@ -1,4 +1,4 @@
-"""The table of schemas: what `orchestra schema NAME` prints and `schemas/NAME.schema.json` holds."""
+"""The table of schemas: what `orchestra schema NAME` prints and a file in `schemas/` holds."""
 
 from __future__ import annotations
 
@@ -35,6 +35,24 @@ SCHEMAS: Final[dict[str, Callable[[], dict[str, Any]]]] = {
 }
 
 
+def _launch_xml() -> str:
+    from orchestra.cli.schemas.xml_launch import xml_schema_text  # noqa: PLC0415 - as above
+
+    return xml_schema_text()
+
+
+# What is no JSON Schema: XML Schema for launch files in XML.
+OTHERS: Final[dict[str, Callable[[], str]]] = {"launch-xml": _launch_xml}
+
+# The file below `schemas/` that holds each.
+FILES: Final = {
+    **{name: f"{name}.schema.json" for name in SCHEMAS},
+    "launch-xml": "launch.xsd",
+}
+
+
 def schema_text(name: str) -> str:
     """Return the text of one schema, line break at its end included."""
+    if name in OTHERS:
+        return OTHERS[name]()
     return json.dumps(SCHEMAS[name](), indent=2, ensure_ascii=False) + "\n"
