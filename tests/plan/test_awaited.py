@@ -256,7 +256,7 @@ FAULTS = [
     ("ready: {tcp: '::1:80'}", "::1:80", "an IPv6 address with a port stands in", "[::1]:80"),
     ("ready: {http: localhost/x}", "localhost/x", "'localhost/x' is no URL", "http://localhost/x"),
     ("ready: {file: ''}", "", "expected a path, found nothing", None),
-    ("ready: {command: []}", "ready", "the command is empty", None),
+    ("ready: {command: []}", "[]", "the command is empty", None),
     ("ready: {command: ''}", "", "the command is empty", None),
     ("ready: {notify: 5}", "5", "expected true or false, found '5'", None),
     ("ready: {notify: true, interval: 1}", "interval", "`interval` goes with `tcp`, `http`, `file` or", None),
@@ -304,7 +304,7 @@ FAULTS = [
     ("limits: {exclusive: true}", "exclusive", "`exclusive` goes with `cores`", None),
     ("limits: {cores: 3-1}", "3-1", "the range 3-1 is empty", "1-3"),
     ("limits: {cores: [1, 0-1]}", "1", "core 1 stands twice", None),
-    ("limits: {cores: []}", "limits", "a process needs a core to run on", None),
+    ("limits: {cores: []}", "[]", "a process needs a core to run on", None),
     ("limits: {nice: 20}", "20", "expected a whole number from -20 to 19, found '20'", None),
     ("limits: {nice: $(env N 1.5)}", "$(env N 1.5)", "expected a whole number from -20 to 19", None),
     (
