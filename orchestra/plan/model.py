@@ -83,7 +83,7 @@ class Provenance:
     """Where the values of a process were written.
 
     `naming` has all that was written for its `name` and its `namespace`, `remapping_values` what the two sides of each
-    rule came through.
+    rule came through, `command` what was read to make the words of the command line.
     """
 
     name: Location | None = None
@@ -93,6 +93,7 @@ class Provenance:
     environment: dict[str, tuple[Candidate, ...]] = field(default_factory=dict)
     naming: dict[str, tuple[Candidate, ...]] = field(default_factory=dict)
     remapping_values: tuple[tuple[Via, ...], ...] = ()
+    command: tuple[Via, ...] = ()
     params_schema: Location | None = None
 
 

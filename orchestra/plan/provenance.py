@@ -30,6 +30,7 @@ def provenance(process: ResolvedProcess, parameters: Parameters) -> Provenance:
         },
         naming=naming(process),
         remapping_values=remapping_values(process),
+        command=candidates.passage(process.through),
         params_schema=None if process.params_schema is None else process.params_schema.location,
     )
 

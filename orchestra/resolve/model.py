@@ -122,9 +122,9 @@ class ResolvedProcess:
 
     `conditional` tells that a condition, which is true, stands on it or around it. `faulty` marks a process of which
     something has been reported: what follows from it is not reported again. Without `inherit_environment` it gets
-    nothing but `environment`. `stdin` is the place that says that it reads what is typed. `share` is the share folder
-    of its package, where that is here. `origin` is the object of a Python launch file that made it, `around` are those
-    that it came out of, this one included.
+    nothing but `environment`. `stdin` is the place that says that it reads what is typed. `through` was
+    read to make the words of its command line. `share` is the share folder of its package, where that is here. `origin`
+    is the object of a Python launch file that made it, `around` are those that it came out of, this one included.
     """
 
     kind: Kind
@@ -158,6 +158,7 @@ class ResolvedProcess:
     faulty: bool
     inherit_environment: bool = True
     autostart: bool = False
+    through: tuple[Read, ...] = field(default=(), compare=False, repr=False)
     limits: Limits | None = None
     stdin: Location | None = None
     params_schema: NamedSchema | None = None

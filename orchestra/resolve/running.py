@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 from orchestra.description.running import ON_EXIT
 from orchestra.errors import Code
 from orchestra.resolve.booleans import boolean
-from orchestra.resolve.context import POISON, Poison, Value
+from orchestra.resolve.context import POISON, Poison, Read, Value
 from orchestra.resolve.dependencies import dependencies
 from orchestra.resolve.idle_keys import check_keys
 from orchestra.resolve.limits import limits
@@ -45,7 +45,7 @@ _HIGHEST_SIGNAL = 64
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class Program:
-    """What is run: the part in which nodes and other programs differ."""
+    """What is run: the part in which nodes and other programs differ. `through` was read to make its words."""
 
     kind: Kind
     executable: str
@@ -59,6 +59,7 @@ class Program:
     parameters: tuple[ParameterSource, ...] = ()
     remaps: tuple[ResolvedRemap, ...] = ()
     autostart: bool = False
+    through: tuple[Read, ...] = ()
     params_schema: NamedSchema | None = None
     share: str | None = None
     faulty: bool = False
@@ -119,6 +120,7 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         or action.faulty,  # the last one: all others have been looked at
         inherit_environment=action.env_only is None,
         autostart=program.autostart,
+        through=program.through,
         params_schema=program.params_schema,
         share=program.share,
         origin=action.origin,

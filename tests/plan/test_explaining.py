@@ -291,3 +291,17 @@ def test_substitutions_in_a_file_are_followed_too(tmp_path: Path) -> None:
         "b": [("file", 0)],
         "c": [("y", 0), ("x", 1), ("file", 0)],
     }
+
+
+def test_the_words_of_a_command_line_are_followed(tmp_path: Path) -> None:
+    (tmp_path / "main.launch.yaml").write_text(
+        "launch:\n"
+        "  - arg: {name: x, default: '5'}\n"
+        "  - let: {name: y, value: $(var x)}\n"
+        "  - node: {exec: /bin/true, name: n, args: one $(var y), ros_args: --log-level $(var x)}\n"
+        "  - executable: {cmd: echo $(var y), name: $(var x)}\n"
+    )
+    made = collect(str(tmp_path / "main.launch.yaml"), inputs_from([], environment={}), Problems())
+    assert made is not None
+    told = [[(via.name, via.depth) for via in process.provenance.command] for process in made.processes]
+    assert told == [[("y", 0), ("x", 1)], [("y", 0), ("x", 1)]]

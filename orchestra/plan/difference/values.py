@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from orchestra.location import Location
     from orchestra.plan.conditions import Dependency
     from orchestra.plan.difference.model import Side
-    from orchestra.plan.model import Component, Process
+    from orchestra.plan.model import Component, Process, Via
 
     Writers = Mapping[str, Candidate]
 
@@ -79,13 +79,20 @@ def _of_process(before: Process, after: Process) -> Iterator[Change]:
 def _words(before: Process, after: Process) -> Iterator[Change]:
     """Yield the stretches of the command line that differ, but for what the plan puts at its end for a node."""
     old, new = _written(before), _written(after)
+    read = _new(before, after), _new(after, before)
     for tag, begin, end, new_begin, new_end in SequenceMatcher(None, old, new, autojunk=False).get_opcodes():
         if tag == "equal":
             continue
         gone, come = list(old[begin:end]) or None, list(new[new_begin:new_end]) or None
         absent = _absent(before=gone is not None, after=come is not None)
         place = f"word {begin + 1}"
-        yield Change("command", place, gone, come, before.location, after.location, absent)
+        yield Change("command", place, gone, come, before.location, after.location, absent, *read)
+
+
+def _new(process: Process, other: Process) -> tuple[Via, ...]:
+    """Return what was read for the words of one process and had another value for those of the other."""
+    known = {(via.kind, via.name, via.value) for via in other.provenance.command}
+    return tuple(via for via in process.provenance.command if (via.kind, via.name, via.value) not in known)
 
 
 def _written(process: Process) -> tuple[str, ...]:

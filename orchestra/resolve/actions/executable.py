@@ -19,7 +19,9 @@ if TYPE_CHECKING:
 
 def visit(action: Executable, run: Resolution) -> None:
     """Start a program."""
-    words, label = _words(action, run), run.text(action.name)
+    with run.scope.tracing() as reads:
+        words = _words(action, run)
+    label = run.text(action.name)
     namespace = run.scope.namespace(run.at(action.span))
     found: tuple[str, ...] = () if isinstance(words, Poison) else words
     program = Program(
@@ -29,6 +31,7 @@ def visit(action: Executable, run: Resolution) -> None:
         namespace=namespace if isinstance(namespace, Value) else None,
         label=label if isinstance(label, str) else None,
         faulty=any(isinstance(value, Poison) for value in (words, label, namespace)),
+        through=tuple(reads),
     )
     add_process(action, program, run)
 

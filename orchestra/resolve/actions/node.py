@@ -42,17 +42,16 @@ def check_full_name(index: int, action: Node, run: Resolution) -> None:
 
 def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison | None = False) -> int:
     """Add the process of a node to what has been found; return its index."""
-    package, executable, label = (
-        run.evaluate(action.pkg),
-        run.evaluate(action.exec),
-        run.text(action.exec_name),
-    )
+    with run.scope.tracing() as reads:
+        package, executable = run.evaluate(action.pkg), run.evaluate(action.exec)
+    label = run.text(action.exec_name)
     words = _words(package, executable, action, run)
     name, namespace = named(action.name, run), namespace_at(action.namespace, action.span, run)
     if isinstance(name, Value) and isinstance(namespace, Poison):
         run.found.lost.add(name.text)  # its full name is not known
         name = POISON
-    arguments, ros_arguments = texts(action.args, run), texts(action.ros_args, run)
+    with run.scope.tracing() as more:
+        arguments, ros_arguments = texts(action.args, run), texts(action.ros_args, run)
     own, whole = parameters(action.param, run)
     rules, regular = remaps(action.remap, run)
     schema = params_schema(action.params_schema, run)
@@ -70,6 +69,7 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
         parameters=(*run.scope.parameters, *own),
         remaps=(*run.scope.remaps, *rules),
         autostart=autostart is True,
+        through=(*reads, *more),
         params_schema=None if isinstance(schema, Poison) else schema,
         share=run.context.packages.share(package.text) if isinstance(package, Value) else None,
         faulty=not whole or not regular or any(isinstance(value, Poison) for value in values),
