@@ -10,66 +10,80 @@ from orchestra.plan.ids import node_name
 from orchestra.resolve.model import InlineParameter
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
     from orchestra.errors import Problems
     from orchestra.plan.model import Plan
     from orchestra.resolve.model import (
         FileParameters,
+        ParameterSource,
         Resolved,
         ResolvedComponent,
         ResolvedProcess,
     )
+    from orchestra.resolve.rcl.sections import Entry
 
 
 def check_doubled(resolved: Resolved, plan: Plan, problems: Problems) -> None:
-    """Report values in the list of a node that a later one of the same list takes the place of.
+    """Report values in the list of a node that a later one of the same list takes the place of, each name once.
 
     That values of a file are overruled behind it is how people use files. In Python lists are put together by code.
     """
     del plan
+    losing = {problem.span for problem in problems if problem.code is Code.OVERRULED_PARAMETER}
     nodes: list[ResolvedProcess | ResolvedComponent] = [*resolved.processes, *resolved.components]
     for node in nodes:
-        _check(node, problems)
+        own = [item for item in node.parameters if not item.everywhere and not is_python(item.location)]
+        inline = [item for item in own if isinstance(item, InlineParameter)]
+        told = {item.name for item in inline if item.location.span in losing}
+        _check_values(inline, told, problems)
+        if inline and len(own) > len(inline):
+            _check_files(own, node_name(node), told, problems)
 
 
-def _check(node: ResolvedProcess | ResolvedComponent, problems: Problems) -> None:
+def _check_values(inline: Sequence[InlineParameter], told: set[str], problems: Problems) -> None:
     first: dict[str, InlineParameter] = {}
-    name = node_name(node)
-    for source in node.parameters:
-        if source.everywhere or is_python(source.location):
-            continue
-        if not isinstance(source, InlineParameter):
-            _check_file(source, name, first, problems)
-            continue
+    for source in inline:
         earlier = first.setdefault(source.name, source)
-        if earlier is not source and repr(earlier.value) != repr(source.value):
-            problems.warning(
-                Code.DUPLICATE_PARAMETER,
-                f"'{source.name}' is set twice for this node; this value counts",
-                source.keys[-1][1] if source.keys else source.location,
-                notes=(f"set first at {earlier.location}",),
-            )
+        if repr(earlier.value) == repr(source.value) or source.name in told:
+            continue
+        told.add(source.name)
+        problems.warning(
+            Code.DUPLICATE_PARAMETER,
+            f"'{source.name}' is set twice for this node; this value counts",
+            source.keys[-1][1] if source.keys else source.location,
+            notes=(f"set first at {earlier.location}",),
+        )
 
 
-def _check_file(
-    source: FileParameters, name: str | None, first: dict[str, InlineParameter], problems: Problems
+def _check_files(
+    own: Sequence[ParameterSource], name: str | None, told: set[str], problems: Problems
 ) -> None:
     """Report values before a file that has others for the very node, whose name it gives."""
-    if name is None:
-        return
-    bare = name.removeprefix("/")
-    for section in source.sections if first else ():
-        if section.pattern.removeprefix("/") != bare:
+    before: dict[str, InlineParameter] = {}
+    for source in own if name is not None else ():
+        if isinstance(source, InlineParameter):
+            before[source.name] = source
             continue
-        for entry in section.entries:
-            earlier = first.get(entry.name)
-            if earlier is None or entry.value is None or repr(entry.value) == repr(earlier.value):
+        for entry in _entries(source, name or ""):
+            earlier = before.get(entry.name)
+            if earlier is None or entry.value is None or entry.name in told:
                 continue
-            problems.warning(
-                Code.DUPLICATE_PARAMETER,
-                f"this value of '{entry.name}' does not count: a file behind it has another one",
-                earlier.location,
-                notes=(
-                    f"the value that counts is at {entry.location}",
-                    "a file stands before what overrules it",
-                ),
-            )
+            if repr(entry.value) != repr(earlier.value):
+                told.add(entry.name)
+                _report(entry, earlier, problems)
+
+
+def _entries(source: FileParameters, name: str) -> Iterator[Entry]:
+    for section in source.sections:
+        if section.pattern.removeprefix("/") == name.removeprefix("/"):
+            yield from section.entries
+
+
+def _report(entry: Entry, earlier: InlineParameter, problems: Problems) -> None:
+    problems.warning(
+        Code.DUPLICATE_PARAMETER,
+        f"this value of '{entry.name}' does not count: a file behind it has another one",
+        earlier.location,
+        notes=(f"the value that counts is at {entry.location}", "a file stands before what overrules it"),
+    )
