@@ -48,7 +48,7 @@ def item_span(place: Place, index: int, count: int) -> Span:
     for node in arguments:
         listed = Literal(place.file, node, place.span, tree)
         if listed.holds(count):
-            return listed.item(index, count).span
+            return listed.item(index, count).whole
     return place.span
 
 

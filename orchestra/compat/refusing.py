@@ -34,6 +34,11 @@ def collecting(problems: Problems, chain: tuple[Span, ...]) -> Iterator[None]:
         _collectors.pop()
 
 
+def collector() -> tuple[Problems, tuple[Span, ...]] | None:
+    """Return where problems are reported now, and the includes on the way; None where they are raised."""
+    return _collectors[-1] if _collectors else None
+
+
 class Refusing:
     """The root of such classes. `_refused` ones lack something that was wrong, `_lost` ones cannot be used at all."""
 

@@ -52,6 +52,14 @@ class Tree:
                     return node
         return None
 
+    def tries(self, line: int) -> bool:
+        """Return whether the code of a line is tried, whatever the code itself deals with."""
+        return any(
+            node.body[0].lineno <= line <= (node.body[-1].end_lineno or 0) and node.handlers
+            for node in self.nodes
+            if isinstance(node, ast.Try)
+        ) or self.catches(line)
+
     def catches(self, line: int) -> bool:
         """Return whether the code of a line is tried, and what our classes raise is dealt with by the code itself."""
         return any(

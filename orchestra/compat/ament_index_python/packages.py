@@ -5,9 +5,13 @@ from __future__ import annotations
 import re
 import warnings
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from orchestra.compat.seam import connection
 from orchestra.nearest import nearest
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 _NAME = re.compile(r"[a-zA-Z0-9][a-zA-Z0-9_-]+")
 
@@ -34,9 +38,7 @@ def get_package_prefix(package_name: str) -> str:
     """
     _check(package_name)
     prefix = connection().package_prefix(package_name)
-    if prefix is None:
-        raise _missing(package_name)
-    return prefix
+    return _meant(package_name, connection().package_prefix) if prefix is None else prefix
 
 
 def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
@@ -61,9 +63,19 @@ def get_package_share_path(package_name: str, print_warning: bool = True) -> Pat
 def _share(package_name: str) -> str:
     _check(package_name)
     share = connection().package_share(package_name)
-    if share is None:
+    return _meant(package_name, connection().package_share) if share is None else share
+
+
+def _meant(package_name: str, find: Callable[[str], str | None]) -> str:
+    """Return the folder of the package that was meant, which is reported. Raises `PackageNotFoundError`."""
+    # Here, because only mistakes need it, and what it imports.
+    from orchestra.compat.packages_meant import package_meant  # noqa: PLC0415
+
+    meant = package_meant(package_name)
+    found = None if meant is None else find(meant)
+    if found is None:
         raise _missing(package_name)
-    return share
+    return found
 
 
 def _check(package_name: str) -> None:

@@ -1,0 +1,52 @@
+"""Packages that code looks for by a slip of their names: it goes on with the one that was meant."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+from orchestra.compat.literals import argument_span
+from orchestra.compat.place import Place, is_own
+from orchestra.compat.refusing import collector
+from orchestra.compat.seam import connection
+from orchestra.compat.syntax_trees import tree_of
+from orchestra.errors import Code, Problem
+from orchestra.nearest import is_slip
+
+if TYPE_CHECKING:
+    from types import FrameType
+
+
+def package_meant(package: str) -> str | None:
+    """Report a slip, and return the package that was meant; None where there is none, or the code sees to it itself."""
+    collecting, frame = collector(), _users_frame()
+    severity, told, meant = connection().missing_package(package)
+    if collecting is None or frame is None or meant is None or not is_slip(package, meant):
+        return None
+    if _is_caught(frame):
+        return None
+    place = Place(frame.f_code, frame.f_lasti)
+    span = argument_span(place, package)
+    problems, chain = collecting
+    notes = () if span is not None else (f"did you mean {meant!r}?",)
+    suggestion = None if span is None else meant
+    found = Problem(Code.MISSING_PACKAGE, severity, told, span or place.span, chain, suggestion, notes)
+    problems.report(found)
+    return meant
+
+
+def _users_frame() -> FrameType | None:
+    frame: FrameType | None = sys._getframe(1)
+    while frame is not None and is_own(frame.f_code.co_filename):
+        frame = frame.f_back
+    return frame
+
+
+def _is_caught(frame: FrameType) -> bool:
+    around: FrameType | None = frame
+    while around is not None and not is_own(around.f_code.co_filename):
+        tree = tree_of(around.f_code.co_filename)
+        if tree is not None and tree.tries(around.f_lineno):
+            return True
+        around = around.f_back
+    return False
