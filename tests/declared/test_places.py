@@ -118,6 +118,22 @@ def test_what_the_command_line_gives_is_checked(tmp_path: Path) -> None:
     assert checked(tmp_path, files) == ()
     (problem,) = checked(tmp_path, files, "/driver:rate:=200.0")
     assert problem.code == "ORC093"
+    (problem,) = checked(tmp_path, files, "/driver:rats:=20.0")
+    assert (problem.code, problem.suggestion, problem.notes) == ("ORC091", None, ("did you mean 'rate'?",))
+
+
+def test_a_list_that_stands_in_items_is_suggested_in_a_note(tmp_path: Path) -> None:
+    schema = "driver: {gains: {type: double_array}}"
+    files = {
+        "a.launch.yaml": _YAML.replace("{PARAM}", "{name: gains, value: [1, 2]}"),
+        "driver.gpl.yaml": schema,
+    }
+    (problem,) = checked(tmp_path, files)
+    assert (problem.code, problem.suggestion, problem.notes) == (
+        "ORC092",
+        None,
+        ("did you mean '[1.0, 2.0]'?",),
+    )
 
 
 def test_a_value_that_does_not_count_is_not_told(tmp_path: Path) -> None:

@@ -9,6 +9,7 @@ from orchestra.declared.common import COMMON
 from orchestra.errors import Code, Problem, Problems, Severity
 from orchestra.location import is_python
 from orchestra.plan.written import Written, written_of
+from orchestra.resolve.command_line import COMMAND_LINE
 from orchestra.resolve.model import NamedSchema, ResolvedComponent
 
 if TYPE_CHECKING:
@@ -99,6 +100,8 @@ def _problem(
 ) -> Problem:
     """Return what is to be told of a fault, at the place that is to be changed."""
     at, suggestion, notes = _place(fault, written, node)
+    if suggestion is not None and at.span.file == COMMAND_LINE:  # the place is all of NODE:NAME:=VALUE
+        suggestion, notes = None, (f"did you mean '{suggestion}'?",)
     sure = fault.certain and (named or fault.kind != "undeclared") and not _is_lenient(fault, at, named=named)
     return Problem(
         _CODES[fault.kind],
@@ -126,4 +129,6 @@ def _place(
         return key.location, key.meant, key.notes
     if fault.item is not None and fault.item < len(written.items):
         return written.items[fault.item], fault.meant, ()
-    return written.value, fault.meant if written.is_whole else None, ()
+    if fault.meant is not None and not written.is_whole:
+        return written.value, None, (f"did you mean '{fault.meant}'?",)
+    return written.value, fault.meant, ()
