@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from orchestra.cli.problems.sources import Sources
     from orchestra.location import Span
 
+_BREAKS = ["\r\n", "\n", "\r", "\x85", "\u2028", "\u2029"]  # as `sources` counts lines
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 
 
@@ -29,6 +30,7 @@ def render(problems: Sequence[Problem], _sources: Sources, _paint: Paint) -> str
     run = {
         "tool": {"driver": {"name": "orchestra", "rules": [_rule(code) for code in Code]}},
         "columnKind": "unicodeCodePoints",
+        "newlineSequences": _BREAKS,
         "results": [_result(problem) for problem in problems],
     }
     return (
@@ -59,7 +61,8 @@ def _result(problem: Problem) -> dict[str, Any]:
         result["locations"] = [_place(problem.span)]
     if problem.included_from:
         result["relatedLocations"] = [
-            {**_place(span), "message": {"text": "included from here"}} for span in problem.included_from
+            {**_place(span), "message": {"text": "included from here"}}
+            for span in dict.fromkeys(problem.included_from)  # no two of them may be equal
         ]
     if problem.span and problem.suggestion is not None:
         result["fixes"] = [_fix(problem.span, problem.suggestion)]

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import json
 import re
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
 
+import jsonschema
 import pytest
 
 from orchestra.cli.colour import painter
@@ -120,6 +122,63 @@ def test_sarif_has_what_the_standard_asks_for() -> None:
     }
     assert [at["physicalLocation"]["region"]["startLine"] for at in unknown["relatedLocations"]] == [4, 1]
     assert "locations" not in run["results"][2]
+
+
+def _object(required: dict[str, Any], optional: dict[str, Any] | None = None) -> dict[str, Any]:
+    properties = {**required, **(optional or {})}
+    return {
+        "type": "object",
+        "properties": properties,
+        "required": list(required),
+        "additionalProperties": False,
+    }
+
+
+def _unique(items: dict[str, Any]) -> dict[str, Any]:
+    return {"type": "array", "items": items, "uniqueItems": True}
+
+
+_WORDS: dict[str, Any] = {"type": "string"}
+_SAID = _object({"text": _WORDS})
+_NUMBER = {"type": "integer", "minimum": 1}
+_REGION = _object(dict.fromkeys(("startLine", "startColumn", "endLine", "endColumn"), _NUMBER))
+_FILE = _object({"uri": {"type": "string", "format": "uri-reference"}})
+_LOCATION = _object(
+    {"physicalLocation": _object({"artifactLocation": _FILE, "region": _REGION})}, {"message": _SAID}
+)
+_REPLACEMENT = _object({"deletedRegion": _REGION, "insertedContent": _SAID})
+_CHANGE = _object(
+    {"artifactLocation": _FILE, "replacements": {"type": "array", "items": _REPLACEMENT, "minItems": 1}}
+)
+_FIX = _object({"artifactChanges": {**_unique(_CHANGE), "minItems": 1}}, {"description": _SAID})
+_RESULT = _object(
+    {"message": _SAID},
+    {
+        "ruleId": _WORDS,
+        "ruleIndex": {"type": "integer", "minimum": -1},
+        "level": {"enum": ["none", "note", "warning", "error"]},
+        "locations": {"type": "array", "items": _LOCATION},
+        "relatedLocations": _unique(_LOCATION),
+        "fixes": _unique(_FIX),
+    },
+)
+_HELP = _object({"text": _WORDS}, {"markdown": _WORDS})
+_RULE = _object({"id": _WORDS}, {"name": _WORDS, "shortDescription": _SAID, "help": _HELP})
+_RUN = _object(
+    {"tool": _object({"driver": _object({"name": _WORDS}, {"rules": _unique(_RULE)})})},
+    {
+        "results": {"type": "array", "items": _RESULT},
+        "columnKind": {"enum": ["utf16CodeUnits", "unicodeCodePoints"]},
+        "newlineSequences": {**_unique(_WORDS), "minItems": 1},
+    },
+)
+_LOG = _object({"version": {"const": "2.1.0"}, "runs": {"type": "array", "items": _RUN}}, {"$schema": _WORDS})
+
+
+def test_sarif_has_no_property_that_the_standard_lacks() -> None:
+    """The part of its schema that is used here: types, names, what must be there, what must not repeat itself."""
+    twice = replace(_UNKNOWN, included_from=_UNKNOWN.included_from * 2)
+    jsonschema.validate(json.loads(_render("sarif", (*_ALL, twice))), _LOG)
 
 
 @pytest.mark.parametrize(
