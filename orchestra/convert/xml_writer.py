@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from orchestra.convert.tree import Document, Entry
 
-_WIDEST = 100
+_WIDEST = 120
 _INDENT = "  "
 _SEPARATORS = (",", ";", "|", ", ", " and ", "\ue000")
 _ESCAPES = {"\n": "&#10;", "\t": "&#9;", "\r": "&#13;"}
@@ -56,24 +56,22 @@ def _element(name: str, node: object, notes: Notes, indent: str) -> Iterator[str
         else:
             inside += _inside(entry, indent + _INDENT)
     yield from _comments(kept, indent)
-    start = _start(name, attributes, indent)
-    end = f"{_comment(notes.beside)}"
+    start = _start(name, attributes, indent, ">" if inside else "/>")
+    start[-1] += _comment(notes.beside)
     if not inside:
-        start[-1] += f"/>{end}"
         yield from start
         return
-    start[-1] += f">{end}"
     yield from (*start, *inside, f"{indent}</{name}>")
 
 
-def _start(name: str, attributes: list[str], indent: str) -> list[str]:
-    """Return the start tag without its end, on several lines where it is long."""
-    line = f"{indent}<{' '.join((name, *attributes))}"
-    if len(line) < _WIDEST or not attributes[1:]:
+def _start(name: str, attributes: list[str], indent: str, end: str) -> list[str]:
+    """Return the start tag, each attribute on a line of its own where they do not fit on one, as `orchestra format`."""
+    line = f"{indent}<{' '.join((name, *attributes))}{end}"
+    if len(line) <= _WIDEST or not attributes:
         return [line]
-    first, *others = attributes
     inner = indent + _INDENT * 2
-    return [f"{indent}<{name} {first}", *(f"{inner}{attribute}" for attribute in others)]
+    *others, last = (f"{inner}{attribute}" for attribute in attributes)
+    return [f"{indent}<{name}", *others, f"{last}{end}"]
 
 
 def _inside(entry: Entry, indent: str) -> Iterator[str]:

@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.convert.converting import convert
+from orchestra.errors import Problems
+from orchestra.formatting.formatted import formatted
 from tests.convert.turning import others, round_trip, same_everywhere, seen, turned
 
 if TYPE_CHECKING:
@@ -78,6 +80,20 @@ def test_python_is_laid_out_as_its_formatters_do(tmp_path: Path) -> None:
         ruff = [sys.executable, "-m", "ruff", *words, "--isolated", "--line-length", "88", str(tmp_path)]
         done = subprocess.run(ruff, capture_output=True, text=True, check=False)
         assert done.returncode == 0, done.stdout + done.stderr
+
+
+@pytest.mark.parametrize("language", ["xml", "yaml"])
+def test_what_is_written_has_the_form_that_formatting_gives(language: str, tmp_path: Path) -> None:
+    for name in _BRINGUP:
+        path = _ROOT / "bringup" / name
+        if language == "yaml":
+            text = convert(str(path), "python", _ENVIRONMENT).text or ""
+            path = tmp_path / f"{path.stem}.launch.py"
+            path.write_text(text, "utf-8")
+        found = convert(str(path), language, _ENVIRONMENT)
+        assert found.text is not None
+        written = found.text.encode()
+        assert formatted(written, f"a.launch.{language}", lambda _: "launch", Problems()) == written
 
 
 def test_every_language_is_written(tmp_path: Path) -> None:
