@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.description.substitutions import ELSEWHERE, SIGNATURES
 from orchestra.errors import Code
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from orchestra.errors import Problems
     from orchestra.location import Span
 
+_OLD: Final = ("arg", "find", "optenv")  # those of ROS 1
 # With an argument: a name alone, as `${HOME}`, is for a shell.
 _BRACED = re.compile(r"\$(?:\{([a-z][a-z-]*)(\s[^{}()\[\]]*)\}|\[([a-z][a-z-]*)(\s[^{}()\[\]]*)\])")
 
@@ -22,7 +23,7 @@ def warn_of_braces(text: str, spans: Callable[[int, int], Span], problems: Probl
     """Tell of substitutions that are none for the sake of their brackets."""
     for found in _BRACED.finditer(text):
         name, arguments = found[1] or found[3], found[2] or found[4]
-        if name in SIGNATURES or name in ELSEWHERE:
+        if name in SIGNATURES or name in _OLD:
             message = f"{found[0]} is no substitution: those are in round brackets"
             meant = f"$({ELSEWHERE.get(name, name)}{arguments})"
             problems.warning(Code.SUBSTITUTION_SYNTAX, message, spans(*found.span()), suggestion=meant)
