@@ -29,7 +29,6 @@ _INSTALLED: Final = tuple(
     os.path.realpath(sysconfig.get_path(name)) for name in ("stdlib", "platstdlib", "purelib", "platlib")
 )
 SERVED: Final = frozenset(entry.name for entry in Path(__file__).parent.iterdir() if entry.is_dir())
-_BEGINNINGS: Final = tuple(SERVED)
 _ROOM: Final = __name__.rpartition(".")[0]
 
 
@@ -81,10 +80,9 @@ def served() -> Iterator[None]:
     finder = _Finder()
     before = dict(sys.modules)
     bytecode, sys.dont_write_bytecode = sys.dont_write_bytecode, True
-    for name in [
-        name for name in before if name.startswith(_BEGINNINGS) and name.partition(".")[0] in SERVED
-    ]:
-        del sys.modules[name]
+    if not SERVED.isdisjoint(before):
+        for name in [name for name in before if name.partition(".")[0] in SERVED]:
+            del sys.modules[name]
     sys.meta_path.insert(0, finder)
     try:
         yield

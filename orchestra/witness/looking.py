@@ -40,6 +40,10 @@ def signature(path: str) -> Signature | None:
         return None
     if not stat.S_ISREG(found.st_mode):
         return None
+    return _signature_of(found)
+
+
+def _signature_of(found: os.stat_result) -> Signature:
     return (found.st_mtime_ns, found.st_ctime_ns, found.st_size, found.st_ino, found.st_dev)
 
 
@@ -92,6 +96,27 @@ def listing(path: str) -> Any:
             return digest_of("\0".join(_described(entries)).encode("utf-8", "surrogateescape"))
 
     return _told(listed)
+
+
+class Folders:
+    """Lists folders; one that has not changed for long is listed once."""
+
+    def __init__(self) -> None:
+        self._known: dict[str, tuple[Signature, Any]] = {}
+
+    def listing(self, path: str) -> Any:
+        """Return what `listing` returns."""
+        try:
+            now = _signature_of(_stat(path))
+        except (OSError, ValueError):
+            return listing(path)
+        known = self._known.get(path)
+        if known is not None and known[0] == now:
+            return known[1]
+        found = listing(path)
+        if settled(now):
+            self._known[path] = (now, found)
+        return found
 
 
 def names_of(names: Iterable[str]) -> str:

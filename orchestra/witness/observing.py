@@ -1,7 +1,4 @@
-"""Watches this process while it computes something, and records what it looks at.
-
-A hook of the interpreter stays for good once it is set, so only processes that end soon are to be watched.
-"""
+"""Records what this process looks at. A hook of the interpreter stays: only what ends soon is to be watched."""
 
 from __future__ import annotations
 
@@ -39,6 +36,7 @@ class Observer:
         self._aside = 0
         self._seen: dict[str, Signature | None] = {}
         self._digests: dict[str, tuple[Signature | None, str]] = {}
+        self._folders = looking.Folders().listing
         self._installed: Record = Record()
         self._of_users = False
         self._environment: dict[str, str] = {}
@@ -152,7 +150,7 @@ class Observer:
             looks = self.record.looks.setdefault(kind, {})
             if path not in looks:
                 with self.aside():
-                    looks[path] = looking.LOOKS[kind](path)
+                    looks[path] = self._folders(path) if kind == "listing" else looking.LOOKS[kind](path)
 
     def _complete(self, record: Record, path: str, before: Signature | None) -> None:
         known = self._digests.get(path)
