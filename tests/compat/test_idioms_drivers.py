@@ -206,7 +206,7 @@ def test_an_include_that_is_not_made_may_have_an_argument_of_nothing(tmp_path: P
     _, (problem,) = planned(tmp_path, text, "sensor:=oak", files=files)
     assert "model: expected a text" in problem.message
     assert problem.span is not None
-    assert problem.span.line == 11
+    assert problem.span.line == 13
 
 
 SETTINGS = """\

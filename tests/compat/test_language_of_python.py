@@ -26,6 +26,7 @@ from orchestra.compat.launch.utilities import perform_substitutions, typing_file
 from orchestra.compat.launch_ros import descriptions
 from orchestra.compat.launch_xml.launch_description_sources import XMLLaunchDescriptionSource
 from orchestra.compat.launch_yaml.launch_description_sources import YAMLLaunchDescriptionSource
+from orchestra.compat.wrong import WrongValue
 from tests.compat.contexts import loading
 from tests.conformance.marks import conforming
 
@@ -53,7 +54,7 @@ def _error(function: Callable[[], Any]) -> type[Exception] | None:
     try:
         function()
     except Exception as error:  # noqa: BLE001 - which one is the question
-        return type(error)
+        return type(error).__mro__[2] if isinstance(error, WrongValue) else type(error)
     return None
 
 

@@ -119,7 +119,7 @@ _SAME: dict[str, tuple[str, list[dict[str, Any]]]] = {
         ],
     ),
     "how a node is run": (
-        "[Node(package='demo', executable='tool', respawn=True, respawn_delay=2.0, on_exit=Shutdown(),"
+        "[Node(package='demo', executable='tool', respawn=True, respawn_delay=2.0,"
         " emulate_tty=True, cwd='/', additional_env={'A': LC('v', default='b')}, prefix='nice -n 5',"
         " condition=IfCondition('true'), sigterm_timeout='3')]",
         [
@@ -129,7 +129,6 @@ _SAME: dict[str, tuple[str, list[dict[str, Any]]]] = {
                     "exec": "tool",
                     "respawn": True,
                     "respawn_delay": 2.0,
-                    "on_exit": "shutdown",
                     "emulate_tty": True,
                     "cwd": "/",
                     "env": [{"name": "A", "value": "$(var v b)"}],
@@ -139,6 +138,10 @@ _SAME: dict[str, tuple[str, list[dict[str, Any]]]] = {
                 }
             }
         ],
+    ),
+    "a node that ends the run": (
+        "[Node(package='demo', executable='tool', on_exit=Shutdown())]",
+        [{"node": {"pkg": "demo", "exec": "tool", "on_exit": "shutdown"}}],
     ),
     "a condition that does not hold": (
         "[Node(package='demo', executable='tool', name='n', condition=UnlessCondition(LC('v', default='true')))]",
