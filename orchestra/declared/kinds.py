@@ -20,23 +20,15 @@ TYPES: Final[dict[str, RosType]] = {
     "string_array": "string_array",
 }
 NONE: Final = "none"
-_KEYWORDS = (
-    "$schema",
-    "properties",
-    "additionalProperties",
-    "patternProperties",
-    "allOf",
-    "anyOf",
-    "oneOf",
-    "$ref",
-)
 
 
 def is_schema(data: Any) -> bool:  # noqa: ANN401 - whatever a file holds
-    """Return whether data says of itself that it is a schema of an object."""
+    """Return whether data is a schema of an object: it says so, or it has properties."""
     if not isinstance(data, dict):
         return False
-    return "$schema" in data or (data.get("type") == "object" and any(key in data for key in _KEYWORDS))
+    if "$schema" in data or data.get("type") == "object":
+        return True
+    return isinstance(data.get("properties"), dict) and not is_definition(data)
 
 
 def is_definition(data: Any) -> bool:  # noqa: ANN401 - whatever a file holds

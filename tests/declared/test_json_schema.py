@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from orchestra.declared.documents import Document
 from orchestra.declared.json_schema import read_schema
 from orchestra.declared.judging import DeclaredParameters
+from orchestra.declared.kinds import is_definition, is_schema
 from orchestra.declared.plain_schema import read_plain
 from orchestra.declared.reading import read_file
 from orchestra.errors import Code, Problems
@@ -262,6 +263,23 @@ def test_a_broken_schema_is_told_at_its_place(
     assert problem.span is not None
     assert (problem.span.line, problem.span.column) == (line, column)
     assert problem.suggestion == ("number" if "numbr" in text else None)
+
+
+@pytest.mark.parametrize(
+    ("data", "schema", "definition"),
+    [
+        ({"$schema": "https://json-schema.org/draft/2020-12/schema"}, True, False),
+        ({"type": "object"}, True, False),
+        ({"properties": {"a": {"type": "number"}}}, True, False),
+        ({"properties": {"a": {"type": "double"}}}, False, True),
+        ({"driver": {"a": {"type": "double"}}}, False, True),
+        ({"driver": {"ros__parameters": {"a": 1}}}, False, False),
+        ({"driver": {"ros__parameters": {"a": {"type": "fast"}}}}, False, False),
+        ([], False, False),
+    ],
+)
+def test_what_kind_a_file_is_of(data: Any, schema: bool, definition: bool) -> None:
+    assert (is_schema(data), is_definition(data)) == (schema, definition)
 
 
 def test_a_schema_may_refer_to_a_file_beside_it(tmp_path: Any) -> None:
