@@ -113,8 +113,7 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         limits=sound(limits(action.limits, run)),
         stdin=sound(_stdin(action, run)),
         location=location,
-        conditional=run.conditional
-        or action.origin is not None,  # what a condition in Python said is not known
+        conditional=_is_conditional(action, run),
         faulty=sound.faulty
         or program.faulty
         or action.faulty,  # the last one: all others have been looked at
@@ -126,6 +125,11 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         origin=action.origin,
         around=run.around,
     )
+
+
+def _is_conditional(action: Running, run: Resolution) -> bool:
+    """Return whether the process need not come about; what a condition in Python said is not known."""
+    return run.conditional or action.origin is not None
 
 
 def name_in_launch(process: ResolvedProcess, index: int) -> str:
