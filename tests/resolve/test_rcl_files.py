@@ -293,3 +293,9 @@ def test_files_are_read_as_by_the_real_parser(ask_rcl: Callable[..., Any], texts
 @given(texts=st.lists(_FILES, min_size=1, max_size=2))
 def test_many_files_are_read_as_by_the_real_parser(ask_rcl: Callable[..., Any], texts: list[str]) -> None:
     _agree(ask_rcl, texts)
+
+
+def test_a_node_whose_name_is_somewhat_like_the_key_of_sections_is_a_node() -> None:
+    sections, problems = _read("/ns:\n  ros_pwm:\n    ros__parameters: {a: 1}\n")
+    assert [section.pattern for section in sections] == ["/ns/ros_pwm"]
+    assert not list(problems)

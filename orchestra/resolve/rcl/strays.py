@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code, Problems
 from orchestra.location import Location
+from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -38,7 +39,9 @@ def is_section(name: str) -> bool:
 
 def is_misspelt_section(name: str) -> bool:
     """Return whether a key is plainly meant to be `ros__parameters`."""
-    return not is_section(name) and _MISSPELT.fullmatch(name) is not None
+    if is_section(name) or _MISSPELT.fullmatch(name) is None:
+        return False
+    return nearest(name, (SECTION_KEY,)) is not None
 
 
 @dataclass(slots=True)
