@@ -10,6 +10,7 @@ import os
 from collections.abc import Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from importlib.util import decode_source
 from pathlib import Path
 from typing import TYPE_CHECKING
 from warnings import catch_warnings, filterwarnings
@@ -93,12 +94,18 @@ def opened(path: str, environment: Mapping[str, str]) -> Iterator[Original]:
                 description.path,
                 description.file,
                 language_of(path) or "",
-                decoded(Path(path).read_bytes()),
+                _text(path),
                 description.actions,
                 description.deprecated,
                 connection.places,
                 _changed(environment),
             )
+
+
+def _text(path: str) -> str:
+    """Return the text of a file that has been read before; Python has a way of its own to tell the encoding."""
+    content = Path(path).read_bytes()
+    return decode_source(content) if language_of(path) == "python" else decoded(content)
 
 
 def _changed(environment: Mapping[str, str]) -> dict[str, str | None]:
