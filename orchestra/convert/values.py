@@ -44,6 +44,8 @@ def in_yaml(given: Given, word: str | None, *, quotes: bool) -> Node:
 
 def _constant(value: ParameterValue | None, given: Typed, *, quotes: bool) -> Node:
     if value is None:
+        if isinstance(given, Template) and not quotes:  # it is as faulty in quotes
+            return Scalar(written(given), Style.QUOTED, given.span)
         shown = given.constant if isinstance(given, Template) else repr(given.value)
         raise UnsayableError(f"no parameter can have the value {shown}", given.span)
     if isinstance(value, tuple):
