@@ -145,6 +145,8 @@ def mended(name: str, fault: Callable[[str], Fault | None]) -> str | None:
 
     Other characters become `_`, slashes that are too many go away.
     """
+    if not name.isascii() or not re.search("[A-Za-z]", name):
+        return None
     words = re.sub(r"[^A-Za-z0-9_/~{}]+", "_", name.strip())
     found = re.sub("//+", "/", re.sub("^~(?=[A-Za-z0-9_])", "~/", words))
     found = found.rstrip("/") or found
