@@ -403,3 +403,22 @@ def test_no_text_of_a_plan_leaves_its_comment(tmp_path: Path) -> None:
     hostile = process("x\necho INJECTED", "true", location=at(1, "a\necho INJECTED"))
     done = _run(_script(tmp_path, plan(hostile, file="f\necho INJECTED #")))
     assert (done.returncode, done.stdout) == (0, "")
+
+
+def test_whoever_starts_it_with_sh_gets_bash(tmp_path: Path) -> None:
+    path = _script(tmp_path, plan(process("a", "/bin/sh", "-c", "echo it runs")))
+    done = subprocess.run(
+        ["sh", str(path)], cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False
+    )
+    assert (done.returncode, "it runs" in done.stdout) == (0, True), done.stderr
+    piped = subprocess.run(
+        ["dash"] if shutil.which("dash") else ["bash", "-s"],
+        input=path.read_text(),
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert piped.returncode in (0, 2)
+    assert ("this is a script for bash" in piped.stderr) == (piped.returncode == 2)

@@ -25,6 +25,11 @@ if TYPE_CHECKING:
     from orchestra.plan.model import Component, Plan, Process
 
 _HEAD = """\
+# Whoever starts it with sh gets bash, which is what it is written for.
+if [ -z "${BASH_VERSION:-}" ]; then
+  [ -f "$0" ] || { echo "this is a script for bash" >&2; exit 2; }
+  exec bash "$0" "$@"
+fi
 set -u
 
 # The run directory; it stays, as that of a run does.
