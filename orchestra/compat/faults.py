@@ -108,7 +108,7 @@ def _better(error: BaseException, call: TracebackType) -> Explanation | None:
         case TypeError():
             return refused_calls.explained(error, frame, place) or too_early.explained(error)
         case KeyError():
-            return missing_keys.explained(frame, place)
+            return missing_keys.explained(error, frame, place)
         case NameError() if call.tb_next is None:
             return unknown_names.unbound(error, frame, place)
         case AttributeError() if call.tb_next is None or isinstance(error.obj, ModuleType | Refusing):

@@ -17,15 +17,16 @@ if TYPE_CHECKING:
     from orchestra.compat.place import Place
 
 
-def explained(frame: FrameType, place: Place) -> Explanation | None:
+def explained(error: KeyError, frame: FrameType, place: Place) -> Explanation | None:
     """Explain a key that is written in the code; None where it comes from elsewhere."""
     tree = tree_of(place.file)
     node = None if tree is None else tree.expression(place.file, place.span)
     if not isinstance(node, ast.Subscript) or not isinstance(node.slice, ast.Constant):
         return None
     mapping, key = value_of(node.value, frame), node.slice.value
-    if not isinstance(mapping, Mapping) or not isinstance(key, str):
+    known = [name for name in mapping if isinstance(name, str)] if isinstance(mapping, Mapping) else []
+    if not isinstance(key, str) or error.args[:1] != (key,):
         return None
-    meant = nearest(key, [name for name in mapping if isinstance(name, str)])
+    meant = nearest(key, known)
     message = f"there is no key {key!r} in {ast.unparse(node.value)}"
     return Explanation(message, span=node_span(place.file, node.slice), suggestion=meant)
