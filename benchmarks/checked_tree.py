@@ -108,7 +108,8 @@ _PARAMETERS = """\
     frequency: {n}0.0
     two_d_mode: true
     odom0: wheel/odometry
-    odom0_config: [false, false, false, false, false, false, true, true, false, false, false, false, false, false, false]
+    odom0_config: [false, false, false, false, false, false, true, true, false,
+                   false, false, false, false, false, false]
 """
 _DRIVING = """\
 /**:
