@@ -284,11 +284,15 @@ def _as_grave(plan: Planned) -> set[tuple[str, str]]:
     """Return the kinds of problems; two nodes of one name are an error in YAML alone, upstream takes them.
 
     How many there are of a kind is not compared: several in one call of Python may be at one place. Nor are arguments
-    that nobody reads: code in which the name stands as a text, of a parameter say, is taken to read it.
+    that nobody reads: code in which the name stands as a text, of a parameter say, is taken to read it. Nor is what
+    working Python files have much of: keys that do nothing, defaults that never count.
     """
-    twice, unread = Code.DUPLICATE_NODE.value, Code.UNREAD_ARGUMENT.value
+    twice = Code.DUPLICATE_NODE.value
+    silent = {Code.UNREAD_ARGUMENT.value, Code.IDLE_KEY.value, Code.SHADOWED_ARGUMENT.value}
     return {
-        (code, "error" if code == twice else severity) for code, severity in plan.problems if code != unread
+        (code, "error" if code == twice else severity)
+        for code, severity in plan.problems
+        if code not in silent
     }
 
 

@@ -152,11 +152,18 @@ def test_places_of_output_are_a_word_where_one_says_the_same(written: str, tmp_p
 
 @pytest.mark.conforms("4.10 by stream")
 @pytest.mark.parametrize(
-    "written", ["{}", "{stdin: log}", "{stdout: file}", "{stdout: [log, file]}", "[log]"]
+    ("written", "code"),
+    [
+        ("{}", Code.WRONG_TYPE),
+        ("{stdin: log}", Code.UNKNOWN_KEY),
+        ("{stdout: file}", Code.WRONG_TYPE),
+        ("{stdout: [log, file]}", Code.WRONG_TYPE),
+        ("[log]", Code.WRONG_TYPE),
+    ],
 )
-def test_other_places_are_refused(written: str, tmp_path: Path) -> None:
+def test_other_places_are_refused(written: str, code: Code, tmp_path: Path) -> None:
     found = outcome(tmp_path, f"launch:\n- executable: {{cmd: sleep 1, output: {written}}}")
-    assert [problem.code for problem in found.problems] == [Code.WRONG_TYPE]
+    assert [problem.code for problem in found.problems] == [code]
 
 
 @pytest.mark.conforms("4.10 OVERRIDE_LAUNCH_PROCESS_OUTPUT")
