@@ -285,10 +285,15 @@ def _as_grave(plan: Planned) -> set[tuple[str, str]]:
 
     How many there are of a kind is not compared: several in one call of Python may be at one place. Nor are arguments
     that nobody reads: code in which the name stands as a text, of a parameter say, is taken to read it. Nor is what
-    working Python files have much of: keys that do nothing, defaults that never count.
+    working Python files have much of: keys and remaps that do nothing, defaults that never count.
     """
     twice = Code.DUPLICATE_NODE.value
-    silent = {Code.UNREAD_ARGUMENT.value, Code.IDLE_KEY.value, Code.SHADOWED_ARGUMENT.value}
+    silent = {
+        Code.UNREAD_ARGUMENT.value,
+        Code.IDLE_KEY.value,
+        Code.SHADOWED_ARGUMENT.value,
+        Code.IDLE_REMAP.value,
+    }
     return {
         (code, "error" if code == twice else severity)
         for code, severity in plan.problems
