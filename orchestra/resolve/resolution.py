@@ -16,16 +16,13 @@ from orchestra.nearest import nearest
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import POISON, Context, Evaluated, Poison, Value
 from orchestra.resolve.evaluate import evaluate
+from orchestra.resolve.found import Found
 from orchestra.resolve.impossible.held import Held
 from orchestra.resolve.inputs import Inputs
 from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.model import (
     FileParameters,
-    ResolvedArgument,
-    ResolvedComponent,
     ResolvedDependency,
-    ResolvedProcess,
-    ResolvedSkip,
 )
 from orchestra.resolve.occasions import Action as CollectedAction
 from orchestra.resolve.occasions import Occasion
@@ -40,40 +37,6 @@ LoadFile: TypeAlias = Callable[..., Description | None]
 Visit: TypeAlias = Callable[[Sequence[Action], "Resolution"], None]
 
 _MOST_STEPS = 200_000
-
-
-@dataclass(slots=True)
-class Found:
-    """What the visit has come upon so far.
-
-    `lost` has the words of what has been left out for its faults: what depends on it is not reported. `endless` are
-    the files that include themselves without end, which are not gone into again. `simulated_time` is where timers on
-    ROS time were told to go by simulated time. `carried_out` are the objects of Python launch files that were visited,
-    `kept` is the code of theirs that is called during the run. `triggers` have been settled so far, `positions` are
-    those of each event handler among them, `timed` those of timers that may still be cancelled. `unmet` wait for
-    processes that are not there. `choices` are those of arguments, of each declaration.
-    """
-
-    processes: list[ResolvedProcess] = field(default_factory=list)
-    components: list[ResolvedComponent] = field(default_factory=list)
-    arguments: dict[str, ResolvedArgument] = field(default_factory=dict)
-    occasions: list[Occasion] = field(default_factory=list)
-    skipped: list[ResolvedSkip] = field(default_factory=list)
-    lost: set[str] = field(default_factory=set)
-    endless: set[str] = field(default_factory=set)
-    simulated_time: Location | None = None
-    carried_out: dict[int, Any] = field(default_factory=dict)
-    kept: list[Any] = field(default_factory=list)
-    triggers: int = 0
-    positions: dict[int, list[int]] = field(default_factory=dict)
-    timed: list[tuple[int, Occasion]] = field(default_factory=list)
-    unmet: list[Occasion] = field(default_factory=list)
-    choices: dict[str, set[tuple[str, ...] | None]] = field(default_factory=dict)
-
-    def choices_of(self, argument: str) -> tuple[str, ...] | None:
-        """Return the values that an argument can have, None where any will do or declarations differ."""
-        declared = self.choices.get(argument, ())
-        return next(iter(declared)) if len(declared) == 1 else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,12 +7,13 @@ from typing import TYPE_CHECKING, Any
 from orchestra.location import Location
 from orchestra.resolve.arguments import Given, settle
 from orchestra.resolve.context import CommandRunner, Context, Packages, Value
+from orchestra.resolve.found import Found
 from orchestra.resolve.given import given_sections
 from orchestra.resolve.interpret import visit, visit_file
 from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.model import Resolved
 from orchestra.resolve.python.performing import perform_opaque
-from orchestra.resolve.resolution import Found, Frame, LoadFile, Resolution
+from orchestra.resolve.resolution import Frame, LoadFile, Resolution
 from orchestra.resolve.scope import Scope
 from orchestra.resolve.settling import settled
 from orchestra.witness.variables import copied

@@ -1,7 +1,7 @@
 """Scopes: variables, environment, and what is set for all nodes; and the ledger of which variables are used.
 
 As upstream, an include shares the scope of the place it stands in, so what it sets stays set. Such a value is marked
-as leaked, and reading it gives a warning.
+as leaked, and reading it gives a warning. A file that does nothing but set values is included for their sake.
 
 A scope is not copied where another one begins in it: it keeps a journal of its changes, which are taken back where the
 inner scope ends. So a description costs as much as it is long, however much is set around it.
@@ -217,13 +217,16 @@ class Scope:
             if table is not self.changes
         )
 
-    def mark_leaks(self, mark: int, include: Span) -> None:
-        """Mark what an include has set, where it differs from what stood there before."""
+    def mark_leaks(self, mark: int, include: Span, *, wanted: bool) -> None:
+        """Mark what an include has set, where it differs from what stood there before.
+
+        Where its variables are `wanted`, only a namespace that is left behind is a surprise.
+        """
         for table, name, earlier in self._earliest(mark):
             variable = table.get(name)
             if not isinstance(variable, Variable) or variable.leaked_from is not None:
                 continue
-            if not isinstance(variable.value, Value):
+            if not isinstance(variable.value, Value) or (wanted and name != NAMESPACE):
                 continue
             if _comparable(earlier) != _comparable(variable):
                 self._put(self.variables, name, replace(variable, leaked_from=include))

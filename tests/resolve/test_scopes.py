@@ -238,3 +238,15 @@ def test_a_faulty_value_is_reported_once_however_often_it_is_used(tmp_path: Path
         + "\n- log: {message: a, if: $(var t)}"
     )
     assert [fault[2:] for fault in outcome(tmp_path, text).faults] == [(2, 31)]
+
+
+@pytest.mark.conforms("D1", "4.3 scope")
+def test_a_file_of_nothing_but_values_is_included_for_their_sake(tmp_path: Path) -> None:
+    files = {
+        "main.yaml": "launch:\n- include: {file: preset.yaml}\n- include: {file: inner.yaml}\n" + SAY,
+        "preset.yaml": "launch:\n- arg: {name: t, default: p}\n",
+        "inner.yaml": INNER,
+    }
+    found = outcome(tmp_path, files)
+    assert found.messages == ["p", "p"]
+    assert list(found.problems) == []

@@ -61,7 +61,7 @@ def visit(action: Include, run: Resolution) -> None:
 
 def _include(action: Include, path: str, description: Description, run: Resolution) -> None:
     location = run.at(action.span)
-    before = run.scope.mark()
+    before, begun = run.scope.mark(), run.found.size
     given, used = _arguments(action, run)
     frame = _frame(action, path, frozenset(item.name for item in given), run)
     if _is_endless(frame, run):
@@ -73,7 +73,7 @@ def _include(action: Include, path: str, description: Description, run: Resoluti
     for name in ledger.missing:
         run.scope.forget(name)
     if path not in run.found.endless:
-        run.scope.mark_leaks(before, action.span)
+        run.scope.mark_leaks(before, action.span, wanted=run.found.size == begun)
 
 
 def _include_object(action: Include, children: tuple[Action, ...], run: Resolution) -> None:
