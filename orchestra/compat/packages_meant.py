@@ -9,7 +9,7 @@ from orchestra.compat.literals import argument_span
 from orchestra.compat.place import Place, is_own
 from orchestra.compat.refusing import collector
 from orchestra.compat.seam import connection
-from orchestra.compat.syntax_trees import tree_of
+from orchestra.compat.syntax_trees import Tree, is_dealt_with
 from orchestra.errors import Code, Problem
 from orchestra.nearest import is_slip
 
@@ -23,7 +23,7 @@ def package_meant(package: str) -> str | None:
     severity, told, meant = connection().missing_package(package)
     if collecting is None or frame is None or meant is None or not is_slip(package, meant):
         return None
-    if _is_caught(frame):
+    if is_dealt_with(frame, Tree.tries):
         return None
     place = Place(frame.f_code, frame.f_lasti)
     span = argument_span(place, package)
@@ -40,13 +40,3 @@ def _users_frame() -> FrameType | None:
     while frame is not None and is_own(frame.f_code.co_filename):
         frame = frame.f_back
     return frame
-
-
-def _is_caught(frame: FrameType) -> bool:
-    around: FrameType | None = frame
-    while around is not None and not is_own(around.f_code.co_filename):
-        tree = tree_of(around.f_code.co_filename)
-        if tree is not None and tree.tries(around.f_lineno):
-            return True
-        around = around.f_back
-    return False

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.faulty_call import FaultyCall
 from orchestra.compat.place import Place, here, is_own
-from orchestra.compat.syntax_trees import tree_of
+from orchestra.compat.syntax_trees import Tree, is_dealt_with
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping
@@ -36,7 +36,7 @@ def settled(
     chain: tuple[Span, ...],
 ) -> bool:
     """Report what is wrong with a call, and make the object without it; return whether the error is dealt with so."""
-    if _is_caught(caller) or _is_of_users(error):
+    if is_dealt_with(caller, Tree.catches) or _is_of_users(error):
         return False
     places = list(_calls(caller))
     call = FaultyCall(made, constructor, given, places, here(made))
@@ -71,17 +71,6 @@ def _calls(frame: FrameType) -> Iterator[Place]:
         if not around.f_code.co_filename.startswith(("<", _PYTHON)):
             yield Place(around.f_code, around.f_lasti)
         around = around.f_back
-
-
-def _is_caught(frame: FrameType) -> bool:
-    """Return whether the user's code deals with what is raised."""
-    around: FrameType | None = frame
-    while around is not None and not is_own(around.f_code.co_filename):
-        tree = tree_of(around.f_code.co_filename)
-        if tree is not None and tree.catches(around.f_lineno):
-            return True
-        around = around.f_back
-    return False
 
 
 def _is_of_users(error: Exception) -> bool:

@@ -8,10 +8,11 @@ import warnings
 from functools import lru_cache
 from typing import TYPE_CHECKING, Final, TypeAlias
 
-from orchestra.compat.place import span_in
+from orchestra.compat.place import is_own, span_in
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
+    from types import FrameType
 
     from orchestra.location import Span
 
@@ -191,3 +192,17 @@ def _parameters(function: Function) -> set[str]:
     given = function.args
     every = (*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg)
     return {item.arg for item in every if item is not None}
+
+
+def is_dealt_with(frame: FrameType, deals: Callable[[Tree, int], bool]) -> bool:
+    """Return whether a line of user code on the way to a frame deals with what is raised there.
+
+    The way ends where our own code has called it.
+    """
+    around: FrameType | None = frame
+    while around is not None and not is_own(around.f_code.co_filename):
+        tree = tree_of(around.f_code.co_filename)
+        if tree is not None and deals(tree, around.f_lineno):
+            return True
+        around = around.f_back
+    return False

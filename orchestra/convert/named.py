@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from orchestra.convert.below import entities_below
 from orchestra.description.actions.lifecycle_node import LifecycleNode
 from orchestra.description.actions.load_composable_node import LoadComposableNode
 from orchestra.description.actions.node import Node
@@ -15,15 +16,13 @@ from orchestra.description.running import Running
 from orchestra.description.text import Template, Words
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
-
     from orchestra.convert.remarks import Remarks
     from orchestra.description.entity import Action
 
 
 def named(actions: tuple[Action, ...], remarks: Remarks) -> tuple[Action, ...]:
     """Return the actions with names in place of objects, where a name says the same."""
-    entities = tuple(_all(actions))
+    entities = tuple(entities_below(actions))
     processes = {id(entity.origin): entity for entity in entities if isinstance(entity, Running)}
     pushed = any(isinstance(entity, PushRosNamespace) for entity in entities)
     naming = _Naming(processes, remarks, pushed=pushed)
@@ -77,12 +76,3 @@ class _Naming:
             full = self._full_name(target)
             return {"process": None, "node": process.name if full is target else full}
         return {"process": target if process is None or process.name is None else process.name}
-
-
-def _all(entities: Iterable[Entity]) -> Iterator[Entity]:
-    for entity in entities:
-        yield entity
-        for name in type(entity).model_fields:
-            value = getattr(entity, name)
-            if isinstance(value, tuple):
-                yield from _all(item for item in value if isinstance(item, Entity))

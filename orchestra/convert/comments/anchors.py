@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.place import span_in
+from orchestra.convert.below import entities_below
 from orchestra.convert.kinds import key_of
 from orchestra.description.entity import Entity
 from orchestra.description.text import Constant, Template
@@ -68,7 +69,7 @@ def anchors_in_code(entities: Iterable[Entity], file: str, text: str) -> Iterato
     """Yield what stands in a file in Python: calls, their keywords, and the entries of dictionaries in these."""
     calls = {_span(file, node): node for node in ast.walk(ast.parse(text)) if isinstance(node, ast.Call)}
     seen: set[Span] = set()
-    for entity in _all(entities):
+    for entity in entities_below(entities):
         call = calls.get(entity.span)
         if call is None or entity.span in seen:
             continue
@@ -110,15 +111,6 @@ def _of_entries(value: ast.expr, parts: Mapping[str | None, Entity]) -> Iterator
 def _name(part: Entity) -> str | None:
     template = getattr(part, "name", None) or getattr(part, "from_", None)
     return template.constant if isinstance(template, Template) else None
-
-
-def _all(entities: Iterable[Entity]) -> Iterator[Entity]:
-    for entity in entities:
-        yield entity
-        for name in type(entity).model_fields:
-            value = getattr(entity, name)
-            if isinstance(value, tuple):
-                yield from _all(item for item in value if isinstance(item, Entity))
 
 
 def _span(file: str, node: ast.expr) -> Span:
