@@ -16,6 +16,8 @@ from tests.cli.language_server import LanguageServer, language_server
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+pytestmark = pytest.mark.long
+
 _ROOT = Path(__file__).parents[2]
 _NAME = "yaml-language-server"
 

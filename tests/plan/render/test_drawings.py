@@ -160,6 +160,7 @@ def _modules() -> Path | None:
     )
 
 
+@pytest.mark.long
 def test_mermaid_itself_reads_every_flowchart(tmp_path: Path) -> None:
     modules = _modules()
     if modules is None:
