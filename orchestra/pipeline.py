@@ -24,7 +24,9 @@ from orchestra.resolve.python.connection import LoadingConnection
 from orchestra.resolve.python.isolation import isolated
 from orchestra.resolve.resolve import begin, carry_through, outcome
 from orchestra.resolve.single import single_node
+from orchestra.settings.find import without_settings
 from orchestra.settings.settle import settle
+from orchestra.witness.once import once
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -121,10 +123,16 @@ def opened(
                 _warn_of_remaining(path, isolation, problems)
                 launch = Launch(build(resolved, problems), run, isolation.files)
             problems.amend(in_place)
-            settle(problems, path, inputs.severity)
+            settle(problems, path, inputs.severity, bare=_is_bare(path))
             if launch is not None:
                 launch.plan = replace(launch.plan, problems=problems.ordered)
         yield launch
+
+
+def _is_bare(path: str) -> bool:
+    """Tell whether no settings can count for a file, which those beside it share."""
+    folder = os.path.dirname(os.path.abspath(path))  # noqa: PTH100, PTH120 - pathlib is slow
+    return once(("settings", folder), lambda: without_settings(f"{folder}/file"))
 
 
 def _warn_of_remaining(path: str, isolation: Isolation, problems: Problems) -> None:

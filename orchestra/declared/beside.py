@@ -5,10 +5,15 @@ from __future__ import annotations
 from orchestra.declared.convention import definition_beside, names_of_class, schema_beside
 from orchestra.declared.kinds import is_definition
 from orchestra.errors import Problems
+from orchestra.witness.once import once
 
 
 def schema_of_package(share: str, called: str) -> str | None:
     """Return the path of the schema for an executable, or for a class `pkg::Class`, of a package."""
+    return once(("schema", share, called), lambda: _schema(share, called))
+
+
+def _schema(share: str, called: str) -> str | None:
     names = names_of_class(called) if "::" in called else (called,)
     found = schema_beside(share, names)
     if found is not None:

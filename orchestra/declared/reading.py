@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final, Protocol
 from orchestra.declared.documents import Document, read_document
 from orchestra.declared.kinds import is_definition, is_schema
 from orchestra.errors import Code, Problems
+from orchestra.witness.once import once
 
 if TYPE_CHECKING:
     from orchestra.declared.model import ParameterSchema
@@ -59,11 +60,15 @@ def read_named(named: NamedSchema, problems: Problems) -> ParameterSchema | None
 
 def read_file(path: str, named_at: Location | None, problems: Problems) -> ParameterSchema | None:
     """Return the schema in a file, whatever way it is written; `named_at` is where a description names it."""
+    return once(("declaration", path), lambda: _sound_now(path)) or _read(path, named_at, problems)
+
+
+def _sound_now(path: str) -> ParameterSchema | None:
     try:
         content = Path(path).read_bytes()
     except OSError:
         content = b""
-    return _sound(path, content) or _read(path, named_at, problems)
+    return _sound(path, content)
 
 
 @lru_cache(maxsize=64)  # by content: many nodes are declared in the same file

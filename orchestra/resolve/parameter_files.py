@@ -17,6 +17,7 @@ from orchestra.resolve.rcl.files import read_parameter_file, read_plain_file
 from orchestra.resolve.rcl.sections import included
 from orchestra.resolve.rcl.strays import SECTION_KEY
 from orchestra.resolve.substituted import Back, Reads, placed_back, substituted
+from orchestra.witness.once import once
 
 if TYPE_CHECKING:
     from orchestra.description.text import Template
@@ -90,7 +91,8 @@ def read_file(
     text = _text(path, location, run)
     if text is None:
         return None
-    file, chain = displayed(path), (location.span, *location.included_from)
+    file = once(("displayed", path, os.getcwd()), lambda: displayed(path))  # noqa: PTH109 - pathlib is slow
+    chain = (location.span, *location.included_from)
     back: Back | None = None
     reads: Reads = ()
     if substitute:
@@ -125,7 +127,7 @@ def _read(text: str, file: str, *, bare: bool) -> tuple[tuple[Section, ...], tup
 
 def _text(path: str, location: Location, run: Resolution) -> str | None:
     try:
-        return Path(path).read_bytes().decode("utf-8-sig")
+        return once(("parameters", path), lambda: Path(path).read_bytes().decode("utf-8-sig"))
     except (OSError, UnicodeDecodeError) as error:
         message = f"cannot read the parameter file {displayed(path)}: {error}"
         run.problems.error(Code.UNREADABLE_FILE, message, location)

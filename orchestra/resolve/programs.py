@@ -13,12 +13,16 @@ from orchestra.resolve.paths import beside, folder_of, near_path
 from orchestra.resolve.refusals import report_missing_executable, report_missing_package
 from orchestra.resolve.runnable import fault_of, program_on_path, programs_on_path
 from orchestra.resolve.typos import is_typo
+from orchestra.witness.once import once
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from orchestra.description.actions.node import Node
     from orchestra.location import Location
     from orchestra.resolve.context import Poison, Value
     from orchestra.resolve.resolution import Resolution
+    from orchestra.resolve.runnable import Fault
 
 # Names of programs are short, and there are many: of these nothing can be told.
 _SHORTEST = 5
@@ -71,21 +75,29 @@ def _is_runnable(path: str, location: Location, run: Resolution) -> bool:
 
     What only this machine lacks, or what is wrong with a file of others, is a warning where nothing is started.
     """
-    if not os.path.exists(path):  # noqa: PTH110 - pathlib raises for some paths
-        return True  # it may be made by then, or be on the machine that is started on
-    if os.path.isdir(path) or not os.access(path, os.X_OK):  # noqa: PTH112 - as above
-        told = "a folder" if os.path.isdir(path) else "not executable"  # noqa: PTH112
+    environment = run.scope.environment
+    key = ("program", path, environment.get("PATH", os.defpath))
+    told, fault = once(key, lambda: _seen(path, environment))
+    if told:
         certain = run.inputs.launching or Path(path).is_relative_to(folder_of(run.context.file))
         report = run.problems.error if certain else run.problems.warning
         report(Code.MISSING_EXECUTABLE, f"{displayed(path)} is {told}", location)
         return not certain
-    fault = fault_of(path, run.scope.environment)
     if fault is None:
         return True
     message = f"{displayed(path)} cannot be started: {fault.reason}"
     report = run.problems.warning if fault.here and not run.inputs.launching else run.problems.error
     report(Code.MISSING_EXECUTABLE, message, location, notes=fault.notes)
     return fault.here and not run.inputs.launching
+
+
+def _seen(path: str, environment: Mapping[str, str]) -> tuple[str, Fault | None]:
+    """Return what a path is that can never be started, and why the file there cannot be."""
+    if not os.path.exists(path):  # noqa: PTH110 - pathlib raises for some paths
+        return "", None  # it may be made by then, or be on the machine that is started on
+    if os.path.isdir(path):  # noqa: PTH112 - as above
+        return "a folder", None
+    return ("", fault_of(path, environment)) if os.access(path, os.X_OK) else ("not executable", None)
 
 
 def _check_name(name: str, location: Location, run: Resolution) -> None:

@@ -12,6 +12,18 @@ if TYPE_CHECKING:
     from orchestra.settings.model import Settings
 
 
+def without_settings(path: str) -> bool:
+    """Tell whether no folder above a file, an absolute path, has a file that may hold settings."""
+    folder = os.path.dirname(path)  # noqa: PTH120 - pathlib is slow
+    while True:
+        if any(os.path.isfile(os.path.join(folder, name)) for name in (OWN, SHARED)):  # noqa: PTH113, PTH118 - as above
+            return False
+        above = os.path.dirname(folder)  # noqa: PTH120 - as above
+        if above == folder:
+            return True
+        folder = above
+
+
 class Finder:
     """Finds settings; each file is read once, and what is wrong with it is reported."""
 

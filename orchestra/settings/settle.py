@@ -22,15 +22,16 @@ _KEPT: Final = (
 )
 
 
-def settle(problems: Problems, path: str, severity: Mapping[str, str]) -> None:
+def settle(problems: Problems, path: str, severity: Mapping[str, str], *, bare: bool = False) -> None:
     """Give each problem the weight that the project has decided on, and drop those that are silenced.
 
     The settings nearest to the file with the problem count, where there are none those of `path`, the file that was
-    asked for; `severity` wins over both, a comment over all. What is wrong with the settings becomes a problem.
+    asked for; `severity` wins over both, a comment over all. What is wrong with the settings becomes a problem. `bare`:
+    it is known that there are none for `path`.
     """
     broken = Problems()
     weighing = _Weighing(os.getcwd(), Finder(broken), severity)  # noqa: PTH109 - pathlib is slow
-    weighing.asked = weighing.finder.settings(weighing.absolute(path))
+    weighing.asked = None if bare else weighing.finder.settings(weighing.absolute(path))
     problems.amend(weighing.weighed)
     problems.extend(broken)
     problems.silencing |= weighing.used

@@ -38,12 +38,13 @@ class Observer:
         self._digests: dict[str, tuple[Signature | None, str]] = {}
         self._folders = looking.Folders().listing
         self._installed: Record = Record()
-        self._of_users = False
+        self._of_users, self.certain = False, True
         self._environment: dict[str, str] = {}
         self._paths: set[tuple[Any, ...]] = set()
         self._harmless: set[str] = set()
         self._wholes: dict[str, str | None] = {}
-        self._installing = False
+        self.installed = False
+        self.kept: dict[tuple[Any, ...], tuple[Record, Any]] = {}
 
     @property
     def active(self) -> bool:
@@ -52,8 +53,8 @@ class Observer:
 
     def install(self) -> None:
         """Begin to watch this process, which cannot be undone."""
-        if not self._installing:
-            self._installing = True
+        if not self.installed:
+            self.installed = True
             sys.addaudithook(self._heard)
             for name, kind in _LOOKING:
                 function = getattr(os, name)
@@ -67,7 +68,7 @@ class Observer:
 
     def begin(self, environment: dict[str, str]) -> None:
         """Begin a record; `environment` is the one that counts as being outside."""
-        self.record, self._seen, self._of_users = Record(), {}, False
+        self.record, self._seen, self._of_users, self.certain = Record(), {}, False, True
         self._environment, self._paths = environment, set()
         if len(self._wholes) > _MOST_PATHS:
             self._wholes.clear()
@@ -144,6 +145,7 @@ class Observer:
         """Record that nobody can say what the result depends on."""
         if self.active and self.record is not None:
             self.record.unknown = self.record.unknown or reason
+            self.certain, self.kept = False, {}
 
     def _look(self, kind: str, path: str) -> None:
         if self.record is not None:

@@ -63,7 +63,8 @@ class Record:
 
 def _add(known: dict[str, Any], more: Mapping[str, Any]) -> None:
     for key, value in more.items():
-        known.setdefault(key, value)
+        if key not in known:
+            known[key] = value
 
 
 def question(*words: str) -> str:

@@ -20,6 +20,7 @@ from orchestra.resolve.rcl.files import read_parameter_file
 from orchestra.settings.comments import MARK
 from orchestra.settings.settle import settle
 from orchestra.witness.observing import observer
+from orchestra.witness.once import once
 from orchestra.witness.variables import ObservedEnvironment
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
     from orchestra.witness.record import Record
 
 
-_COLLECTING = 200  # files after which memory is tidied up
+_COLLECTING = 400  # files after which memory is tidied up
 
 
 class Looker:
@@ -54,6 +55,7 @@ class Looker:
         observer().scratch = scratch
         observer().install()
         gc.disable()
+        gc.freeze()  # what the process began with stays; to walk through it takes long
 
     @property
     def is_spent(self) -> bool:
@@ -69,7 +71,7 @@ class Looker:
         self._count += 1
         if not gc.isenabled() and self._count % _COLLECTING == 0:
             gc.collect()
-            gc.freeze()  # what is shared stays; to walk through it each time takes long
+            gc.freeze()  # what is shared stays, as above
         return found, record
 
     def _launch_file(self, path: str) -> Finding:
@@ -81,9 +83,9 @@ class Looker:
             absolute, self._inputs, problems, load=visit.load, packages=self._packages
         ) as launch:
             left_out = set() if launch is None else launch.left_out
-        named = self._loader.named | {os.path.realpath(file) for file in left_out}
+        named = self._loader.named | set(map(_real, left_out))
         return Finding(
-            os.path.realpath(path),
+            _real(path),
             problems.ordered,
             frozenset(visit.included),
             frozenset(named),
@@ -93,7 +95,7 @@ class Looker:
 
     def _names(self, description: Description) -> set[str]:
         files = files_named(description, self._inputs.environment, self._packages)
-        return set(map(os.path.realpath, files))
+        return set(map(_real, files))
 
     def _parameters(self, path: str) -> Finding:
         problems = Problems()
@@ -124,12 +126,17 @@ class _Visit:
     ) -> Description | None:
         """Read a launch file, as `orchestra.load.files.load` does."""
         if chain:
-            self.included.add(os.path.realpath(path))
+            self.included.add(_real(path))
         return self._loader.load(path, problems, chain, ending)
+
+
+def _real(path: str) -> str:
+    return once(("real", path), lambda: os.path.realpath(path))
 
 
 def _has_comments(path: str) -> bool:
     try:
-        return MARK.encode() in Path(path).read_bytes()
+        with open(path, "rb") as file:  # noqa: PTH123 - pathlib is slow
+            return MARK.encode() in file.read()
     except OSError:
         return False

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.declared.convention import FOLDERS, names_of_class
 from orchestra.location import is_file
+from orchestra.witness.once import once
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -24,7 +25,10 @@ _NODL_XML: Final = ".nodl.xml"
 
 def may_be_declared(share: str, called: str) -> bool:
     """Return whether there is a file that may declare an executable, or the class `pkg::Class`, of a package."""
-    return own_file(share, called) is not None or next(nodl_files(share), None) is not None
+    return once(
+        ("interfaces", share, called),
+        lambda: own_file(share, called) is not None or next(nodl_files(share), None) is not None,
+    )
 
 
 def names_of(called: str) -> tuple[str, ...]:

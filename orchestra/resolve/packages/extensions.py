@@ -11,13 +11,15 @@ from functools import lru_cache
 from pathlib import Path
 
 from orchestra.witness.observing import observer
+from orchestra.witness.once import once
 
 _METADATA = (".dist-info", ".egg-info")
 
 
 def extends(group: str) -> bool:
     """Return whether a distribution on the path has an entry point in a group."""
-    return observer().answered(("extends", group), lambda: _is_extended(group))
+    question = ("extends", group)
+    return once((*question, *sys.path), lambda: observer().answered(question, lambda: _is_extended(group)))
 
 
 def _is_extended(group: str) -> bool:

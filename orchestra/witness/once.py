@@ -1,0 +1,36 @@
+"""What is the same for all results of a process that is watched: it is found out once, and each depends on it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from orchestra.witness.observing import observer
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_FoundT = TypeVar("_FoundT")
+
+
+def once(key: tuple[Any, ...], find: Callable[[], _FoundT]) -> _FoundT:
+    """Return what `find` gives, which `key` and what it looks at decide; it is not called again for the same key.
+
+    It is where this process is not watched, for nobody knows how long that goes on, and after anything of which nobody
+    can say what depends on it, for that may have changed what is looked at.
+    """
+    watching = observer()
+    if not (watching.installed and watching.active and watching.certain):
+        return find()
+    known = watching.kept.get(key)
+    if known is not None:
+        watching.depend(known[0])
+        found: _FoundT = known[1]
+        return found
+    try:
+        with watching.part() as record:
+            found = find()
+        if not record.unknown:
+            watching.kept[key] = (record, found)
+    finally:
+        watching.depend(record)
+    return found
