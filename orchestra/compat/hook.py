@@ -89,11 +89,17 @@ def served() -> Iterator[None]:
     finally:
         sys.meta_path.remove(finder)
         sys.dont_write_bytecode = bytecode
-        for name in sys.modules.keys() - before.keys():
-            if name.partition(".")[0] in SERVED or _is_of_users(name, sys.modules[name]):
-                del sys.modules[name]
-        sys.modules.update(before)
+        if sys.modules != before:
+            _forget_new(before)
         pristine.restore()
+
+
+def _forget_new(before: dict[str, ModuleType]) -> None:
+    """Make the modules of this process what they were, but for installed ones that have been added."""
+    for name in sys.modules.keys() - before.keys():
+        if name.partition(".")[0] in SERVED or _is_of_users(name, sys.modules[name]):
+            del sys.modules[name]
+    sys.modules.update(before)
 
 
 def _is_of_users(name: str, module: object) -> bool:

@@ -31,7 +31,7 @@ if TYPE_CHECKING:
     from orchestra.witness.record import Record
 
 
-_COLLECTING = 400  # files after which memory is tidied up
+_COLLECTING = 1000  # files, of some 30 kB each, after which memory is tidied up
 
 
 class Looker:

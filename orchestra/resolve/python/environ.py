@@ -19,7 +19,8 @@ def put_environment(environment: Mapping[str, str]) -> None:
     """Make the environment of this process that of a scope."""
     now = environment_now()
     with observer().aside():
-        if now == environment:
+        # Not `==`, which an environment that tells who reads it answers slowly.
+        if dict.__eq__(now, environment) is True:
             return
         for name in now.keys() - environment.keys():
             del os.environ[name]
