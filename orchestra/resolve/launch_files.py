@@ -8,8 +8,10 @@ PACKAGE/NAME    the same in one word
 
 from __future__ import annotations
 
+import ast
 import os
 import re
+import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -24,8 +26,10 @@ if TYPE_CHECKING:
 
 _NAMED = re.compile(r".(\.launch|[._-]launch\.(py|xml|ya?ml))$")
 _KEY = re.compile(r"""^(\{\s*)?["']?launch["']?\s*:""", re.MULTILINE)
+_FUNCTION = "generate_launch_description"
+_BLOCKS = (ast.stmt, ast.excepthandler, ast.match_case)
 _MARKS = {
-    ".py": re.compile(r"^\s*(async\s+)?def\s+generate_launch_description\b", re.MULTILINE),
+    ".py": re.compile(rf"^\s*(async\s+)?def\s+{_FUNCTION}\b", re.MULTILINE),
     ".xml": re.compile(r"<launch[\s>]"),
     ".yaml": _KEY,
     ".yml": _KEY,
@@ -83,10 +87,31 @@ def is_launch_name(name: str) -> bool:
 def is_launch_text(name: str, text: str) -> bool:
     """Tell whether the text of a file of this name begins as that of a launch file.
 
-    It is searched, not parsed, so that a syntax error hides nothing.
+    It is searched, so that a syntax error hides nothing; Python is parsed as well, because a program that writes launch
+    files, a test for one, holds the text of such a function, and is none itself.
     """
-    mark = _MARKS.get(Path(name).suffix)
-    return mark is not None and mark.search(text) is not None
+    ending = Path(name).suffix
+    mark = _MARKS.get(ending)
+    if mark is None or mark.search(text) is None:
+        return False
+    return ending != ".py" or _defines(text)
+
+
+def _defines(text: str) -> bool:
+    """Tell whether a module defines the function of launch files, or has an error that may hide it."""
+    try:
+        with warnings.catch_warnings(action="ignore"):  # told when the file is run
+            waiting: list[ast.AST] = [ast.parse(text)]
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
+        return True
+    while waiting:
+        node = waiting.pop()
+        if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
+            if node.name == _FUNCTION:
+                return True
+        elif not isinstance(node, ast.ClassDef):
+            waiting += (child for child in ast.iter_child_nodes(node) if isinstance(child, _BLOCKS))
+    return False
 
 
 def short_name(name: str) -> str:

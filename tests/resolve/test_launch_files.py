@@ -153,6 +153,9 @@ def test_a_package_without_launch_files_says_so(share: Path) -> None:
         ("a.py", _MARKED[".py"], True),
         ("a.py", "async def generate_launch_description(x):\n", True),
         ("a.py", "generate_launch_description()\n", False),
+        ("a.py", f"TEXT = '''\n{_MARKED['.py']}\n'''\n", False),  # a program that writes launch files
+        ("a.py", f"try:\n    import x\nexcept ImportError:\n    {_MARKED['.py'].strip()} pass\n", True),
+        ("a.py", f"class A:\n    {_MARKED['.py'].strip()} pass\n", False),
         ("a.xml", "<?xml version='1.0'?>\n<!-- x -->\n<launch version='0.1.1'>", True),
         ("a.xml", "<launchpad/>", False),
         ("a.yaml", "%YAML 1.2\n---\nlaunch:\n", True),
