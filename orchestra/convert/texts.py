@@ -79,7 +79,7 @@ def _call(call: Call) -> Iterable[Any]:
         arguments[1] = (re.sub(r"\s*,\s*", ",", str(arguments[1][0]).strip()),)
     while len(arguments) < _OPTIONAL_ARGUMENTS.get(call.name, 0):
         arguments.append(())
-    yield ("log_dir" if call.name == "launch_log_dir" else call.name, *arguments)
+    yield ("launch_log_dir" if call.name == "log_dir" else call.name, *arguments)
 
 
 def _is_plain_path(arguments: list[tuple[Any, ...]]) -> bool:

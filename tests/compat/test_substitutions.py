@@ -100,7 +100,7 @@ class Shouted(Substitution):
         (FileContent(Path("a") / "b"), "FileContent('a/b')", "$(file-content a/b)"),
         (ThisLaunchFile(), "ThisLaunchFile()", "$(filename)"),
         (ThisLaunchFileDir(), "ThisLaunchFileDir()", "$(dirname)"),
-        (LaunchLogDir(), "LaunchLogDir()", "$(log_dir)"),
+        (LaunchLogDir(), "LaunchLogDir()", "$(launch_log_dir)"),
         (AnonName("a"), "AnonName('a')", "$(anon a)"),
         (NotSubstitution(LC("a")), "NotSubstitution(LaunchConfig('a'))", "$(not $(var a))"),
         (AndSubstitution("1", "0"), "AndSubstitution('1', '0')", "$(and 1 0)"),

@@ -29,7 +29,7 @@ _PLAIN: Final = {
     "filename": "ThisLaunchFile",
     "find-pkg-prefix": "FindPackagePrefix",
     "find-pkg-share": "FindPackageShare",
-    "log_dir": "LaunchLogDir",
+    "launch_log_dir": "LaunchLogDir",
     "not": "NotSubstitution",
     "not-equals": "NotEqualsSubstitution",
     "or": "OrSubstitution",

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 class LaunchLogDir(ParsedSubstitution):
     """The folder: symbolic in a plan because it differs from run to run, unless the user has set another one."""
 
-    _name = "log_dir"
+    _name = "launch_log_dir"
 
     def describe(self) -> str:
         """Return what it is."""
