@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 import yaml
 
 from orchestra.load.faults import Fault
 from orchestra.load.offsets import Source
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
 
 _PARSER: type[Any] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
@@ -73,17 +76,31 @@ class Failure:
 
     def pieces(self) -> list[Piece]:
         """Return the scalars that come before the failure."""
-        found: list[Piece] = []
+        return [
+            Piece(token.start_mark.index, token.end_mark.index, token.style in _QUOTES)
+            for token in self._tokens()
+            if isinstance(token, yaml.ScalarToken)
+        ]
+
+    def opening(self) -> int | None:
+        """Return where the innermost bracket stands that is open at the failure."""
+        found: list[int] = []
+        for token in self._tokens():
+            if isinstance(token, yaml.FlowSequenceStartToken | yaml.FlowMappingStartToken):
+                found.append(token.start_mark.index)
+            elif isinstance(token, yaml.FlowSequenceEndToken | yaml.FlowMappingEndToken) and found:
+                found.pop()
+        return found[-1] if found else None
+
+    def _tokens(self) -> Iterator[Any]:
+        """Yield the tokens that begin before the failure."""
         try:
             for token in yaml.scan(self.text, Loader=_PARSER):
                 if token.start_mark.index >= self.at:
-                    break
-                if isinstance(token, yaml.ScalarToken):
-                    begin, end = token.start_mark.index, token.end_mark.index
-                    found.append(Piece(begin, end, token.style in _QUOTES))
+                    return
+                yield token
         except yaml.YAMLError:
             pass  # the failure itself
-        return found
 
     def of_quotes(self) -> Fault | None:
         """Return the fault of a quote that is missing or stands in a quoted text, None where it is none of that."""

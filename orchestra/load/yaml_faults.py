@@ -89,6 +89,23 @@ def _open(failure: Failure) -> Fault:
     return _without_comma(failure, failure.at, failure.end_of_word(failure.at), closer)
 
 
+def _no_value(failure: Failure) -> Fault | None:
+    """Explain brackets in which something else stands than a value or the end."""
+    opening = failure.opening()
+    if opening is None:
+        return None
+    bracket = failure.text[opening]
+    below = "\n" in failure.text[opening : failure.at]
+    if failure.here == "" or (failure.here == "-" and below) or failure.here in _CLOSERS.values():
+        message = f"this {bracket} is not closed: a {_CLOSERS[bracket]} is missing"
+        return failure.fault(message, opening, opening + 1)
+    if failure.here == ",":
+        return failure.fault("there is nothing before this ','", failure.at, failure.at + 1)
+    if failure.here == "-":
+        return failure.fault("an item in [ ] has no '-'", failure.at, failure.at + 1)
+    return None
+
+
 def _without_comma(failure: Failure, begin: int, end: int, closer: str) -> Fault:
     """Explain the last word of a stretch, before which a comma is missing."""
     begin += len(re.split(r"\S+$", failure.text[begin:end])[0])
@@ -220,6 +237,7 @@ _EXPLANATIONS: Final[dict[str, Callable[[Failure], Fault | None]]] = {
     "mapping values are not allowed": _second_value,
     "could not find expected ':'": _key_without_colon,
     "did not find expected key": _no_key,
+    "did not find expected node content": _no_value,
     "did not find expected '-' indicator": _no_item,
     "block sequence entries are not allowed": _item_in_line,
     "found undefined alias": _undefined_alias,

@@ -80,7 +80,7 @@ FAULTS: dict[str, tuple[str | bytes, list[tuple[Code, int, int, str | None]]]] =
     "a group of nothing": ("launch:\n- group:", [(Code.WRONG_TYPE, 2, 3, None)]),
     "a timer of nothing": ("launch:\n- timer: {period: 1, children: }", [(Code.WRONG_TYPE, 2, 22, None)]),
     "keys beside the root": ("launch: []\nother: 1", [(Code.UNKNOWN_KEY, 2, 1, None)]),
-    "no YAML": ("launch: [", [(Code.SYNTAX, 1, 10, None)]),
+    "no YAML": ("launch: [", [(Code.SYNTAX, 1, 9, None)]),
     "two documents": ("launch: []\n---\nlaunch: []", [(Code.SYNTAX, 2, 1, None)]),
     "a misspelt root": ("lunch: []", [(Code.UNKNOWN_KEY, 1, 1, "launch")]),
     "an empty file": ("", [(Code.SYNTAX, 1, 1, None)]),
