@@ -179,6 +179,8 @@ def _report_without(
     sections = file.source.sections
     if len(sections) == 1 and len(names) == len(file.users) and idle and not file.open:
         alone = names[0] if len(names) == 1 else "/**"
+        if alone == names[0] and not sections[0].pattern.startswith("/"):
+            alone = alone.removeprefix("/")  # as the key was written; rcl takes both
         instead = alone if _is_one_key(sections[0]) else None
         _report(sections[0], names[0], instead, file.users[names[0]], problems, told)
         return

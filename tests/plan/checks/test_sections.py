@@ -60,7 +60,7 @@ MISSED: dict[str, tuple[str, str, list[Told]]] = {
     "a section under no near name, alone in the file": (
         node("camera", param=_FILE),
         _section("usb_cam"),
-        [(_CODE, "usb_cam", "/camera")],
+        [(_CODE, "usb_cam", "camera")],
     ),
     "the only section of a file for two nodes": (
         node("front", param=_FILE) + node("rear", param=_FILE),

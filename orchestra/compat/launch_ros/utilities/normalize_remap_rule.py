@@ -28,7 +28,14 @@ def normalize_remap_rules(
     """Return the two sides of several rules. Raises `TypeError` for anything but pairs in tuples."""
     if not isinstance(remap_rules, Iterable):
         raise WrongType(f"remappings are a list of tuples of two names, not {remap_rules!r}", remap_rules)
-    if isinstance(remap_rules, tuple) and remap_rules and all(isinstance(item, str) for item in remap_rules):
+    if _is_one_rule(remap_rules):
         told = f"remappings are a list of tuples of two names, this is one of them: {remap_rules!r}"
         raise WrongType(told, remap_rules)
     return tuple(normalize_remap_rule(rule) for rule in remap_rules)
+
+
+def _is_one_rule(rules: Iterable[Any]) -> bool:
+    """Return whether names stand where rules are expected: a tuple of them, or as many in a list as a rule has."""
+    if not isinstance(rules, list | tuple) or not rules or not all(isinstance(item, str) for item in rules):
+        return False
+    return isinstance(rules, tuple) or len(rules) == _SIDES
