@@ -105,10 +105,12 @@ def opened(
     *,
     load: LoadFile = load,
     packages: InstalledPackages | None = None,
+    digests: bool = True,
 ) -> Iterator[Launch | None]:
     """Resolve and plan a launch file, whose code can be called as long as the context lasts.
 
     What is wrong is in `problems`. `load` reads the files. None where the file itself cannot be read as a launch file.
+    `digests`: those of the processes are wanted.
     """
     packages = packages or InstalledPackages(inputs.environment)
     with _loading(path, inputs, load, packages, problems) as isolation:
@@ -121,7 +123,7 @@ def opened(
             if description is not None:
                 resolved = _symbolic(carry_through(description, run), isolation.files)
                 _warn_of_remaining(path, isolation, problems)
-                launch = Launch(build(resolved, problems), run, isolation.files)
+                launch = Launch(build(resolved, problems, digests=digests), run, isolation.files)
             problems.amend(in_place)
             settle(problems, path, inputs.severity, bare=_is_bare(path))
             if launch is not None:

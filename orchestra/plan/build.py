@@ -29,12 +29,18 @@ if TYPE_CHECKING:
 
 
 def build(
-    resolved: Resolved, problems: Problems, *, triggers_before: int = 0, known: Collection[str] = ()
+    resolved: Resolved,
+    problems: Problems,
+    *,
+    triggers_before: int = 0,
+    known: Collection[str] = (),
+    digests: bool = True,
 ) -> Plan:
     """Return the plan. What cannot work is reported; the problems found so far become part of the plan.
 
     `triggers_before` counts the triggers of a plan that is added to, and `known` are the ids in it. A node that is
-    added may have the name of one of these: most often it replaces one that has ended.
+    added may have the name of one of these: most often it replaces one that has ended. Without `digests` the processes
+    have none, which only who starts or compares them needs.
     """
     ids = identities(resolved.processes)
     loaded = identities(resolved.components, ids)
@@ -53,6 +59,8 @@ def build(
         _process(process, identity, edges[identity], resolved, problems)
         for identity, process in targets.process.items()
     )
+    if digests:
+        processes = tuple(replace(process, digest=digest(process)) for process in processes)
     plan = Plan(
         VERSION,
         resolved.file,
@@ -134,10 +142,9 @@ def _process(
 
 
 def _with_files(planned: Process, process: ResolvedProcess, parameters: Parameters) -> Process:
-    """Add what depends on the process as a whole: its parameter file, its command line, its digest."""
+    """Add what depends on the process as a whole: its parameter file, its command line."""
     path = None
     if parameters.values or parameters.files:
         path = "${run}/params/" + file_name(planned)
     files = tuple(replace(file, path=path or file.path) for file in parameters.files)
-    whole = replace(planned, parameter_files=files, command=command(process, path))
-    return replace(whole, digest=digest(whole))
+    return replace(planned, parameter_files=files, command=command(process, path))

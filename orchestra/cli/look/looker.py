@@ -80,7 +80,7 @@ class Looker:
         self._loader.named = set()
         absolute = str(Path(path).absolute())
         with pipeline.opened(
-            absolute, self._inputs, problems, load=visit.load, packages=self._packages
+            absolute, self._inputs, problems, load=visit.load, packages=self._packages, digests=False
         ) as launch:
             left_out = set() if launch is None else launch.left_out
         named = self._loader.named | set(map(_real, left_out))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import shutil
 import tempfile
 from contextlib import contextmanager
@@ -32,7 +33,14 @@ def temporary_files(files: Files) -> Iterator[None]:
         tempfile.tempdir, tempfile._name_sequence = before  # type: ignore[attr-defined]
         if not files.kept:
             with observer().aside():
-                shutil.rmtree(folder, ignore_errors=True)
+                _remove(folder)
+
+
+def _remove(folder: str) -> None:
+    try:
+        os.rmdir(folder)  # noqa: PTH106 - pathlib is slow; most often nothing is in it
+    except OSError:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 class _Names:
