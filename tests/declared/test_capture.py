@@ -195,7 +195,7 @@ def test_a_definition_of_the_node_is_one(node: str) -> None:
 
 
 def test_a_node_that_is_not_there(node: str) -> None:
-    done = _command("capture", "/robot1/declarign", "--timeout", "2")
+    done = _command("capture", "/robot1/declarign", "--timeout", "6")
     assert done.returncode == 1
     assert "there is no node /robot1/declarign" in done.stderr
     assert f"did you mean {node}?" in done.stderr
