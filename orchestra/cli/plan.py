@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import os
 import sys
+from argparse import Namespace
 from typing import TYPE_CHECKING, Final
 
 from orchestra.cli import boundary, colour, inputs
 from orchestra.cli.parser import CommandParser
-from orchestra.errors import UsageError
+from orchestra.errors import DescriptionError, UsageError
 
 if TYPE_CHECKING:
-    from argparse import Namespace
-
     from orchestra.cli.planning.sources import Made
 
 
@@ -73,11 +72,7 @@ def run(options: Namespace) -> int:
         _print(explained(options, made.plan, paint))
         return boundary.OK
     if options.diff:
-        from orchestra.cli.planning.comparison import compared  # noqa: PLC0415 - only this needs it
-
-        text, different = compared(options, made, paint)
-        _print(text)
-        return _DIFFERENT if different and options.exit_code else boundary.OK
+        return _compare(options, made, paint)
     _print(_shown(options, made, paint))
     return boundary.OK
 
@@ -95,6 +90,22 @@ def _check(options: Namespace) -> None:
         raise UsageError("a portable plan cannot be run: it has symbols where a script needs paths")
     if options.diff and not options.words:
         raise UsageError("a launch file is missing: --diff takes all words behind it, so it stands last")
+
+
+def _compare(options: Namespace, made: Made, paint: colour.Paint) -> int:
+    """Print what lies between the plan and the one behind `--diff`, whose problems point into its own words."""
+    from orchestra.cli.planning.comparison import compared  # noqa: PLC0415 - only this needs it
+
+    try:
+        text, different = compared(options, made, paint)
+    except DescriptionError as error:
+        words = [word for word in options.diff if ":=" in word] or options.words
+        telling = boundary.Telling.of("plan", Namespace(**{**vars(options), "words": words}))
+        given = telling.command_line
+        boundary.show_problems(error.problems, telling.problem_format, sys.stderr, command_line=given)
+        return boundary.MISTAKE
+    _print(text)
+    return _DIFFERENT if different and options.exit_code else boundary.OK
 
 
 def _shown(options: Namespace, made: Made, paint: colour.Paint) -> str:

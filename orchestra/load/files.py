@@ -82,4 +82,4 @@ def has_format(path: str) -> bool:
 
 def unknown_format(file: str) -> str:
     """Return what is said of a file whose ending tells nothing."""
-    return f"cannot tell the format of {file}: launch files end in " + ", ".join(sorted(FORMATS))
+    return f"cannot tell the format of {file}: launch files end in " + ", ".join(sorted({PYTHON, *FORMATS}))

@@ -188,6 +188,20 @@ def test_what_makes_no_sense_is_refused(
     assert repository.exists()
 
 
+def test_a_saved_plan_takes_no_arguments(orchestra: Command, folder: Path) -> None:
+    (folder / "saved.json").write_text(orchestra("plan", "outer.yaml", "--format", "json").stdout)
+    for words in (("saved.json", "who:=x"), ("outer.yaml", "--diff", "saved.json", "who:=x")):
+        found = orchestra("plan", *words)
+        assert (found.returncode, found.stdout) == (2, "")
+        assert "saved.json is a saved plan, which takes no who:=x" in found.stderr
+
+
+def test_a_mistake_in_the_words_behind_diff_is_shown_in_them(orchestra: Command) -> None:
+    found = orchestra("plan", "outer.yaml", "who:=sun", "--diff", "whoo:=x")
+    assert (found.returncode, found.stdout) == (2, "")
+    assert "    1 | whoo:=x\n      | ^^^^\nhelp: did you mean 'who'?" in found.stderr
+
+
 def test_errors_in_the_revision_are_told_as_those_of_the_revision(
     orchestra: Command, repository: Path
 ) -> None:

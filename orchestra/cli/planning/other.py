@@ -26,7 +26,7 @@ def other(words: Sequence[str], options: Namespace, first: Made) -> Made:
     names = [word for word in words if ":=" not in word]
     arguments = [word for word in words if ":=" in word]
     if len(names) == 1 and sources.is_saved(names[0]):
-        _refuse(arguments, names[0])
+        sources.refuse_words(arguments, names[0])
         return sources.saved(names[0])
     if not names:
         return sources.from_file(_launch_file(first), arguments, options)
@@ -45,8 +45,3 @@ def _launch_file(first: Made) -> str:
     if first.file is None:
         raise UsageError("a saved plan has no other arguments: --diff needs a file")
     return first.file
-
-
-def _refuse(arguments: Sequence[str], path: str) -> None:
-    if arguments:
-        raise UsageError(f"{path} is a saved plan, which takes no {arguments[0]}")

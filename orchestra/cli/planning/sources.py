@@ -43,7 +43,8 @@ class Made:
 
 def made(options: Namespace) -> Made:
     """Make the plan that the options ask for. Raises as `inputs.plan_from` does."""
-    if len(options.words) == 1 and is_saved(options.words[0]):
+    if options.words and is_saved(options.words[0]):
+        refuse_words(options.words[1:], options.words[0])
         return saved(options.words[0])
     if not options.words:
         raise UsageError("a launch file is missing")
@@ -89,6 +90,12 @@ def is_saved(path: str) -> bool:
         return False
     with open(path, encoding="utf-8", errors="replace") as file:  # noqa: PTH123 - may be any path
         return _SAVED.match(file.read(_BEGINNING)) is not None
+
+
+def refuse_words(words: Sequence[str], path: str) -> None:
+    """Raise `UsageError` for words behind a plan that has been saved."""
+    if words:
+        raise UsageError(f"{path} is a saved plan, which takes no {words[0]}")
 
 
 def saved(path: str) -> Made:
