@@ -130,7 +130,7 @@ def test_the_seeds_are_sound(check: Ask) -> None:
 
 
 @pytest.mark.parametrize("name", _SEEDS)
-@settings(suppress_health_check=list(HealthCheck), deadline=None, max_examples=20)
+@settings(suppress_health_check=list(HealthCheck), deadline=None, max_examples=8)
 @given(data=st.data())
 def test_what_is_broken_is_told(check: Ask, name: str, data: st.DataObject) -> None:
     _check(check, name, data.draw(_broken(name)))

@@ -103,7 +103,7 @@ def test_a_treacherous_text_stays_that_text(ask_rcl: Callable[..., Any], form: s
 
 
 @pytest.mark.parametrize("form", FORMS)
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=25)
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=12)
 @given(value=VALUES)
 def test_any_value_arrives(ask_rcl: Callable[..., Any], form: str, value: ParameterValue) -> None:
     assume(_sayable(form, value))
