@@ -118,7 +118,7 @@ def _tree(text: str) -> Tree | None:
     try:
         with warnings.catch_warnings(action="ignore"):  # told when the file was run
             return Tree(ast.parse(text))
-    except (SyntaxError, ValueError):
+    except (SyntaxError, ValueError, RecursionError, MemoryError):
         return None
 
 

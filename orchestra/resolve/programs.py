@@ -103,12 +103,11 @@ def _seen(path: str, environment: Mapping[str, str]) -> tuple[str, Fault | None]
 def _check_name(name: str, location: Location, run: Resolution) -> None:
     """Report a program that the search path lacks where it has a near one: any other may be there when it starts."""
     environment = run.scope.environment
-    if not name or "PATH" in run.scope.changes or program_on_path(name, environment) is not None:
+    if len(name) < _SHORTEST or "PATH" in run.scope.changes or program_on_path(name, environment) is not None:
         return
-    near = (
+    meant = sorted(
         known for known in programs_on_path(environment) if known[:1] == name[:1] and is_typo(name, known)
     )
-    meant = sorted(near) if len(name) >= _SHORTEST else None
     if meant:
         message = f"there is no program '{name}' on the search path"
         run.problems.warning(Code.MISSING_EXECUTABLE, message, location, suggestion=meant[0])

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from orchestra.nearest import nearest
+from orchestra.witness.once import once
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -65,8 +66,13 @@ def _which(name: str, path: str) -> str | None:
 
 def programs_on_path(environment: Mapping[str, str]) -> set[str]:
     """Return the names of everything on the search path."""
+    path = environment.get("PATH", os.defpath)
+    return once(("programs", path), lambda: _listed(path))
+
+
+def _listed(path: str) -> set[str]:
     names: set[str] = set()
-    for folder in environment.get("PATH", os.defpath).split(os.pathsep):
+    for folder in path.split(os.pathsep):
         try:
             names.update(os.listdir(folder or "."))  # noqa: PTH208 - names are all that is needed
         except OSError:
