@@ -134,7 +134,7 @@ class _Strangers:
 
 def _abbreviated(word: str, known: frozenset[str]) -> str | None:
     """Return the one known word of which another one has the first letter and others in order: `msg` of `message`."""
-    found = [name for name in known if name[0] == word[0].lower() and _is_within(snake(word), name)]
+    found = [name for name in known if name[:1] == word[:1].lower() and _is_within(snake(word), name)]
     return found[0] if len(found) == 1 else None
 
 

@@ -100,6 +100,8 @@ _MISTAKES: dict[str, tuple[str, str | bytes]] = {
         f"the value {value}": ("a.launch.xml", f"<launch><set_parameter name='p' value='{value}'/></launch>")
         for value in ("!!int", "!!float", "!!bool x", "!!timestamp x", "!!binary é", "!!python/none x")
     },
+    "an empty key at the top": ("a.yaml", "'': []\n"),
+    "an empty key": ("a.yaml", "launch:\n- node: {'': a}\n- '': {}\n- {}\n"),
     "two documents": ("a.yaml", "launch: []\n---\nlaunch: []\n"),
     "a file that includes itself": ("a.yaml", "launch:\n- include: {file: a.yaml}\n"),
     "Python that never ends its recursion": (

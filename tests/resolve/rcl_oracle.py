@@ -9,6 +9,7 @@ from __future__ import annotations
 import array
 import ctypes
 import json
+import os
 import sys
 import tempfile
 from pathlib import Path
@@ -190,7 +191,9 @@ def names(name: str) -> Any:
 
 
 def main() -> None:
-    """Answer until the asker closes the pipe."""
+    """Answer until the asker closes the pipe. What libraries print goes to standard error."""
+    answers = os.fdopen(os.dup(sys.stdout.fileno()), "w")
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
     context = rclpy.Context()
     context.init([])
     for line in sys.stdin:
@@ -202,8 +205,8 @@ def main() -> None:
             answer = node(context, **question)
         else:
             answer = names(**question)
-        sys.stdout.write(json.dumps(answer) + "\n")
-        sys.stdout.flush()
+        answers.write(json.dumps(answer) + "\n")
+        answers.flush()
     context.shutdown()
 
 
