@@ -126,7 +126,7 @@ def test_what_has_no_form_is_left(text: str) -> None:
 @pytest.mark.parametrize(
     ("text", "kind", "line"),
     [
-        ("launch:\n  - node: {\n", "launch", 3),
+        ("launch:\n  - node: {\n", "launch", 2),
         ("/**:\n  ros__parameters:\n\ta: 1\n", "parameters", 3),
         ("/**: 'x\n", "parameters", 1),
     ],
