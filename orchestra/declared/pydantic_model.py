@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, PydanticUserError, ValidationError
@@ -11,7 +12,7 @@ from pydantic import BaseModel, PydanticUserError, ValidationError
 from orchestra.declared.judging import missing
 from orchestra.declared.model import Fault
 from orchestra.declared.shape import Level, level, ros_types
-from orchestra.declared.structured import common_faults, settled, structured, undeclared, unlike, unsaid
+from orchestra.declared.structured import faults_with, undeclared
 from orchestra.declared.texts import nearest_text
 from orchestra.declared.typing_of_values import rewritten
 from orchestra.errors import Code
@@ -61,19 +62,8 @@ class _Model:
     root: Level
 
     def faults(self, values: Mapping[str, ParameterValue]) -> Iterator[Fault]:
-        return settled(self._found(values))
-
-    def _found(self, values: Mapping[str, ParameterValue]) -> Iterator[Fault]:
-        found = structured(values, self.root)
-        told: set[str] = set()
-        for fault in _validated(self.model, found):
-            told.add(fault.name)
-            yield fault
-        for fault in unsaid(found, told) if self.model.model_config.get("extra") != "allow" else ():
-            told.add(fault.name)
-            yield fault
-        yield from unlike(found, told)
-        yield from common_faults(values, found)
+        closed = self.model.model_config.get("extra") != "allow"
+        return faults_with(values, self.root, partial(_validated, self.model), closed=closed)
 
 
 def _validated(model: type[BaseModel], found: Structured) -> list[Fault]:

@@ -21,7 +21,7 @@ from orchestra.declared.typing_of_values import is_taken
 from orchestra.values import ParameterValue
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator
 
 # A schema that holds itself has levels without end.
 _MOST_LEVELS: Final = 200
@@ -111,7 +111,37 @@ def _is_within(name: str, group: str) -> bool:
     return name == group or name.startswith(f"{group}.")
 
 
-def settled(faults: Iterable[Fault]) -> Iterator[Fault]:
+def faults_with(
+    values: Mapping[str, ParameterValue],
+    root: Level,
+    said: Callable[[Structured], Iterable[Fault]],
+    *,
+    closed: bool = True,
+) -> Iterator[Fault]:
+    """Yield what a library says of values, and what it passes over and a node would not, without what only follows.
+
+    Without `closed` there may be other names.
+    """
+    return _settled(_every(values, structured(values, root), said, closed=closed))
+
+
+def _every(
+    values: Mapping[str, ParameterValue],
+    found: Structured,
+    said: Callable[[Structured], Iterable[Fault]],
+    *,
+    closed: bool,
+) -> Iterator[Fault]:
+    told: set[str] = set()
+    for faults in (said(found), unsaid(found, told) if closed else ()):
+        for fault in faults:
+            told.add(fault.name)
+            yield fault
+    yield from unlike(found, told)
+    yield from common_faults(values, found)
+
+
+def _settled(faults: Iterable[Fault]) -> Iterator[Fault]:
     """Yield faults without those that follow: what is said to be missing stands there under another name."""
     every = list(faults)
     meant = [fault.meant for fault in every if fault.kind == "undeclared" and fault.meant is not None]

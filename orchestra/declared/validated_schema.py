@@ -14,7 +14,7 @@ from orchestra.declared.judging import missing
 from orchestra.declared.model import Fault, ParameterSchema
 from orchestra.declared.plain_schema import NUMERIC
 from orchestra.declared.shape import Level, level
-from orchestra.declared.structured import common_faults, settled, structured, undeclared, unlike, unsaid
+from orchestra.declared.structured import faults_with, undeclared
 from orchestra.declared.texts import nearest_text
 from orchestra.declared.typing_of_values import rewritten
 from orchestra.errors import Code, Problems
@@ -65,20 +65,11 @@ class _Schema:
     root: Level
 
     def faults(self, values: Mapping[str, ParameterValue]) -> Iterator[Fault]:
-        return settled(self._found(values))
+        return faults_with(values, self.root, self._found)
 
-    def _found(self, values: Mapping[str, ParameterValue]) -> Iterator[Fault]:
-        found = structured(values, self.root)
-        told: set[str] = set()
+    def _found(self, found: Structured) -> Iterator[Fault]:
         for error in self._errors(found):
-            for fault in _faults_of(error, found):
-                told.add(fault.name)
-                yield fault
-        for fault in unsaid(found, told):
-            told.add(fault.name)
-            yield fault
-        yield from unlike(found, told)
-        yield from common_faults(values, found)
+            yield from _faults_of(error, found)
 
     def _errors(self, found: Structured) -> list[Any]:
         try:
