@@ -9,10 +9,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.seam import connected
-from orchestra.compat.suggestions import in_place
 from orchestra.errors import Code, DescriptionError, Problem, Problems
 from orchestra.load.files import load
-from orchestra.location import displayed, point
+from orchestra.location import displayed, is_python, point
 from orchestra.plan.build import build
 from orchestra.plan.relocated import relocated
 from orchestra.resolve import launch_files
@@ -124,7 +123,7 @@ def opened(
                 resolved = _symbolic(carry_through(description, run), isolation.files)
                 _warn_of_remaining(path, isolation, problems)
                 launch = Launch(build(resolved, problems, digests=digests), run, isolation.files)
-            problems.amend(in_place)
+            _point_into_code(problems)
             settle(problems, path, inputs.severity, bare=_is_bare(path))
             if launch is not None:
                 launch.plan = replace(launch.plan, problems=problems.ordered)
@@ -135,6 +134,15 @@ def _is_bare(path: str) -> bool:
     """Tell whether no settings can count for a file, which those beside it share."""
     folder = os.path.dirname(os.path.abspath(path))  # noqa: PTH100, PTH120 - pathlib is slow
     return once(("settings", folder), lambda: without_settings(f"{folder}/file"))
+
+
+def _point_into_code(problems: Problems) -> None:
+    """Let problems of Python files stand at the text that is wrong."""
+    if any(problem.span is not None and is_python(problem.span) for problem in problems):
+        # It takes time to import, and only problems of such files need it.
+        from orchestra.compat.suggestions import in_place  # noqa: PLC0415
+
+        problems.amend(in_place)
 
 
 def _warn_of_remaining(path: str, isolation: Isolation, problems: Problems) -> None:

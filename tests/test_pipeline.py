@@ -129,3 +129,21 @@ def test_the_garbage_collector_is_left_as_it_was(tmp_path: Path) -> None:
         assert not gc.isenabled()
     finally:
         gc.enable()
+
+
+def test_what_only_explains_faults_is_not_imported_where_there_is_none() -> None:
+    program = (
+        "import sys\n"
+        "from orchestra.pipeline import inputs_from, make_plan\n"
+        "make_plan('bringup/two_robots.yaml', inputs_from([], environment={}))\n"
+        "print([name for name in sys.argv[1:] if name in sys.modules])\n"
+    )
+    explaining = (
+        "orchestra.compat.suggestions",
+        "orchestra.compat.syntax_trees",
+        "orchestra.load.yaml_faults",
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", program, *explaining], capture_output=True, text=True, check=True, cwd=_ROOT
+    )
+    assert done.stdout == "[]\n"

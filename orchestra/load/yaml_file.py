@@ -17,7 +17,6 @@ from orchestra.errors import Code
 from orchestra.load.faults import Fault
 from orchestra.load.offsets import Source, source, spans_of
 from orchestra.load.reader import Reader
-from orchestra.load.yaml_faults import explained
 
 if TYPE_CHECKING:
     from orchestra.location import Span
@@ -46,6 +45,9 @@ def read(text: str, file: str, reader: Reader) -> Any | None:  # noqa: ANN401 - 
         _refuse(error.fault, reader)
         return None
     except yaml.YAMLError as error:
+        # Most files are YAML, and what explains why one is none takes time to import.
+        from orchestra.load.yaml_faults import explained  # noqa: PLC0415
+
         _refuse(explained(error, whole), reader)
         return None
     if node is None:

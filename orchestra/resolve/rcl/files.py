@@ -14,7 +14,6 @@ import yaml
 
 from orchestra.errors import Code, Problems
 from orchestra.load.offsets import source
-from orchestra.load.yaml_faults import explained
 from orchestra.location import Location, Span
 from orchestra.resolve.rcl.duplicates import report_duplicates
 from orchestra.resolve.rcl.reader import Reader, Unreadable
@@ -66,6 +65,9 @@ def _read(
             sound = len(found)
             reader.take(event)
     except yaml.YAMLError as error:
+        # Most files are YAML, and what explains why one is none takes time to import.
+        from orchestra.load.yaml_faults import explained  # noqa: PLC0415
+
         fault = explained(error, source(file, text))
         problems.extend(_before(fault.span, [*found][:sound]))
         at = Location(fault.span, included_from)
