@@ -8,7 +8,6 @@ from difflib import unified_diff
 
 import pytest
 
-from orchestra.location import Location, Span
 from orchestra.plan import codec
 from orchestra.plan.conditions import (
     Alive,
@@ -19,7 +18,6 @@ from orchestra.plan.conditions import (
     TransformFact,
 )
 from orchestra.plan.model import (
-    VERSION,
     Argument,
     Component,
     ParameterFile,
@@ -46,11 +44,8 @@ from orchestra.plan.reactions import (
 from orchestra.plan.render.details import process_details
 from orchestra.plan.render.formats import FORMATS
 from orchestra.values import Limits, Restart, Stop
-
-
-def _at(line: int) -> Location:
-    return Location(Span("two.yaml", line, 5, line, 9))
-
+from tests.plan import records
+from tests.plan.records import at, process
 
 _TALKER = Process(
     id="/robot1/talker",
@@ -78,44 +73,21 @@ _TALKER = Process(
     ready=Ready(None, "/robot1/chatter", 5.0),
     alive=None,
     lifecycle=None,
-    depends_on=(Dependency("/clock", "ready", 20.0, _at(9)), Dependency("/other", "exited", None, _at(9))),
+    depends_on=(Dependency("/clock", "ready", 20.0, at(9)), Dependency("/other", "exited", None, at(9))),
     stop=Stop("SIGTERM", 2.0, 0.5),
     limits=None,
     warm=None,
     machine=None,
     digest="d",
-    location=_at(7),
+    location=at(7),
     provenance=Provenance(),
 )
 
 
 def _bare(identity: str, namespace: str | None, *, by_shell: bool = False) -> Process:
-    return replace(
-        _TALKER,
-        id=identity,
-        kind="process",
-        package=None,
-        namespace=namespace,
-        command=("echo", "$HOME"),
-        shell=by_shell,
-        environment={},
-        inherit_environment=True,
-        cwd=None,
-        parameters={},
-        parameter_files=(),
-        remappings=(),
-        output=None,
-        restart=None,
-        required=False,
-        ready=None,
-        depends_on=(),
-        stop=None,
-        location=_at(3),
+    return process(
+        identity, "echo", "$HOME", executable=_TALKER.executable, namespace=namespace, shell=by_shell
     )
-
-
-def _plan(*processes: Process) -> Plan:
-    return Plan(VERSION, "two.yaml", (), processes, (), (), (), ())
 
 
 def _text(plan: Plan) -> str:
@@ -123,7 +95,7 @@ def _text(plan: Plan) -> str:
 
 
 def test_a_process_in_full() -> None:
-    assert _text(_plan(_TALKER)) == (
+    assert _text(records.plan(_TALKER)) == (
         "two.yaml: 1 process\n"
         "\n"
         "processes\n"
@@ -151,7 +123,7 @@ def test_a_process_in_full() -> None:
 
 
 def test_the_tree_follows_the_namespaces_and_keeps_the_order_of_the_plan() -> None:
-    plan = _plan(
+    plan = records.plan(
         _bare("/b/deep/x", "/b/deep"),
         _bare("/root", "/"),
         _bare("sh", None, by_shell=True),
@@ -174,35 +146,35 @@ def test_the_tree_follows_the_namespaces_and_keeps_the_order_of_the_plan() -> No
 
 
 def test_a_node_more_changes_no_other_line() -> None:
-    one = _text(_plan(_bare("/a", "/"), _bare("/c", "/"))).splitlines()
-    two = _text(_plan(_bare("/a", "/"), _bare("/b", "/"), _bare("/c", "/"))).splitlines()
+    one = _text(records.plan(_bare("/a", "/"), _bare("/c", "/"))).splitlines()
+    two = _text(records.plan(_bare("/a", "/"), _bare("/b", "/"), _bare("/c", "/"))).splitlines()
     changed = [line for line in unified_diff(one[1:], two[1:], n=0, lineterm="") if line[0] in "+-"]
     assert changed[2:] == ["+    /b  (process, two.yaml:3:5)", "+      command     echo '$HOME'"]
 
 
 _REACTIONS: tuple[tuple[TriggerEvent, TriggeredAction], ...] = (
-    (TriggerEvent("process_started"), LoadAction("/c", _at(7))),
-    (TriggerEvent("process_completed", "/a"), StopAction(("/a", "/b"), _at(7))),
-    (TriggerEvent("process_output", "/a", "stderr"), SignalAction(("/a",), "SIGUSR1", _at(7))),
-    (TriggerEvent("process_output", "/a"), RegisterAction("t5", _at(7))),
+    (TriggerEvent("process_started"), LoadAction("/c", at(7))),
+    (TriggerEvent("process_completed", "/a"), StopAction(("/a", "/b"), at(7))),
+    (TriggerEvent("process_output", "/a", "stderr"), SignalAction(("/a",), "SIGUSR1", at(7))),
+    (TriggerEvent("process_output", "/a"), RegisterAction("t5", at(7))),
     (
         TriggerEvent("state_changed", "/a", transition="configure", goal_state="inactive"),
-        ChangeStateAction(("/a",), (1, 3), _at(7)),
+        ChangeStateAction(("/a",), (1, 3), at(7)),
     ),
-    (TriggerEvent("shutdown"), UnregisterAction("t1", _at(7))),
-    (TriggerEvent("run_started"), DeferredAction(1, _at(7))),
+    (TriggerEvent("shutdown"), UnregisterAction("t1", at(7))),
+    (TriggerEvent("run_started"), DeferredAction(1, at(7))),
 )
 
 
 def test_arguments_components_triggers_and_what_was_left_out() -> None:
     start, ended = TriggerEvent("run_started"), TriggerEvent("process_exited", "/a")
     plan = replace(
-        _plan(),
+        records.plan(),
         arguments=(
-            Argument("world", "arena", "big maze", "which", ("arena", "big maze"), _at(1)),
-            Argument("speed", "1.0", "1.0", None, None, _at(2)),
-            Argument("robot", None, None, None, None, _at(2)),
-            Argument("log", "$(dirname)/log", "/x/log", None, None, _at(2)),
+            Argument("world", "arena", "big maze", "which", ("arena", "big maze"), at(1)),
+            Argument("speed", "1.0", "1.0", None, None, at(2)),
+            Argument("robot", None, None, None, None, at(2)),
+            Argument("log", "$(dirname)/log", "/x/log", None, None, at(2)),
         ),
         components=(
             Component(
@@ -218,22 +190,20 @@ def test_arguments_components_triggers_and_what_was_left_out() -> None:
                 remappings=(("a", "b"),),
                 extra_arguments={"use_intra_process_comms": True},
                 lifecycle=None,
-                location=_at(4),
+                location=at(4),
                 provenance=Provenance(),
             ),
         ),
         triggers=(
-            Trigger(
-                "t1", start, (LogAction("it's up", _at(5)), StartAction("/b", _at(5))), 2.5, False, _at(5)
-            ),
-            Trigger("t2", ended, (ShutdownAction("/a ended", _at(6)),), None, False, _at(6)),
-            Trigger("t3", ended, (DeferredAction(0, _at(6)),), None, True, _at(6)),
+            Trigger("t1", start, (LogAction("it's up", at(5)), StartAction("/b", at(5))), 2.5, False, at(5)),
+            Trigger("t2", ended, (ShutdownAction("/a ended", at(6)),), None, False, at(6)),
+            Trigger("t3", ended, (DeferredAction(0, at(6)),), None, True, at(6)),
             *(
-                Trigger(f"t{number}", event, (action,), None, False, _at(7), armed=number > 5, once=True)
+                Trigger(f"t{number}", event, (action,), None, False, at(7), armed=number > 5, once=True)
                 for number, (event, action) in enumerate(_REACTIONS, 4)
             ),
         ),
-        skipped=(Skipped("node", "gui", "if", "$(var gui)", "false", _at(8)),),
+        skipped=(Skipped("node", "gui", "if", "$(var gui)", "false", at(8)),),
     )
     assert _text(plan) == (
         "two.yaml: 1 component, 10 triggers\n"
@@ -269,17 +239,17 @@ def test_arguments_components_triggers_and_what_was_left_out() -> None:
 
 def test_lines_of_a_program_stand_below_each_other_and_long_texts_are_cut() -> None:
     process = replace(_TALKER, command=("python3", "-c", "a\nb"), parameters={"urdf": "x" * 5000})
-    text = _text(_plan(process))
+    text = _text(records.plan(process))
     assert "        command     python3 -c 'a\n                    b'\n" in text
     assert f'        parameters  urdf: "{"x" * 399} ... (4602 more characters, see --format json)\n' in text
 
 
 def test_a_plan_of_nothing_says_so() -> None:
-    assert _text(_plan()) == "two.yaml: nothing to run\n"
+    assert _text(records.plan()) == "two.yaml: nothing to run\n"
 
 
 def test_a_log_condition_is_shown_as_an_expression() -> None:
-    plan = _plan(replace(_bare("/a", "/"), ready=Ready("up .*", None, None)))
+    plan = records.plan(replace(_bare("/a", "/"), ready=Ready("up .*", None, None)))
     assert "ready       at a line of output that matches 'up .*'\n" in _text(plan)
 
 
@@ -327,7 +297,7 @@ def test_signs_of_life_limits_and_dependencies_are_said() -> None:
         alive=alive,
         stdin=True,
         restart=Restart("always", growth=1.5, jitter=0.25),
-        depends_on=(Dependency("/clock", "ready", 20.0, _at(9), required=False),),
+        depends_on=(Dependency("/clock", "ready", 20.0, at(9), required=False),),
         limits=Limits(
             (0, 1, 2, 6, 8),
             True,
@@ -371,10 +341,10 @@ def _said(process: Process, label: str) -> list[str]:
 
 @pytest.mark.parametrize("name", sorted(FORMATS))
 def test_the_same_plan_gives_the_same_text(name: str) -> None:
-    plan = _plan(_TALKER, _bare("/a", "/"))
+    plan = records.plan(_TALKER, _bare("/a", "/"))
     assert FORMATS[name](plan) == FORMATS[name](codec.loads(codec.dumps(plan)))
 
 
 def test_json_is_the_plan_itself() -> None:
-    plan = _plan(_TALKER)
+    plan = records.plan(_TALKER)
     assert json.loads(FORMATS["json"](plan)) == codec.encode(plan)
