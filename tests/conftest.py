@@ -10,6 +10,7 @@ import uuid
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+import hypothesis
 import pytest
 
 if TYPE_CHECKING:
@@ -21,8 +22,13 @@ _MARK = b"ORCHESTRA_RUN="
 # As long as Orchestra itself may take to end everything.
 _PATIENCE = 6.0
 
+hypothesis.settings.register_profile("steady", derandomize=True)
 
-def pytest_configure() -> None:
+
+def pytest_configure(config: pytest.Config) -> None:
+    # The same code is tried with the same examples each time; the long checks look for others in every run.
+    if config.option.markexpr == "not long" and not config.getoption("--hypothesis-profile"):
+        hypothesis.settings.load_profile("steady")
     os.environ[_SESSION] = uuid.uuid4().hex
     # The control sockets of this session's runs, among which no other's are, nor those of the user.
     os.environ["XDG_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="orchestra-tests-")

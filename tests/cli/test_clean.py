@@ -87,7 +87,8 @@ def test_clean_asks_where_nobody_can_answer_and_ends_them_with_yes(
     (directory,) = (home / "runs").iterdir()
     path = door.linked(directory)
     assert path is not None
-    assert door.is_stale(path)
+    # A process is as good as dead before the last of its threads has let go of its files.
+    wait_for(lambda: door.is_stale(path), "the end of the supervisor's socket")
     found = orchestra("clean")
     assert found.returncode == 1
     assert "'orchestra clean --yes' ends them" in found.stderr

@@ -285,7 +285,7 @@ def _as_grave(plan: Planned) -> set[tuple[str, str]]:
 
     How many there are of a kind is not compared: several in one call of Python may be at one place. Nor are arguments
     that nobody reads: code in which the name stands as a text, of a parameter say, is taken to read it. Nor is what
-    working Python files have much of: keys and remaps that do nothing, defaults that never count.
+    working Python files have much of: keys and remaps that do nothing, defaults that never count, parameters that stand in a list twice.
     """
     twice = Code.DUPLICATE_NODE.value
     silent = {
@@ -293,6 +293,7 @@ def _as_grave(plan: Planned) -> set[tuple[str, str]]:
         Code.IDLE_KEY.value,
         Code.SHADOWED_ARGUMENT.value,
         Code.IDLE_REMAP.value,
+        Code.DUPLICATE_PARAMETER.value,
     }
     return {
         (code, "error" if code == twice else severity)
