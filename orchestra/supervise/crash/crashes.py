@@ -35,9 +35,9 @@ if TYPE_CHECKING:
     from pathlib import Path
 
     from orchestra.plan.model import Process
+    from orchestra.supervise.process.child import Child
     from orchestra.supervise.process.ending import Ending
     from orchestra.supervise.process.life import Rules, State
-    from orchestra.supervise.process.spawn import Child
     from orchestra.supervise.surroundings import Surroundings
 
 FOLDER, REPORT, TEXT = "crash", "report.json", "report.txt"

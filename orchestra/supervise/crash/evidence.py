@@ -18,8 +18,8 @@ if TYPE_CHECKING:
 
     from orchestra.plan.model import Process
     from orchestra.supervise.limits.confines import Confines
+    from orchestra.supervise.process.child import Child
     from orchestra.supervise.process.ending import Ending
-    from orchestra.supervise.process.spawn import Child
 
 # The signals for which the kernel writes a core file (signal(7)).
 _DUMPING = frozenset(

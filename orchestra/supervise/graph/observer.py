@@ -12,13 +12,14 @@ from orchestra.supervise.keeping.kin import send_to_groups
 from orchestra.supervise.output.outbox import Outbox
 from orchestra.supervise.output.stream import Stream
 from orchestra.supervise.process.ending import Ending
-from orchestra.supervise.process.spawn import Child, spawn
+from orchestra.supervise.process.spawn import spawn
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
     from orchestra.supervise.keeping.kin import Kin
     from orchestra.supervise.loop import Loop
+    from orchestra.supervise.process.child import Child
     from orchestra.supervise.process.spec import Spec
 
     # Who hears a message of it, and why it is lost.

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
     from typing import TypeAlias
 
-    from orchestra.supervise.process.spawn import Child
+    from orchestra.supervise.process.child import Child
     from orchestra.supervise.surroundings import Surroundings
 
     # Of a stream: its name and a piece of text.

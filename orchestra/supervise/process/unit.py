@@ -32,7 +32,7 @@ if TYPE_CHECKING:
     from orchestra.supervise.keeping.kin import Adopted
     from orchestra.supervise.loop import Timer
     from orchestra.supervise.output.attachment import Attachment
-    from orchestra.supervise.process.spawn import Child
+    from orchestra.supervise.process.child import Child
     from orchestra.supervise.surroundings import Listener, Surroundings
 
 # Enough for the stacks of an interpreter that has crashed.
