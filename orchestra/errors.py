@@ -166,9 +166,11 @@ class Problems:
             self.report(problem)
 
     def amend(self, amended: Callable[[Problem], Problem | None]) -> None:
-        """Put another problem in place of each, or none."""
-        found = ((key, amended(problem)) for key, problem in self._found.items())
-        self._found = {key: problem for key, problem in found if problem is not None}
+        """Put another problem in place of each, or none; those that come to be the same are one."""
+        found, self._found = self._found, {}
+        for problem in map(amended, found.values()):
+            if problem is not None:
+                self.report(problem)
 
     def __iter__(self) -> Iterator[Problem]:
         return iter(self._found.values())

@@ -7,6 +7,7 @@ import inspect
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.place import Key, ValueOf
+from orchestra.compat.source_text import part_in
 from orchestra.compat.syntax_trees import Tree, node_span, tree_of
 
 if TYPE_CHECKING:
@@ -98,8 +99,10 @@ class Literal:
         """The texts of the expression and of those that its names stand for, and where each first stands."""
         found: dict[str, Span] = {}
         if self.node is not None and self._tree is not None:
-            for text in _texts_in(self.node, self._tree):
-                found.setdefault(str(text.value), node_span(self.file, text))
+            for text, around in _texts_in(self.node, self._tree):
+                span = node_span(self.file, text) if around is None else _text_in(self.file, around, text)
+                if span is not None:
+                    found.setdefault(str(text.value), span)
         return found
 
     def step(self, step: Step) -> Literal:
@@ -199,21 +202,27 @@ class Literal:
         return None
 
 
-def _texts_in(node: ast.AST, tree: Tree) -> Iterator[ast.Constant]:
-    """Yield the texts of an expression, and of those that its names stand for."""
+def _text_in(file: str, around: ast.JoinedStr, text: ast.Constant) -> Span | None:
+    """Return where a text stands in an f-string, None where escapes hide it: up to 3.11 it has no place of its own."""
+    return part_in(file, node_span(file, around), str(text.value))
+
+
+def _texts_in(node: ast.AST, tree: Tree) -> Iterator[tuple[ast.Constant, ast.JoinedStr | None]]:
+    """Yield the texts of an expression, and of those that its names stand for; with the f-string around each."""
     seen: set[int] = set()
-    waiting = [node]
+    waiting: list[tuple[ast.AST, ast.JoinedStr | None]] = [(node, None)]
     while waiting:
-        found = waiting.pop(0)
+        found, around = waiting.pop(0)
         if isinstance(found, ast.Name):
             found = tree.meaning(found)
         if id(found) in seen:
             continue
         seen.add(id(found))
         if isinstance(found, ast.Constant) and isinstance(found.value, str):
-            yield found
+            yield found, around
         if not isinstance(found, ast.FormattedValue):
-            waiting.extend(ast.iter_child_nodes(found))
+            inside = found if isinstance(found, ast.JoinedStr) else None
+            waiting.extend((child, inside) for child in ast.iter_child_nodes(found))
 
 
 def _sides(pair: ast.expr) -> tuple[ast.expr, ast.expr]:

@@ -29,6 +29,15 @@ def word_in(file: str, span: Span, word: str) -> Span | None:
     return found[-1] if found else None
 
 
+def part_in(file: str, span: Span, text: str) -> Span | None:
+    """Return where a text stands in a range of a file, the first time it does; None where it does not."""
+    for line, begin, source in _lines(file, span):
+        at = source.find(text, begin) if text else -1
+        if at >= 0:
+            return _part(span, line, at, at + len(text))
+    return None
+
+
 def quoted_in(file: str, span: Span) -> dict[str, Span]:
     """Return the texts in quotes in a range of a file, and where they stand without them, the first time they do."""
     found: dict[str, Span] = {}

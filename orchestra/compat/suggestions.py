@@ -110,7 +110,7 @@ def _replaced(texts: dict[str, Span], meant: str) -> Iterator[tuple[Span, str]]:
     if near is not None and "$(" not in meant and near.count("/") == meant.count("/"):
         yield texts[near], meant
     for text, place in texts.items():
-        if text in meant:
+        if _stands(text, meant):
             continue
         part = nearest(text, _parts(meant, text))
         if part is not None:

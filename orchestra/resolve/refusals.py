@@ -62,8 +62,8 @@ def refuse_value(
     A value that came through variables is hardly anything but a slip where something near it was meant: then the place
     is that where it was written; else that where it is used, with a note where it was set.
     """
-    origin = value.location if value.verbatim else _origin(value)
-    if meant is not None and origin is not None and not is_python(value.location):
+    origin = value.location if value.verbatim else _origin(value) or _set_by_code(value)
+    if meant is not None and origin is not None:
         used = () if value.verbatim else (f"it is used at {value.location}",)
         problems.error(code, told, origin, suggestion=meant, notes=(*notes, *used))
         return POISON
@@ -83,6 +83,14 @@ def _origin(value: Value) -> Location | None:
             return reads[0].written
         reads = reads[0].through
     return None
+
+
+def _set_by_code(value: Value) -> Location | None:
+    """Return where code in Python sets the one variable that a value is; what is wrong is found in that code."""
+    reads, found = value.through, None
+    while len(reads) == 1 and reads[0].kind == "variable" and reads[0].value == value.text:
+        found, reads = reads[0].location, reads[0].through
+    return found if found is not None and is_python(found) else None
 
 
 def _sources(through: Iterable[Read]) -> Iterator[str]:
