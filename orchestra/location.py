@@ -4,11 +4,31 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, Final, Protocol
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
 
 
-@dataclass(frozen=True, slots=True, order=True)
+class Whole(Protocol):
+    """The text of a file, in which every offset has a place."""
+
+    @property
+    def file(self) -> str:
+        """The file, as it is shown to people."""
+
+    def place(self, offset: int) -> tuple[int, int]:
+        """Return the 1-based line and column of an offset in code points."""
+
+
+@dataclass(frozen=True, order=True)
 class Span:
-    """A range of text. Lines and columns are 1-based, columns count code points, the end is exclusive."""
+    """A range of text. Lines and columns are 1-based, columns count code points, the end is exclusive.
+
+    Of the many that a file has few are ever shown: one that is given by offsets gets its fields when the first is read.
+    """
+
+    __slots__ = ("_offsets", "column", "end_column", "end_line", "file", "line")
 
     file: str
     line: int
@@ -18,6 +38,33 @@ class Span:
 
     def __str__(self) -> str:
         return f"{self.file}:{self.line}:{self.column}"
+
+    def __reduce__(self) -> tuple[type[Span], tuple[str, int, int, int, int]]:
+        return Span, (self.file, self.line, self.column, self.end_line, self.end_column)
+
+    if not TYPE_CHECKING:  # for type checkers there are the fields above and no others
+
+        def __getattr__(self, name: str) -> str | int:
+            if name not in _FIELDS:
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+            whole, begin, end = self._offsets
+            for known, value in zip(
+                _FIELDS, (whole.file, *whole.place(begin), *whole.place(end)), strict=True
+            ):
+                object.__setattr__(self, known, value)
+            return object.__getattribute__(self, name)
+
+
+_FIELDS: Final = ("file", "line", "column", "end_line", "end_column")
+_new = Span.__new__
+_set_offsets: Callable[[Span, tuple[Whole, int, int]], None] = Span._offsets.__set__  # type: ignore[attr-defined] # noqa: SLF001
+
+
+def stretch(whole: Whole, begin: int, end: int) -> Span:
+    """Return the span between two offsets of a text, in code points."""
+    span = _new(Span)
+    _set_offsets(span, (whole, begin, end))
+    return span
 
 
 @dataclass(frozen=True, slots=True)

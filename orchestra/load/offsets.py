@@ -5,12 +5,15 @@ from __future__ import annotations
 import re
 from bisect import bisect_right
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
-from orchestra.location import Span
+from orchestra.location import stretch
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+
+    from orchestra.location import Span
 
 _BREAKS = "\n\r\x85\u2028\u2029"
 _BREAK = re.compile(f"\r\n|[{_BREAKS}]")
@@ -18,13 +21,17 @@ _PROPERTIES = re.compile(r"([!&]\S*\s+)*")
 _HEXADECIMAL = {"x": 2, "u": 4, "U": 8}
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True)
 class Source:
-    """The text of a file and the offsets at which its lines begin."""
+    """The text of a file."""
 
     file: str
     text: str
-    lines: tuple[int, ...]
+
+    @cached_property
+    def lines(self) -> tuple[int, ...]:
+        """The offsets at which its lines begin."""
+        return (0, *(found.end() for found in _BREAK.finditer(self.text)))
 
     def place(self, offset: int) -> tuple[int, int]:
         """Return the 1-based line and column of an offset in code points."""
@@ -38,12 +45,12 @@ class Source:
 
     def span(self, start: int, end: int) -> Span:
         """Return the span between two offsets."""
-        return Span(self.file, *self.place(start), *self.place(end))
+        return stretch(self, start, end)
 
 
 def source(file: str, text: str) -> Source:
-    """Return the text of a file with its lines."""
-    return Source(file, text, (0, *(found.end() for found in _BREAK.finditer(text))))
+    """Return the text of a file."""
+    return Source(file, text)
 
 
 def spans_of(
