@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass, field, fields
+from dataclasses import field, fields
 from typing import Any, Literal, TypeAlias
+
+from orchestra.dataclass import dataclass
 
 Kind: TypeAlias = Literal[
     "run_started",  # data: run, name, directory, file

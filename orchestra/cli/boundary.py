@@ -13,11 +13,11 @@ from __future__ import annotations
 
 import os
 import sys
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeVar
 
 from orchestra.cli import colour, launch_prefix
 from orchestra.cli.problems.formats import FORMATS
+from orchestra.dataclass import dataclass
 from orchestra.errors import DescriptionError, RunError, UsageError
 
 if TYPE_CHECKING:

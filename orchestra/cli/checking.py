@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import json
 import os
-from dataclasses import dataclass
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
@@ -12,6 +11,7 @@ from orchestra.cli.look.finding import Finding
 from orchestra.cli.look.kept import Kept
 from orchestra.cli.look.pool import Done, Lost, Pool
 from orchestra.cli.targets import Target
+from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problem, Problems
 from orchestra.location import displayed, point
 from orchestra.settings.settle import comments_in, unused

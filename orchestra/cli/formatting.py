@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import difflib
 import sys
-from dataclasses import dataclass, field
+from dataclasses import field
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
 from orchestra.cli import boundary
 from orchestra.cli.targets import kind_of
+from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.formatting.formatted import formatted
 from orchestra.formatting.refusal import NotFormatted

@@ -6,12 +6,12 @@ import os
 import re
 import sys
 from collections import deque
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from orchestra.cli import colour, past, runs
 from orchestra.cli.following import looks
 from orchestra.cli.parser import CommandParser
+from orchestra.dataclass import dataclass
 from orchestra.errors import RunError, UsageError
 from orchestra.logs import records
 from orchestra.logs.names import shown

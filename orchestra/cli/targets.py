@@ -8,11 +8,11 @@ from __future__ import annotations
 
 import os
 import re
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from orchestra.cli.walking import files_of_project
+from orchestra.dataclass import dataclass
 from orchestra.errors import Problems, UsageError
 from orchestra.location import is_file
 from orchestra.resolve.launch_files import TEXTS, is_launch_name, is_launch_text

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import Any, Final
 
+from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Severity
 from orchestra.location import Span
 

@@ -10,11 +10,11 @@ import os
 import select
 import signal
 import time
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from orchestra.control import door
 from orchestra.control.place import ENDING, folders
+from orchestra.dataclass import dataclass
 from orchestra.logs.names import shown
 from orchestra.supervise.keeping import proc, shared_memory
 from orchestra.supervise.keeping.marks import PROCESS, RUN, run_of

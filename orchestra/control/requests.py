@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import signal
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import fields
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.control import protocol
@@ -25,6 +25,7 @@ from orchestra.control.protocol import Refusal
 from orchestra.control.selection import UnmatchedError, select
 from orchestra.control.subscribers import Subscribers
 from orchestra.control.waiting import Waiting
+from orchestra.dataclass import dataclass
 from orchestra.supervise.operation import Operation, Standing
 
 if TYPE_CHECKING:

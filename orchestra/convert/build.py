@@ -6,7 +6,6 @@ An action that the language has no word for is told and left out; with `partial`
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from orchestra.convert.argv import joined, words_of
@@ -19,6 +18,7 @@ from orchestra.convert.texts import written
 from orchestra.convert.tree import Entry, Item, Mapping, Notes, Scalar, Sequence, Style
 from orchestra.convert.typed import type_word
 from orchestra.convert.words import name_of, ordered
+from orchestra.dataclass import dataclass
 from orchestra.description.actions.set_parameter import SetParameter
 from orchestra.description.conditions import Alive, ParameterFact, Ready
 from orchestra.description.entity import Action, Entity

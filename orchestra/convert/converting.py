@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import tempfile
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -17,6 +17,7 @@ from orchestra.convert.recovered import recovered
 from orchestra.convert.remarks import Remark, Remarks, UnsayableError
 from orchestra.convert.unfolded import unfolded
 from orchestra.convert.writers import WRITERS
+from orchestra.dataclass import dataclass
 from orchestra.description.launch import Description
 from orchestra.errors import DescriptionError, UsageError
 

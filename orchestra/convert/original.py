@@ -9,13 +9,14 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass, field
+from dataclasses import field
 from importlib.util import decode_source
 from pathlib import Path
 from typing import TYPE_CHECKING
 from warnings import catch_warnings, filterwarnings
 
 from orchestra.compat.seam import connected
+from orchestra.dataclass import dataclass
 from orchestra.description.entity import Action
 from orchestra.description.text import Template
 from orchestra.errors import DescriptionError, Problems

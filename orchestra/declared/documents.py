@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 import yaml
 
+from orchestra.dataclass import dataclass
 from orchestra.errors import Code
 from orchestra.location import Location, Span, displayed, point
 

@@ -8,9 +8,10 @@ generate_parameter_library (YAML syntax, mapped parameters, validators).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.dataclass import dataclass
 from orchestra.declared.documents import Document
 from orchestra.declared.generated_rules import RULES, element_of, rule_of
 from orchestra.declared.judging import DeclaredParameters, value_faults

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from itertools import product
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.declared.common import COMMON, is_common
 from orchestra.declared.misnamed import misnamed
 from orchestra.declared.model import Declarations, Fault, Parameter

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Literal, Protocol, TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.declared.rules import Rule
 from orchestra.values import ParameterValue
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from pydantic import BaseModel, PydanticUserError, ValidationError
 
+from orchestra.dataclass import dataclass
 from orchestra.declared.judging import missing
 from orchestra.declared.model import Fault
 from orchestra.declared.shape import Level, level, ros_types

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from functools import lru_cache
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
+from orchestra.dataclass import dataclass
 from orchestra.declared.documents import Document, read_document
 from orchestra.declared.kinds import is_definition, is_schema
 from orchestra.errors import Code, Problems

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.declared.texts import listed, nearest_text, shown
 from orchestra.values import Scalar
 

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.declared.plain_schema import NUMERIC, ROS_TYPE, TYPES
 
 if TYPE_CHECKING:

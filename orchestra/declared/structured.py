@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.dataclass import dataclass
 from orchestra.declared.common import is_common
 from orchestra.declared.judging import of_every_node, wrong_type
 from orchestra.declared.misnamed import misnamed

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 from urllib.parse import unquote, urlparse
 
+from orchestra.dataclass import dataclass
 from orchestra.declared.documents import read_document
 from orchestra.declared.judging import missing
 from orchestra.declared.model import Fault, ParameterSchema

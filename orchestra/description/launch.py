@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from pydantic import Field
 
+from orchestra.dataclass import dataclass
 from orchestra.description.entity import Action, Entity
 from orchestra.description.fields import Literal
 from orchestra.description.nested import Children

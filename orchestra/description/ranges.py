@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from pydantic_core import CoreSchema, core_schema
 
+from orchestra.dataclass import dataclass
 from orchestra.description.fields import constant_of
 
 if TYPE_CHECKING:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from pydantic_core import CoreSchema, core_schema
 
+from orchestra.dataclass import dataclass
 from orchestra.description.source import Keyed, Written
 from orchestra.description.text import Template
 

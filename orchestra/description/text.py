@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, Self, TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.location import Span
 from orchestra.values import ParameterValue
 

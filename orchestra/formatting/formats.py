@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import PurePath
 from typing import Any, Final
 
 import yaml
 
+from orchestra.dataclass import dataclass
 from orchestra.errors import Problems
 from orchestra.formatting.xml_layout import xml_formatted
 from orchestra.formatting.xml_same import xml_sense

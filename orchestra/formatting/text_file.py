@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import codecs
 import re
-from dataclasses import dataclass
 
+from orchestra.dataclass import dataclass
 from orchestra.formatting.refusal import NotFormatted
 from orchestra.load.encodings import DECLARED, decoded
 

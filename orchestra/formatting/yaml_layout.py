@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.formatting.yaml_flow import filled, is_table, key_text, one_line, table
 from orchestra.formatting.yaml_nodes import File, Mapping, Node, Scalar, Sequence
 from orchestra.formatting.yaml_page import Page

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from bisect import bisect_left
-from dataclasses import dataclass
 from operator import attrgetter
 from typing import TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.formatting.yaml_comments import Comment
 
 

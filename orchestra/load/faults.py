@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from orchestra.dataclass import dataclass
 from orchestra.errors import Code
 from orchestra.location import Span
 

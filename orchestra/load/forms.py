@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import types
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from enum import Enum, auto
 from functools import cache
 from typing import Annotated, Any, Union, get_args, get_origin
 
+from orchestra.dataclass import dataclass
 from orchestra.description.entity import Action, Entity
 from orchestra.description.short import Short
 from orchestra.description.text import Template

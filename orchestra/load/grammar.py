@@ -12,9 +12,9 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
+from orchestra.dataclass import dataclass
 from orchestra.description.substitutions import SIGNATURES
 from orchestra.description.text import Call, Template, Words
 from orchestra.errors import Code, Problems

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from orchestra.dataclass import dataclass
 from orchestra.description.entity import REPORTED
 from orchestra.description.fields import STRAY_KEY
 from orchestra.description.source import Keyed, Listed, Written, kind_of
@@ -65,7 +66,7 @@ class Reader:
         if "${" in text or "$[" in text:
             warn_of_braces(text, written.spans, found)
         if text and "$(" not in text and "\\" not in text:
-            span = written.spans(0, len(text))
+            span = written.inside
             template = Template((Words(text, span),), text, span, quoted=written.quoted)
         else:
             template = parse_template(text, written.spans, found, quoted=written.quoted)

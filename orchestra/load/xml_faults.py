@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 from xml.parsers.expat import ErrorString, errors
 
+from orchestra.dataclass import dataclass
 from orchestra.description.source import shortened
 from orchestra.errors import Code
 from orchestra.load.faults import Fault

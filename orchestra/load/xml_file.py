@@ -6,9 +6,9 @@ what is no key of a group is one of its actions. So every key that a model has c
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.description.actions import ACTIONS, model_of
 from orchestra.description.launch import Launch
 from orchestra.description.source import Keyed, Listed

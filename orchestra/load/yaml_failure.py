@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 import yaml
 
+from orchestra.dataclass import dataclass
 from orchestra.load.faults import Fault
 from orchestra.load.offsets import Source
 

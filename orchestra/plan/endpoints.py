@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.declared.interfaces.files import interface_of
 from orchestra.declared.interfaces.model import Endpoint
 from orchestra.location import Location

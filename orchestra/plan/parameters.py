@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.nearest import nearest
 from orchestra.plan import candidates

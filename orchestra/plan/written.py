@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.location import Location
 from orchestra.resolve.model import InlineParameter
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import linecache
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from orchestra.compat import argv
+from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.location import Location, is_python
 from orchestra.nearest import is_slip, nearest

@@ -6,9 +6,9 @@ the defaults.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final
 
+from orchestra.dataclass import dataclass
 from orchestra.location import Location
 from orchestra.resolve.context import Value
 from orchestra.values import ParameterValue

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from orchestra.dataclass import dataclass
 from orchestra.errors import Severity
 from orchestra.resolve.context import Poison, Value
 from orchestra.resolve.interpret import wanted

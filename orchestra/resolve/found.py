@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import Any
 
+from orchestra.dataclass import dataclass
 from orchestra.location import Location
 from orchestra.resolve.model import ResolvedArgument, ResolvedComponent, ResolvedProcess, ResolvedSkip
 from orchestra.resolve.occasions import Occasion

@@ -7,9 +7,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from typing import TYPE_CHECKING, TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.description.actions.arg import Arg
 from orchestra.description.actions.include import Include
 from orchestra.description.actions.opaque import OpaqueAction

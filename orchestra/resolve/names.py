@@ -7,8 +7,9 @@ rcl (`rcl_validate_topic_name`, `rcl_expand_topic_name`, the lexer of its comman
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from orchestra.dataclass import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Callable

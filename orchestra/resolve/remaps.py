@@ -6,9 +6,9 @@ Source: measured with rclpy 7.1.6 (`tests/data/rcl-probes.jsonl`), rcl `remap.c`
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.resolve.names import (
     Fault,
     InvalidName,

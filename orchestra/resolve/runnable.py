@@ -8,11 +8,11 @@ from __future__ import annotations
 import os
 import platform
 import shutil
-from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from orchestra.dataclass import dataclass
 from orchestra.nearest import nearest
 from orchestra.witness.once import once
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 import shlex
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.description.running import ON_EXIT
 from orchestra.errors import Code
 from orchestra.resolve.booleans import boolean

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+from orchestra.dataclass import dataclass
 from orchestra.resolve.occasions import Occasion, OpenAction, Registration
 from orchestra.resolve.reactions import (
     ResolvedCancel,

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TYPE_CHECKING, TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.description.text import Words
 from orchestra.errors import Problems
 from orchestra.load.grammar import parse_template

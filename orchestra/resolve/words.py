@@ -8,9 +8,10 @@ that means is for the caller to say (upstream makes it one empty word).
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Final
 
+from orchestra.dataclass import dataclass
 from orchestra.description.text import Words
 from orchestra.errors import Code
 from orchestra.location import Span

@@ -8,9 +8,9 @@ lines of that tag, since none can stand inside. Only comments count: each langua
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.location import Span
 
 if TYPE_CHECKING:

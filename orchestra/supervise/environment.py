@@ -16,9 +16,9 @@ rcl refuses to start. All else, PATH, ROS_DOMAIN_ID and the reach of discovery i
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.supervise.keeping.marks import PROCESS, RUN
 from orchestra.supervise.summons import PERSONAL
 from orchestra.wheels import DONE, LIBRARY_PATH

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.supervise.process import life
 from orchestra.supervise.process.life import FINAL, LIVE, Phase
 

@@ -7,8 +7,7 @@ is a run, and the boundary 3.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from orchestra.dataclass import dataclass
 from orchestra.supervise.process.ending import Ending, signal_name
 
 OK, FAILED, MISTAKE, BUG, UNSTOPPABLE = 0, 1, 2, 3, 4

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Protocol
 
+from orchestra.dataclass import dataclass
 from orchestra.logs.journal import Journal
 from orchestra.plan.model import Process
 from orchestra.supervise.graph.observation import Observers

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.nearest import nearest
 from orchestra.supervise.reactions.triggers import held
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 
+from orchestra.dataclass import dataclass
 from orchestra.supervise.keeping import proc
 from orchestra.supervise.keeping.marks import PROCESS, RUN
 

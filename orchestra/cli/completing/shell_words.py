@@ -6,7 +6,9 @@ the middle of a word of the shell: in `world:=m` it is `m` (bash manual, "Progra
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
+
+from orchestra.dataclass import dataclass
 
 _SPECIAL = frozenset("\\\"'`$&;()<>|*?[]{}!# \t\n")
 _BLANKS = " \t\n"

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from importlib.resources import files
 from typing import Final
 
+from orchestra.dataclass import dataclass
 from orchestra.errors import Code, UsageError
 from orchestra.nearest import nearest
 

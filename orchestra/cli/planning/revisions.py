@@ -12,11 +12,11 @@ import os
 import subprocess
 import tempfile
 from contextlib import contextmanager
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.cli.planning import sources
+from orchestra.dataclass import dataclass
 from orchestra.errors import DescriptionError, RunError, UsageError
 from orchestra.location import is_file
 from orchestra.plan.portable import redigested

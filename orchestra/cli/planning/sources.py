@@ -5,12 +5,12 @@ from __future__ import annotations
 import dataclasses
 import os
 import re
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra import pipeline
 from orchestra.cli import inputs, launch_prefix, leaving
+from orchestra.dataclass import dataclass
 from orchestra.errors import DescriptionError, Problems, UsageError
 from orchestra.location import displayed, is_file
 from orchestra.plan import codec

@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import unicodedata
-from dataclasses import dataclass
 from itertools import accumulate
+
+from orchestra.dataclass import dataclass
 
 _TAB = 4
 _WIDEST = 140

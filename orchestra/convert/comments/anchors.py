@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import ast
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.place import span_in
 from orchestra.convert.below import entities_below
 from orchestra.convert.kinds import key_of
+from orchestra.dataclass import dataclass
 from orchestra.description.entity import Entity
 from orchestra.description.text import Constant, Template
 

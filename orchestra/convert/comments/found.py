@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import Final
+
+from orchestra.dataclass import dataclass
 
 # What speaks to programs that read the one language.
 _PRAGMA: Final = re.compile(

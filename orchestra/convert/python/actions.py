@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.compat.extensions import INCLUDED
@@ -16,6 +15,7 @@ from orchestra.convert.refused import why
 from orchestra.convert.remarks import Remarks, UnsayableError
 from orchestra.convert.tree import Notes
 from orchestra.convert.words import name_of, ordered
+from orchestra.dataclass import dataclass
 from orchestra.description.text import Template, Words
 
 if TYPE_CHECKING:

@@ -6,10 +6,10 @@ fit there, else, as items of lists and dictionaries, each to a line of its own, 
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, TypeAlias
 
 from orchestra.convert.tree import NONE, Notes
+from orchestra.dataclass import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator

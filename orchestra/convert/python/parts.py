@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.convert.argv import words_of
@@ -13,6 +12,7 @@ from orchestra.convert.python.texts import Texts
 from orchestra.convert.python.values import number, value
 from orchestra.convert.remarks import UnsayableError
 from orchestra.convert.words import ordered
+from orchestra.dataclass import dataclass
 from orchestra.description.entity import Conditional, Entity
 from orchestra.description.fields import TRUE_WORDS
 from orchestra.description.parts import Override, Pair, Param, Remap

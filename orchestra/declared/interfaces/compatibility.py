@@ -5,8 +5,9 @@ What is not known fits everything.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
+
+from orchestra.dataclass import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

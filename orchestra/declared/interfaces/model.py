@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Final, Literal, TypeAlias, get_args
+
+from orchestra.dataclass import dataclass
 
 EndpointKind: TypeAlias = Literal[
     "publishers", "subscriptions", "service_servers", "service_clients", "action_servers", "action_clients"

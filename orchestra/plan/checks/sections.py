@@ -7,9 +7,10 @@ namespace, one whose name is that of the node mistyped. What is missing without 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.errors import Code
 from orchestra.location import Location
 from orchestra.plan.ids import node_name

@@ -6,9 +6,9 @@ only where nobody else uses it and another node uses the other.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.errors import Code
 from orchestra.resolve.context import Value
 from orchestra.resolve.names import InvalidName, expanded

@@ -5,9 +5,10 @@ Namespaces are groups, processes, components and triggers are nodes, and what wa
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.plan.reactions import (
     ChangeStateAction,
     LoadAction,

@@ -9,9 +9,9 @@ from __future__ import annotations
 import ast
 import re
 import warnings
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
+from orchestra.dataclass import dataclass
 from orchestra.description.text import Call, Opaque, Words
 from orchestra.errors import Code
 from orchestra.location import Span

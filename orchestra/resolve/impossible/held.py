@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.location import Location
 from orchestra.resolve.context import Evaluated
 

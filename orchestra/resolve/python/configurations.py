@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterator, MutableMapping
-from dataclasses import dataclass
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.place import here
 from orchestra.compat.reported import ReportedError
+from orchestra.dataclass import dataclass
 from orchestra.location import Location
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import InlineParameter

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import copy
 import dataclasses
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, Literal
 
+from orchestra.dataclass import dataclass
 from orchestra.location import Location
 from orchestra.resolve.context import Context
 from orchestra.resolve.ledger import Ledger

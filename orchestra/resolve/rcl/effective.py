@@ -7,9 +7,9 @@ Measured: `tests/data/rcl-probes.jsonl`.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.resolve.rcl.patterns import matches
 from orchestra.resolve.rcl.sections import Entry, Section
 from orchestra.resolve.rcl.table import kind_of, tabulated

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
 
 import yaml
 
+from orchestra.dataclass import dataclass
 from orchestra.location import Location
 from orchestra.resolve.rcl.sections import Entry
 from orchestra.values import Scalar

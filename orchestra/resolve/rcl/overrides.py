@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import yaml
 
+from orchestra.dataclass import dataclass
 from orchestra.resolve.rcl.table import counting
 from orchestra.resolve.rcl.values import LOADER, scalar
 from orchestra.values import ParameterValue

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import copy
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TYPE_CHECKING
 
 import yaml
 
+from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.location import Location, Span
 from orchestra.resolve.rcl.joined import Joined, joined
@@ -119,8 +120,7 @@ class Reader:
         self.found.append(OpenSection(pattern, named, sound=fault is None))
         self.before_key = copy.copy(self.node)
         self.node.shrink()
-        self.node_depth = len(self.keys)
-        self.inside, self.parameter = True, None
+        self.node_depth, self.inside, self.parameter = len(self.keys), True, None
 
     def parameter_key(self, name: str, event: yaml.ScalarEvent) -> None:
         """Take the name of a parameter or of a group of them."""

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
+from orchestra.dataclass import dataclass
 from orchestra.location import Location, Span
 from orchestra.values import ParameterValue
 

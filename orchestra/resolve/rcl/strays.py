@@ -7,9 +7,10 @@ rcl stops at the first such value. Here one mistake is told once, at its key: of
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Final
 
+from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.location import Location
 from orchestra.nearest import nearest

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 import math
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
+from orchestra.dataclass import dataclass
 from orchestra.errors import Code
 
 if TYPE_CHECKING:

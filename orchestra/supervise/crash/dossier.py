@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import itertools
 import shlex
-from dataclasses import asdict, dataclass, field
+from dataclasses import asdict, field
 from typing import TYPE_CHECKING, Any
 
+from orchestra.dataclass import dataclass
 from orchestra.supervise.keeping.marks import PROCESS, RUN
 
 if TYPE_CHECKING:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import ctypes
 import re
-from dataclasses import dataclass
+
+from orchestra.dataclass import dataclass
 
 # SYSLOG_ACTION_READ_ALL: the last bytes of the log, which stays as it is.
 _READ_ALL = 3

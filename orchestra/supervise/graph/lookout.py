@@ -9,9 +9,9 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.supervise.graph import dialogue
 
 if TYPE_CHECKING:

@@ -10,9 +10,9 @@ from __future__ import annotations
 import contextlib
 import os
 import signal
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.supervise.keeping import kernel, proc
 from orchestra.supervise.keeping.marks import PROCESS, RUN, number_of
 

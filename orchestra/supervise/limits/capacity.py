@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import os
 import resource
-from dataclasses import dataclass
 
+from orchestra.dataclass import dataclass
 from orchestra.supervise.keeping import proc
 from orchestra.supervise.limits.applied import RLIMITS
 from orchestra.supervise.limits.cgroups import Place, find_place, own_hierarchy, read, upwards

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import os
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.errors import Severity
 from orchestra.logs.names import log_stems
 from orchestra.supervise.keeping import proc

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import os
 from contextlib import ExitStack, contextmanager
-from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.logs import forms
 from orchestra.logs.journal import Journal
 from orchestra.logs.outputs import OVERRIDE, forced_output

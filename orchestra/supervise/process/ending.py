@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import signal
-from dataclasses import dataclass
+
+from orchestra.dataclass import dataclass
 
 # What shells say for a program that is not there and for one that cannot be executed (POSIX.1-2017, 2.8.2).
 NOT_FOUND, NOT_EXECUTABLE = 127, 126

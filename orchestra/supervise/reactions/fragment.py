@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from graphlib import CycleError, TopologicalSorter
 from typing import TYPE_CHECKING, Any
 
+from orchestra.dataclass import dataclass
 from orchestra.errors import Problem, Severity
 from orchestra.location import Location
 from orchestra.plan import codec

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import base64
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
+from orchestra.dataclass import dataclass
 from orchestra.values import EventName
 
 if TYPE_CHECKING:

@@ -5,9 +5,10 @@ from __future__ import annotations
 import json
 import os
 import time
-from dataclasses import asdict, dataclass
+from dataclasses import asdict
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.supervise.keeping import proc
 from orchestra.supervise.runs.running import ENDED, RUNNING
 

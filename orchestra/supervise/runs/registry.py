@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.supervise.runs import identity
 from orchestra.supervise.runs.identity import Identity
 from orchestra.supervise.runs.running import LOCK, abandoned, is_locked, unfinished

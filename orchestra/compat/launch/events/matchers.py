@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import Any, Literal, TypeAlias
+
+from orchestra.dataclass import dataclass
 
 By: TypeAlias = Literal["action", "pid", "name", "executable", "node_name"]
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.frontend.calls import class_of_call
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.place import here
 from orchestra.compat.seam import connection
+from orchestra.dataclass import dataclass
 from orchestra.description.source import Written
 from orchestra.description.text import Call, Opaque, Words
 from orchestra.location import Span
