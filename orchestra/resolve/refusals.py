@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.description.source import shortened
 from orchestra.errors import Code, Severity
 from orchestra.location import displayed, is_file, is_python
