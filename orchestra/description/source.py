@@ -3,21 +3,55 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from collections.abc import Set as AbstractSet
 from typing import Any
 
-from orchestra.location import Span
+from orchestra.dataclass import dataclass
+from orchestra.location import Span, Whole, stretch
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(slots=True)
 class Written:
-    """A scalar. `spans` gives the place of a part of the text by code point offsets; `null` is an empty value."""
+    """A scalar. `spans` gives the place of a part of the text by code point offsets; `null` is an empty value.
+
+    It is not frozen, for a file has thousands, and a frozen one takes three times as long to make.
+    """
 
     text: str
     span: Span
     spans: Callable[[int, int], Span]
     quoted: bool = False
     null: bool = False
+
+    @property
+    def inside(self) -> Span:
+        """The place of the text without the quotes of the format."""
+        return self.spans(0, len(self.text))
+
+
+class Verbatim(Written):
+    """A scalar that stands in the file as it reads, its first character at an offset of the text of the file."""
+
+    __slots__ = ("_begin", "_whole")
+
+    def __init__(
+        self, text: str, span: Span, whole: Whole, begin: int, *, quoted: bool = False, null: bool = False
+    ) -> None:
+        self.text = text
+        self.span = span
+        self.quoted = quoted
+        self.null = null
+        self._whole = whole
+        self._begin = begin
+
+    def spans(self, first: int, last: int) -> Span:
+        """Return the place of a part of the text."""
+        return stretch(self._whole, self._begin + first, self._begin + last)
+
+    @property
+    def inside(self) -> Span:
+        """The place of the text without the quotes of the format."""
+        return self.spans(0, len(self.text)) if self.quoted else self.span
 
 
 class Keyed(dict[str, Any]):
@@ -35,7 +69,7 @@ class Keyed(dict[str, Any]):
         self.head = head
         self.keys_at: dict[str, Span] = {}
         self.lossy = False
-        self.meant: set[str] = set()
+        self.meant: AbstractSet[str] = frozenset()
         self.read: Any = None
 
     def put(self, key: str, value: Any, at: Span) -> None:  # noqa: ANN401 - a tree

@@ -77,7 +77,7 @@ def known_keys(
     if mapping.keys() <= known:
         return mapping
     read = emptied(mapping)
-    read.lossy, read.meant = mapping.lossy, set(mapping.meant)
+    read.lossy, read.meant = mapping.lossy, mapping.meant
     free = known - {spelled(key) for key in mapping}
     strangers = _Strangers(known, required & free, mapping)
     for key, value in mapping.items():

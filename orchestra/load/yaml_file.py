@@ -1,46 +1,47 @@
 """YAML launch files as trees of scalars, mappings and lists that know their place.
 
 The structure is YAML 1.2 core: every scalar stays text until its meaning is known, only an empty value is null.
-PyYAML's C parser reads the file; nothing is constructed, so nothing can be executed. Duplicate keys are errors.
+PyYAML's C parser reads the file; nothing is constructed, so nothing can be executed. Duplicate keys are errors. Most
+files are read by `yaml_plain`, in one pass; what it leaves alone is read here, step by step.
 """
 
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import yaml
 
+from orchestra.dataclass import dataclass
 from orchestra.description.source import Keyed, Listed, Written, kind_of
 from orchestra.errors import Code
+from orchestra.load import yaml_plain
 from orchestra.load.faults import Fault
 from orchestra.load.offsets import Source, source, spans_of
 from orchestra.load.reader import Reader
+from orchestra.load.yaml_plain import DASH, DEEPEST, NULL, PARSER
 
 if TYPE_CHECKING:
     from orchestra.location import Span
 
-_NULL = frozenset({"", "~", "null", "Null", "NULL"})
 _PLAIN_TAG = "tag:yaml.org,2002:str"
 _KNOWN_TAGS = frozenset({_PLAIN_TAG, "tag:yaml.org,2002:map", "tag:yaml.org,2002:seq"})
-_DASH = re.compile(r"-[A-Za-z]")
 _TAG = re.compile(r"![^\s,\[\]{}]*")
-_DEEPEST = 100
 # How many values aliases may expand to beyond what is written.
 _MOST_VALUES = 100_000
 _VALUES_PER_CHARACTER = 4
 _SCALAR_TYPES = ("bool", "int", "float", "null")
 
-_PARSER: type[Any] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
-
 
 def read(text: str, file: str, reader: Reader) -> Any | None:  # noqa: ANN401 - a tree
     """Return the tree of a YAML text, None where it is no YAML (which has been reported)."""
     whole = source(file, text)
+    tree = yaml_plain.read(whole)
+    if tree is not None:
+        return tree
     try:
         _check_depth(whole)
-        node = yaml.compose(text, Loader=_PARSER)
+        node = yaml.compose(text, Loader=PARSER)
     except _RefusedError as error:
         _refuse(error.fault, reader)
         return None
@@ -75,12 +76,12 @@ def _refuse(fault: Fault, reader: Reader) -> None:
 def _check_depth(whole: Source) -> None:
     """Refuse what nests too deep, event by event: the C parser itself would run out of stack and end the process."""
     depth = 0
-    for event in yaml.parse(whole.text, Loader=_PARSER):
+    for event in yaml.parse(whole.text, Loader=PARSER):
         if isinstance(event, yaml.CollectionStartEvent):
             depth += 1
-            if depth > _DEEPEST:
+            if depth > DEEPEST:
                 raise _RefusedError(
-                    f"the file nests more than {_DEEPEST} deep", _mark(whole, event.start_mark)
+                    f"the file nests more than {DEEPEST} deep", _mark(whole, event.start_mark)
                 )
         elif isinstance(event, yaml.CollectionEndEvent):
             depth -= 1
@@ -99,8 +100,8 @@ class _Tree:
         self.built += 1
         if node in above:
             raise _RefusedError("the alias refers to what it stands in", span)
-        if len(above) > _DEEPEST:
-            raise _RefusedError(f"the file nests more than {_DEEPEST} deep", span)
+        if len(above) > DEEPEST:
+            raise _RefusedError(f"the file nests more than {DEEPEST} deep", span)
         if self.built > _MOST_VALUES + _VALUES_PER_CHARACTER * len(self.whole.text):
             raise _RefusedError("the aliases of the file expand to too much", span)
         if isinstance(node, yaml.ScalarNode):
@@ -122,7 +123,7 @@ class _Tree:
         tagged = plain and self.whole.text[node.start_mark.index : node.start_mark.index + 1] == "!"
         quoted = not plain or (tagged and kind == "str")
         spans = spans_of(self.whole, node.start_mark.index, node.end_mark.index, node.value, node.style)
-        return Written(node.value, span, spans, quoted=quoted, null=not quoted and node.value in _NULL)
+        return Written(node.value, span, spans, quoted=quoted, null=not quoted and node.value in NULL)
 
     def _mapping(
         self, node: yaml.MappingNode, span: Span, head: Span | None, above: tuple[yaml.Node, ...]
@@ -134,7 +135,7 @@ class _Tree:
             if not isinstance(key, yaml.ScalarNode):
                 self.reader.error(Code.WRONG_TYPE, "a key is a word, not a mapping or a list", at)
                 continue
-            if _DASH.match(key.value) and not key.style:
+            if DASH.match(key.value) and not key.style:
                 message = f"a blank is missing behind the '-' of '{key.value}'"
                 raise _RefusedError(message, at, f"- {key.value[1:]}")
             tree = self.of(value, at, (*above, node))
