@@ -6,15 +6,15 @@ import ast
 import inspect
 from typing import TYPE_CHECKING, Any
 
-from orchestra.compat.place import Key, ValueOf
+from orchestra.compat.place import Key, Letters, ValueOf
 from orchestra.compat.source_text import part_in
 from orchestra.compat.syntax_trees import Tree, node_span, tree_of
+from orchestra.location import Span
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from orchestra.compat.place import Place, Step
-    from orchestra.location import Span
 
 _LISTS = ("list", "tuple", "sorted", "set")
 _Parameter = inspect.Parameter
@@ -107,12 +107,24 @@ class Literal:
 
     def step(self, step: Step) -> Literal:
         """Return where the value of a key stands, or an item, or a key."""
+        if isinstance(step, Letters):
+            return Literal(self.file, None, self._letters(step), self._tree)
         if isinstance(step, str):
             return self.value(step)
         if isinstance(step, Key | ValueOf):
             pair = self._pair(step)
             return self._inside(pair[isinstance(step, ValueOf)] if pair is not None else None)
         return self.item(step, None)
+
+    def _letters(self, letters: Letters) -> Span:
+        """Return where some letters of a text stand, else the text, else the whole."""
+        span = self.texts.get(letters.text)
+        if span is None:
+            return self.span
+        if span.line == span.end_line and span.end_column - span.column == len(letters.text):
+            begin, end = span.column + letters.begin, span.column + letters.end
+            return Span(span.file, span.line, begin, span.line, end)
+        return part_in(self.file, span, letters.text[letters.begin : letters.end]) or span
 
     def key(self, key: str) -> Span:
         """Return where a key of a dictionary stands."""

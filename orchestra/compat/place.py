@@ -15,7 +15,6 @@ from orchestra.location import Span, displayed
 if TYPE_CHECKING:
     from types import CodeType, FrameType
 
-Step: TypeAlias = str | int
 _OWN = os.path.join(os.path.dirname(os.path.dirname(__file__)), "")  # noqa: PTH118, PTH120 - compared with file names of code
 _Positions: TypeAlias = tuple[int | None, int | None, int | None, int | None]
 
@@ -26,6 +25,18 @@ class Key(int):
 
 class ValueOf(int):
     """The value in such an entry."""
+
+
+@dataclass(frozen=True, slots=True)
+class Letters:
+    """Some letters, from `begin` to `end`, of one of the texts that an argument is made of: it ends a path."""
+
+    text: str
+    begin: int
+    end: int
+
+
+Step: TypeAlias = str | int | Letters
 
 
 class Place:

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.literals import Literal, argument
 from orchestra.compat.place import Argument
-from orchestra.compat.source_text import quoted_in, text_at, word_in
+from orchestra.compat.source_text import quoted_in, text_at
 from orchestra.compat.syntax_trees import tree_of
 from orchestra.errors import Code
 from orchestra.nearest import nearest
@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from orchestra.errors import Problem
     from orchestra.location import Span
 
-_PERFORMED: Final = (Code.BAD_EXPRESSION, Code.COMMAND_FAILED)
-_UNDEFINED: Final = re.compile(r"name '(\w+)' is not defined")
 _BETWEEN: Final = re.compile(r"[\s()$]+")
 
 
@@ -66,12 +64,8 @@ def _narrower(problem: Problem, found: Literal) -> Span:
     if problem.code is Code.MISSING_FILE:
         name = problem.message.rpartition("/")[2].rpartition(" ")[2].strip("'")
         return found.texts.get(name, problem.span or found.span)
-    if problem.code in _PERFORMED and isinstance(found.node, ast.Call):
-        texts = found.texts
-        if len(texts) == 1:
-            (span,) = texts.values()
-            told = _UNDEFINED.search(problem.message)
-            return (None if told is None else word_in(found.file, span, told[1])) or span
+    if problem.code is Code.COMMAND_FAILED and isinstance(found.node, ast.Call) and len(found.texts) == 1:
+        return next(iter(found.texts.values()))
     return problem.span or found.span
 
 

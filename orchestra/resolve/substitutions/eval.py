@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING
 
 from orchestra.compat.expressions import visible
 from orchestra.errors import Code
-from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON
 from orchestra.resolve.python.environ import put_environment
 from orchestra.resolve.substitutions.arguments import made, texts
@@ -36,23 +35,31 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
             names.update(visible(modules))
             text = str(eval(expression, names))  # noqa: S307 - unrestricted Python is what $(eval) is
     except (Exception, GeneratorExit, SystemExit) as error:  # noqa: BLE001 - it may raise whatever it likes
-        return _failed(call, context, expression, error, names)
+        return _failed(call, context, words[0], error, names)
     for doubt in doubts:
         context.problems.warning(Code.BAD_EXPRESSION, str(doubt.message), context.at(call.span))
     return made(call, context, text)
 
 
 def _failed(
-    call: Call, context: Context, expression: str, error: BaseException, names: dict[str, object]
+    call: Call, context: Context, text: str, error: BaseException, names: dict[str, object]
 ) -> Evaluated:
-    notes = []
-    if call.arguments[0].constant is None:
-        notes.append(f"the expression is {expression!r} here")
-    if isinstance(error, NameError) and error.name:
-        meant = nearest(error.name, {*names, *_BUILTINS})
-        notes.append(f"did you mean {meant!r}?" if meant else f"text needs quotes of its own: '{error.name}'")
+    from orchestra.resolve.substitutions.blamed import blamed, meant_by  # noqa: PLC0415 - only mistakes need it
+
+    notes, written = [], call.arguments[0]
+    if written.constant is None:
+        notes.append(f"the expression is {text.strip()!r} here")
+    span, is_written = blamed(written, text, error)
+    meant = meant_by(text, error, names)
+    if meant is not None and not is_written:
+        notes.append(f"did you mean {meant!r}?")
+    elif meant is None and isinstance(error, NameError) and error.name:
+        notes.append(f"text needs quotes of its own: '{error.name}'")
     told = f"this expression fails: {type(error).__name__}: {_message(error)}"
-    context.problems.error(Code.BAD_EXPRESSION, told, context.at(call.span), notes=notes)
+    suggestion = meant if is_written else None
+    context.problems.error(
+        Code.BAD_EXPRESSION, told, context.at(span or call.span), suggestion=suggestion, notes=notes
+    )
     return POISON
 
 
@@ -64,21 +71,3 @@ def _message(error: BaseException) -> str:
         return str(error)
     except Exception:  # noqa: BLE001 - the expression may have made an exception of its own
         return "it cannot even say why"
-
-
-_BUILTINS = (
-    "True",
-    "False",
-    "None",
-    "abs",
-    "bool",
-    "float",
-    "int",
-    "len",
-    "list",
-    "max",
-    "min",
-    "round",
-    "str",
-    "sum",
-)

@@ -1,0 +1,107 @@
+"""Which text of an expression is to blame for what evaluating it raised."""
+
+from __future__ import annotations
+
+import builtins
+import re
+from itertools import islice
+from typing import TYPE_CHECKING
+
+from orchestra.compat.place import Argument, Letters
+from orchestra.description.text import Words
+from orchestra.location import Span
+from orchestra.nearest import nearest
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+    from types import TracebackType
+
+    from orchestra.description.text import Part, Template
+
+
+def blamed(written: Template, text: str, error: BaseException) -> tuple[Span | None, bool]:
+    """Return where the wrong part of an expression stands, which `written` came to, and whether it is written there.
+
+    A name that is not there may be part of a value: then it stands where that is read. None where it is the whole that
+    is wrong; one text of Python is marked as such.
+    """
+    alone = len(written.parts) == 1 and isinstance(written.span, Argument)
+    if not isinstance(error, NameError | AttributeError):
+        return (written.span if alone else None), False
+    begin, end = _range(error, text)
+    for part, first, last in _placed(written, text):
+        if first <= begin < last:
+            if isinstance(part, Words):
+                return _inside(part, begin - first, min(end, last) - first), True
+            return part.span, False
+    return None, False
+
+
+def meant_by(text: str, error: BaseException, names: Mapping[str, object]) -> str | None:
+    """Return the name that was meant by one that is not there: that of a function where it is called.
+
+    `names` are those that the expression sees.
+    """
+    if isinstance(error, NameError) and error.name:
+        is_called = text[_range(error, text)[1] :].lstrip().startswith("(")
+        known = {**vars(builtins), **names}
+        return nearest(error.name, (name for name, value in known.items() if callable(value) == is_called))
+    if isinstance(error, AttributeError) and error.name:
+        return nearest(error.name, dir(error.obj))
+    return None
+
+
+def _range(error: BaseException, text: str) -> tuple[int, int]:
+    """Return first and last character, the latter exclusive, of what has raised an error."""
+    stripped = text.lstrip()
+    before = len(text) - len(stripped)
+    calls = [call for call in _calls(error.__traceback__) if call.tb_frame.f_code.co_filename == "<string>"]
+    if not calls:
+        return before, len(text)
+    code = calls[0].tb_frame.f_code
+    line, end_line, column, end_column = next(
+        islice(code.co_positions(), calls[0].tb_lasti // 2, None), (None, None, None, None)
+    )
+    if line is None or end_line is None or column is None or end_column is None:
+        return before, len(text)
+    begin = before + _index(stripped, line, _characters(stripped, line, column))
+    end = before + _index(stripped, end_line, _characters(stripped, end_line, end_column))
+    name = error.name if isinstance(error, AttributeError) else None
+    return (end - len(name) if name and text[begin:end].endswith(name) else begin), end
+
+
+def _calls(traceback: TracebackType | None) -> Iterator[TracebackType]:
+    while traceback is not None:
+        yield traceback
+        traceback = traceback.tb_next
+
+
+def _index(text: str, line: int, column: int) -> int:
+    return sum(len(before) for before in text.splitlines(keepends=True)[: line - 1]) + column
+
+
+def _characters(text: str, line: int, column: int) -> int:
+    """Return a column in characters for one in bytes."""
+    lines = text.splitlines()
+    return len(lines[line - 1].encode()[:column].decode(errors="replace")) if line <= len(lines) else column
+
+
+def _placed(written: Template, text: str) -> Iterator[tuple[Part, int, int]]:
+    """Yield the parts of a template with first and last character of what they came to."""
+    pattern = "".join(
+        f"({re.escape(part.text)})" if isinstance(part, Words) else "(.*?)" for part in written.parts
+    )
+    match = re.fullmatch(pattern, text, re.DOTALL)
+    for index, part in enumerate(written.parts, start=1):
+        if match is not None:
+            yield part, *match.span(index)
+
+
+def _inside(words: Words, begin: int, end: int) -> Span:
+    """Return where some characters of a text stand, the whole of it where escapes or lines are in between."""
+    span = words.span
+    if isinstance(span, Argument):
+        return span.inside(Letters(words.text, begin, end))
+    if span.line != span.end_line or span.end_column - span.column != len(words.text):
+        return span
+    return Span(span.file, span.line, span.column + begin, span.line, span.column + end)
