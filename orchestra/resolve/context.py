@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from collections.abc import Set as AbstractSet
-from dataclasses import dataclass, field
+from dataclasses import field
 from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.description.text import Opaque
 from orchestra.errors import Problems
 from orchestra.location import Location, Span
@@ -35,7 +36,8 @@ Setter: TypeAlias = Literal[
 class Read:
     """Something that was read to make a value: its own value, who set it and where, and what that came through.
 
-    `written` is the place where the value stands as it is, None where it was made of something else.
+    `written` is the place where the value stands as it is, None where it was made of something else. `source` is the
+    value with the text that it was made of.
     """
 
     kind: ReadKind
@@ -45,19 +47,22 @@ class Read:
     location: Location | None
     through: tuple[Read, ...] = ()
     written: Location | None = None
+    source: Value | None = field(default=None, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
 class Value:
     """A text that evaluation gave, where it was written, and what was read to make it.
 
-    `verbatim` tells that it stands there as it is, so that another text can be put in its place.
+    `verbatim` tells that it stands there as it is, so that another text can be put in its place; else `raw` is what
+    stands there, where that is known.
     """
 
     text: str
     location: Location
     through: tuple[Read, ...] = field(default=(), compare=False, repr=False, kw_only=True)
     verbatim: bool = field(default=False, compare=False, repr=False, kw_only=True)
+    raw: str | None = field(default=None, compare=False, repr=False, kw_only=True)
 
 
 class Poison:

@@ -32,7 +32,9 @@ def evaluate(template: Template, context: Context) -> Evaluated:
                 poisoned = True
             else:
                 texts.append(value.text)
-    return POISON if poisoned else Value("".join(texts), context.at(template.span), through=tuple(reads))
+    if poisoned:
+        return POISON
+    return Value("".join(texts), context.at(template.span), through=tuple(reads), raw=template.raw)
 
 
 def perform(part: Call | Opaque, context: Context) -> Evaluated:

@@ -7,11 +7,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
-from orchestra.location import displayed, is_file
+from orchestra.location import displayed, is_file, is_python
 from orchestra.nearest import nearest
 from orchestra.resolve.refusals import refuse_value
 
 if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
     from orchestra.description.text import Template
     from orchestra.resolve.context import Value
     from orchestra.resolve.resolution import Resolution
@@ -71,26 +73,56 @@ def file_below(
         path = folder / _expanded(value.text)
         folder_there = _exists(path)
         message = f"there is no {what} {displayed(str(path))}" + (": it is a folder" if folder_there else "")
-        near = None if folder_there else near_path(path, value.text if written is None else written)
-        if near is not None and near == written:  # the wrong part of it came from elsewhere
-            refuse_value(value, run.problems, Code.MISSING_FILE, message, meant=near_path(path, value.text))
-        else:
-            run.problems.error(Code.MISSING_FILE, message, value.location, suggestion=near)
+        changes = () if folder_there else near_names(path)
+        _refuse_path(value, value.text if written is None else written, changes, message, run)
     return found
+
+
+def _refuse_path(
+    value: Value, written: str, changes: Sequence[tuple[str, str]], message: str, run: Resolution
+) -> None:
+    """Report a path that is none where its wrong part stands; where that is not known, where the path is used."""
+    # Here, because most files that are named are there.
+    from orchestra.resolve.misspelt import misspelt  # noqa: PLC0415
+
+    place = None if is_python(value.location) else misspelt(value, written, changes)
+    if place is not None:
+        used = () if place.at == value.location else (f"it is used at {value.location}",)
+        run.problems.error(Code.MISSING_FILE, message, place.at, suggestion=place.instead, notes=used)
+        return
+    near = _with(written, changes) if changes else None
+    if near is not None and near == written:  # the wrong part of it came from elsewhere
+        refuse_value(value, run.problems, Code.MISSING_FILE, message, meant=_with(value.text, changes))
+    else:
+        run.problems.error(Code.MISSING_FILE, message, value.location, suggestion=near)
 
 
 def near_path(path: Path, written: str) -> str | None:
     """Return how a path that does not exist was probably to be written: one with near names that does exist."""
+    changes = near_names(path)
+    return _with(written, changes) if changes else None
+
+
+def near_names(path: Path) -> tuple[tuple[str, str], ...]:
+    """Return the names in a path that are not there with those that were probably meant; none where one has no such."""
     there, names = path, list[str]()
     while not _exists(there) and there != there.parent:
         names.insert(0, there.name)
         there = there.parent
+    changes = list[tuple[str, str]]()
     for name in names:
         near = name if _exists(there / name) else _near(there, name)
         if near is None:
-            return None
-        written = _replaced(written, name, near)
+            return ()
+        if near != name:
+            changes.append((name, near))
         there /= near
+    return tuple(changes)
+
+
+def _with(written: str, changes: Iterable[tuple[str, str]]) -> str:
+    for name, near in changes:
+        written = _replaced(written, name, near)
     return written
 
 

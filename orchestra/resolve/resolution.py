@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.description.entity import Action
 from orchestra.description.fields import FLAG_WORDS
 from orchestra.description.launch import Description
@@ -43,9 +44,9 @@ _MOST_STEPS = 200_000
 class Frame:
     """One file on the way to where the visit is.
 
-    `given` are the arguments of its include, which stands at `included_at`; `scope` and `mark` tell what was set when
-    its visit began, `choices` how many conditions and repetitions are around it. `fixed`: its include can name no
-    other file.
+    `given` are the arguments of its include, which stands at `included_at` and names it at `named_at` (not known in
+    Python); `scope` and `mark` tell what was set when its visit began, `choices` how many conditions and repetitions
+    are around it. `fixed`: its include can name no other file.
     `private`: what it sets is not seen outside, so that arguments which are given to it are nobody else's.
     """
 
@@ -59,6 +60,7 @@ class Frame:
     labels: tuple[str, ...] = ()
     depends_on: tuple[ResolvedDependency, ...] = ()
     private: bool = False
+    named_at: Location | None = None
 
 
 @dataclass(slots=True)

@@ -10,9 +10,10 @@ inner scope ends. So a description costs as much as it is long, however much is 
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import dataclass, field, replace
+from dataclasses import field, replace
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
+from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.location import Location, Span
 from orchestra.resolve.context import POISON, Evaluated, Read, Setter, Value
@@ -263,7 +264,9 @@ class Scope:
 def read_of(name: str, value: Value, variable: Variable) -> Read:
     """Return what is noted of a variable that is read."""
     written = value.location if value.verbatim else None
-    return Read("variable", name, value.text, variable.setter, variable.location, value.through, written)
+    return Read(
+        "variable", name, value.text, variable.setter, variable.location, value.through, written, value
+    )
 
 
 def _write(table: dict[str, Any], name: str, value: object) -> None:

@@ -129,7 +129,7 @@ def test_a_file_that_includes_itself_is_reported(tmp_path: Path) -> None:
         "b.yaml": "launch:\n- include: {file: main.yaml}",
     }
     found = outcome(tmp_path, files)
-    assert found.faults == [(Code.INCLUDE_CYCLE, "b.yaml", 2, 3)]
+    assert found.faults == [(Code.INCLUDE_CYCLE, "b.yaml", 2, 19)]
 
 
 def test_problems_of_an_included_file_name_the_way_to_it(tmp_path: Path) -> None:

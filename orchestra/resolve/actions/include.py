@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
 from orchestra.load.files import PYTHON, has_format, unknown_format
-from orchestra.location import displayed
+from orchestra.location import displayed, is_python
 from orchestra.resolve.arguments import Given, settle
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.declarations import check_twice
@@ -106,6 +106,7 @@ def _frame(action: Include, path: str, given: frozenset[str], run: Resolution) -
         labels,
         depends_on,
         private=action.for_each is not None or run.flag(action.scoped) is True,
+        named_at=None if is_python(action.span) else run.at(action.file.span),
     )
 
 
@@ -155,7 +156,7 @@ def _is_endless(frame: Frame, run: Resolution) -> bool:
     again = (*run.frames, frame)[around[1]] if len(around) > 1 else frame
     deep = f"includes nest {len(run.frames)} files deep, which is too deep"
     message = "the file includes itself without end" if around else deep
-    run.problems.error(Code.INCLUDE_CYCLE, message, again.included_at)
+    run.problems.error(Code.INCLUDE_CYCLE, message, again.named_at or again.included_at)
     return True
 
 
