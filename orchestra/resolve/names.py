@@ -22,6 +22,10 @@ _WORDS = "only letters, digits and '_' are allowed"
 _PATHS = "only letters, digits, '_' and '/' are allowed"
 _DIGITS = frozenset("0123456789")
 _SUBSTITUTION = re.compile(r"\{([^{}]*)\}")
+# What nothing can be wrong with but its length and `__`; anything else is looked at closely.
+_PLAIN_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_PLAIN_PATH = re.compile(r"(?:/[A-Za-z_][A-Za-z0-9_]*)+")
+_PLAIN_TOPIC = re.compile(r"(?:~?/)?[A-Za-z_][A-Za-z0-9_]*(?:/[A-Za-z_][A-Za-z0-9_]*)*")
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,6 +57,8 @@ def namespace_fault(namespace: str) -> Fault | None:
 
 def rmw_node_name_fault(name: str) -> Fault | None:
     """Return why a node cannot have this name; in code it may hold `__`, which a command line cannot give."""
+    if len(name) <= _LONGEST_NODE_NAME and _PLAIN_WORD.fullmatch(name):
+        return None
     if not name:
         return Fault("it must not be empty", 0)
     if stray := re.search(r"[^A-Za-z0-9_]", name):
@@ -80,6 +86,8 @@ def rule_name_fault(name: str) -> Fault | None:
 
     rcl's rules know less than its names: no braces, no `__`, no bare `~`.
     """
+    if _PLAIN_TOPIC.fullmatch(name):
+        return _double_underscore(name)
     if name == "~":
         return Fault("a rule cannot name '~' alone", 0)
     if brace := re.search(r"[{}]", name):
@@ -92,6 +100,8 @@ def topic_name_fault(name: str) -> Fault | None:
 
     The name may be absolute, relative or private (`~/scan`) and may hold '{node}', '{ns}' and '{namespace}'.
     """
+    if _PLAIN_TOPIC.fullmatch(name):
+        return None
     if not name:
         return Fault("it must not be empty", 0)
     if name[0] in _DIGITS:
@@ -136,8 +146,9 @@ def expanded(name: str, namespace: str, node: str) -> str:
         raise InvalidName(name, fault)
     if name.startswith("~"):
         name = full_name(namespace, node) + name[1:]
-    known = {"node": node, "ns": namespace, "namespace": namespace}
-    name = _SUBSTITUTION.sub(lambda found: known[found[1]], name)
+    if "{" in name:
+        known = {"node": node, "ns": namespace, "namespace": namespace}
+        name = _SUBSTITUTION.sub(lambda found: known[found[1]], name)
     return name if name.startswith("/") else full_name(namespace, name)
 
 
@@ -156,6 +167,8 @@ def mended(name: str, fault: Callable[[str], Fault | None]) -> str | None:
 
 def _path_fault(path: str, longest: int) -> Fault | None:
     """Check an absolute path of words, in the order in which rmw does."""
+    if len(path) <= longest and _PLAIN_PATH.fullmatch(path):
+        return None
     if not path:
         return Fault("it must not be empty", 0)
     if not path.startswith("/"):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -130,7 +131,8 @@ class MissingPackage:
     meant: str | None
 
 
-def missing_package(package: str, known: Iterable[str], *, launching: bool) -> MissingPackage:
+@lru_cache(maxsize=64)  # many nodes are of one package
+def missing_package(package: str, known: tuple[str, ...], *, launching: bool) -> MissingPackage:
     """Return what is to be said of a package that is none of those that are known."""
     meant = nearest(package, known)
     if launching or (meant is not None and is_slip(package, meant)):

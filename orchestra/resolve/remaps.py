@@ -6,6 +6,7 @@ Source: measured with rclpy 7.1.6 (`tests/data/rcl-probes.jsonl`), rcl `remap.c`
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from orchestra.dataclass import dataclass
@@ -57,6 +58,7 @@ class DeadRule:
     caught_by: int
 
 
+@lru_cache(maxsize=4096)  # rules are read where they are resolved, and again where they are checked
 def read_rule(source: str, target: str) -> Rule:
     """Read a remapping `source:=target`. Raises `InvalidName`, for the side that cannot be."""
     found = _LEFT.fullmatch(source)

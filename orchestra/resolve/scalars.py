@@ -9,6 +9,7 @@ Source: `launch.utilities.type_utils` and `launch_ros.utilities` of Jazzy, measu
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.description.source import shortened
@@ -30,6 +31,14 @@ TYPES: Final = (
 
 _INTEGERS = range(-(2**63), 2**63)
 _WORDS: Final[dict[type, str]] = {bool: "boolean", int: "integer", float: "float", str: "text"}
+# Texts that YAML 1.1, YAML 1.2 and rcl read alike, and which need no parser: numbers that fit, and words that mean
+# nothing but themselves.
+_NUMBER: Final = re.compile(r"-?(?:0|[1-9][0-9]{0,17})(\.[0-9]{1,18})?")
+_WORD: Final = re.compile(r"[A-Za-z_/][A-Za-z0-9_/.-]{0,500}")
+_MEANT: Final = frozenset(
+    ["y", "yes", "n", "no", "on", "off", "true", "false", "null", "nan", "inf", "infinity"]
+)
+_LONGEST_KEPT: Final = 1_000  # characters: what is longer is hardly ever read twice
 _KINDS: Final[dict[str, type]] = {"str": str, "bool": bool, "int": int, "float": float}
 
 
@@ -52,6 +61,8 @@ def differs(text: str) -> str | None:
 
     A text that upstream cannot read is no surprise but an error: None too.
     """
+    if _read_alike(text) is not None:
+        return None
     try:
         upstream = upstream_value(text)
     except ValueError:
@@ -123,7 +134,22 @@ def _is_text(text: str) -> bool:
     return not text.strip() or isinstance(read_scalars(text, by_pyyaml), str)
 
 
+def _read_alike(text: str) -> Scalar | None:
+    """Return what a text is to everybody who reads it, None where that is not plain to see."""
+    number = _NUMBER.fullmatch(text)
+    if number is not None:
+        return int(text) if number[1] is None else float(text)
+    return text if _WORD.fullmatch(text) and text.lower() not in _MEANT else None
+
+
 def _value(text: str, construct: Construct) -> ParameterValue:
+    alike = _read_alike(text)
+    if alike is not None:
+        return alike
+    return (_parsed if len(text) > _LONGEST_KEPT else _parsed_once)(text, construct)
+
+
+def _parsed(text: str, construct: Construct) -> ParameterValue:
     if not text.strip():
         return text
     read = read_scalars(text, construct)
@@ -133,6 +159,9 @@ def _value(text: str, construct: Construct) -> ParameterValue:
     if all(isinstance(item, str) for item in read) and len({type(item) for item in retyped}) > 1:
         return tuple(map(str, read))  # `[a, y]`: rcl would refuse the list for the sake of the `y`
     return _uniform(retyped)
+
+
+_parsed_once: Final = lru_cache(maxsize=512)(_parsed)
 
 
 def _retyped(value: Any) -> Scalar:  # noqa: ANN401 - whatever the text says

@@ -8,7 +8,16 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from orchestra.resolve.scalars import coerced, core_value, differs, unified, upstream_value
+from orchestra.resolve.scalars import (
+    _parsed,
+    _read_alike,
+    coerced,
+    core_value,
+    differs,
+    unified,
+    upstream_value,
+)
+from orchestra.resolve.yaml_scalars import by_core, by_pyyaml
 
 if TYPE_CHECKING:
     from orchestra.values import ParameterValue
@@ -243,3 +252,11 @@ def test_numbers_are_those_of_pyyaml(text: str) -> None:
         assert len(value) == len(loaded)
     else:
         assert isinstance(loaded, str)
+
+
+@given(st.text("aeflnorstuyNOTFY_/.-0123456789", max_size=6) | st.floats().map(str) | st.integers().map(str))
+def test_what_needs_no_parser_is_what_the_parsers_say(text: str) -> None:
+    alike = _read_alike(text)
+    if alike is not None:
+        assert _same(_parsed(text, by_pyyaml), alike)
+        assert _same(_parsed(text, by_core), alike)

@@ -33,9 +33,21 @@ class InstalledPackages:
         self._python = cache(python.folder)
         self._scripts = cache(scripts.console_scripts)
         self._executables = cache(ament.executables)
+        self._nodes = cache(python.nodes)
+        self._prefix = cache(self._find_prefix)
+        self._share = cache(self._find_share)
+        self._command = cache(self._find_command)
+        self._names = cache(self._find_names)
 
     def prefix(self, package: str) -> str | None:
         """Return the install prefix, None for an unknown package."""
+        return self._prefix(package)
+
+    def share(self, package: str) -> str | None:
+        """Return the share folder, None for an unknown package."""
+        return self._share(package)
+
+    def _find_prefix(self, package: str) -> str | None:
         if (prefix := self._ament(package)) is not None:
             return str(prefix)
         folder = self._python(package)
@@ -43,8 +55,7 @@ class InstalledPackages:
             return None
         return sys.prefix if folder.is_relative_to(sys.prefix) else str(folder.parent)
 
-    def share(self, package: str) -> str | None:
-        """Return the share folder, None for an unknown package."""
+    def _find_share(self, package: str) -> str | None:
         if (prefix := self._ament(package)) is not None:
             return str(prefix / "share" / package)
         folder = self._python(package)
@@ -52,6 +63,22 @@ class InstalledPackages:
 
     def executable(self, package: str, executable: str) -> tuple[str, ...] | None:
         """Return the words of the command that starts it, None where the package has no such executable."""
+        return self._command(package, executable)
+
+    def names(self) -> tuple[str, ...]:
+        """Return all packages of the ament index, and the Python packages with nodes, for suggestions."""
+        return self._names()
+
+    def executables(self, package: str) -> tuple[str, ...]:
+        """Return the names of the package's executables, for suggestions."""
+        prefix, folder = self._ament(package), self._python(package)
+        found = set() if prefix is None else set(self._executables(prefix, package))
+        if folder is not None:
+            found.update(self._nodes(folder))
+            found.update(script for owner, script in self._scripts() if owner == package)
+        return tuple(sorted(found))
+
+    def _find_command(self, package: str, executable: str) -> tuple[str, ...] | None:
         prefix = self._ament(package)
         if prefix is not None and (path := self._executables(prefix, package).get(executable)):
             return (str(path),)
@@ -60,23 +87,13 @@ class InstalledPackages:
             return None
         if path := self._scripts().get((package, executable)):
             return (str(path),)
-        if executable in python.nodes(folder):
+        if executable in self._nodes(folder):
             return (sys.executable, "-m", f"{package}.nodes.{executable}")
         return None
 
-    def names(self) -> tuple[str, ...]:
-        """Return all packages of the ament index, and the Python packages with nodes, for suggestions."""
+    def _find_names(self) -> tuple[str, ...]:
         indexed = (name for prefix in self._prefixes for name in ament.packages(prefix))
         return tuple(sorted({*indexed, *python.packages_with_nodes()}))
-
-    def executables(self, package: str) -> tuple[str, ...]:
-        """Return the names of the package's executables, for suggestions."""
-        prefix, folder = self._ament(package), self._python(package)
-        found = set() if prefix is None else set(self._executables(prefix, package))
-        if folder is not None:
-            found.update(python.nodes(folder))
-            found.update(script for owner, script in self._scripts() if owner == package)
-        return tuple(sorted(found))
 
     def _look_in_ament(self, package: str) -> Path | None:
         return next((prefix for prefix in self._prefixes if ament.has(prefix, package)), None)
