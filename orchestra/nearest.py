@@ -23,9 +23,19 @@ def nearest(word: str, candidates: Iterable[str]) -> str | None:
         if candidate == word:
             continue
         likeness = _likeness(folded, _folded(candidate))
-        if likeness > best_likeness:
+        if likeness > best_likeness or (
+            best and likeness == best_likeness and _same_case(word, candidate, best)
+        ):
             best, best_likeness = candidate, likeness
     return best
+
+
+def _same_case(word: str, candidate: str, best: str) -> bool:
+    """Return whether a candidate that is but for the case the best one has more of the word's letters as they are."""
+    if _folded(candidate) != _folded(best):
+        return False
+    ours, others = (SequenceMatcher(None, word, other, autojunk=False).ratio() for other in (candidate, best))
+    return ours > others
 
 
 def is_slip(word: str, meant: str) -> bool:

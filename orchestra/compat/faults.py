@@ -92,6 +92,7 @@ def _explained(error: BaseException, call: TracebackType | None) -> Explanation:
 def _better(error: BaseException, call: TracebackType) -> Explanation | None:
     # Here, because only mistakes need them, and what they import.
     from orchestra.compat import (  # noqa: PLC0415
+        missing_files,
         missing_keys,
         missing_packages,
         refused_calls,
@@ -103,6 +104,8 @@ def _better(error: BaseException, call: TracebackType) -> Explanation | None:
     match error:
         case PackageNotFoundError():
             return missing_packages.explained(error, place)
+        case FileNotFoundError():
+            return missing_files.explained(error, place)
         case ImportError():
             return unknown_names.not_in_module(error, place)
         case TypeError():

@@ -40,6 +40,7 @@ class FaultyCall:
         outer: Place,
     ) -> None:
         words, named = given
+        self.given = (*words, *named.values())
         self.kind = _owner(type(made), constructor)
         self.parameters = {item.name: item for item in parameters_of(self.kind)}
         own = list(inspect.signature(constructor).parameters.values())[1:]
@@ -110,7 +111,7 @@ class FaultyCall:
             return False
         code = error.code if isinstance(error, WrongValue) else Code.WRONG_TYPE
         suggestion = error.suggestion if isinstance(error, WrongValue) else None
-        at = self._at(path, whole=suggestion is None)
+        at = self._at(path, whole=suggestion is None and code is not Code.NOT_A_CHOICE)
         self._tell(code, in_their_words(" ".join(str(error).split())), at, suggestion)
         self.told.add(path)
         name = str(path[0])

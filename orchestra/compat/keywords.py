@@ -16,7 +16,9 @@ _SHORT: Final = 3
 _MEANINGS: Final = {
     "args": ("arguments",),
     "command": ("cmd", "command"),
+    "cmd_args": ("arguments",),
     "default": ("default_value", "default"),
+    "delay": ("period",),
     "destination": ("dst",),
     "env": ("additional_env",),
     "exec": ("executable",),
@@ -45,6 +47,9 @@ def keyword_meant(written: str, known: Mapping[str, inspect.Parameter], given: I
     longer = [name for name in known if len(written) >= _SHORT and name.startswith(written)]
     if len(longer) == 1:
         return longer[0]
+    alike = [name for name in known if name.startswith("on_")] if written.startswith("on_") else []
+    if len(alike) == 1:
+        return alike[0]
     word = nearest(written, [word for word, meanings in _MEANINGS.items() if known.keys() & set(meanings)])
     have = set(given)
     missing = [name for name, item in known.items() if item.default is _Parameter.empty and name not in have]
@@ -74,7 +79,8 @@ def parameters_of(called: Any) -> Iterator[inspect.Parameter]:
         open_ended = any(parameter.kind is _Parameter.VAR_KEYWORD for parameter in parameters)
         for parameter in parameters:
             named = parameter.kind not in (_Parameter.VAR_KEYWORD, _Parameter.VAR_POSITIONAL)
-            if named and not parameter.name.startswith("_") and parameter.name not in seen:
+            given = kind is not called and parameter.name in vars(kind).get("_given_by_subclasses", ())
+            if named and not given and not parameter.name.startswith("_") and parameter.name not in seen:
                 seen.add(parameter.name)
                 yield parameter
         yield from (

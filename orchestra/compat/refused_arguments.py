@@ -11,7 +11,9 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.faulty_call import FaultyCall
+from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.compat.place import Place, here, is_own
+from orchestra.compat.refusing import is_lost
 from orchestra.compat.syntax_trees import Tree, is_dealt_with
 
 if TYPE_CHECKING:
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
 _PYTHON: Final = sysconfig.get_path("stdlib")
 _MOST: Final = 20  # wrong values of one call that are told
 _MOST_CALLS: Final = 8
+_DEPTH: Final = 4
 
 
 def settled(
@@ -56,12 +59,23 @@ def settled(
     if is_made:
         made._refused = True
     else:
-        vars(made)["_lost"] = True
+        vars(made)["_lost"] = tuple(_entities(list(call.given)))
     way = dict.fromkeys(f"called at {place.span}" for place in places)
     notes = tuple(way)[1 : _MOST_CALLS + 1]
     for problem in call.found:
         problems.report(replace(problem, included_from=chain, notes=(*problem.notes, *notes)))
     return True
+
+
+def _entities(given: Any, depth: int = 0) -> Iterator[Any]:
+    """Yield the entities among what a call was given: what is wrong with them is told without it."""
+    if isinstance(given, LaunchDescriptionEntity):
+        yield given
+    elif is_lost(given):
+        yield from given._lost
+    elif isinstance(given, list | tuple) and depth < _DEPTH:
+        for item in given:
+            yield from _entities(item, depth + 1)
 
 
 def _calls(frame: FrameType) -> Iterator[Place]:

@@ -129,6 +129,9 @@ class Connection(Protocol):
     def engine(self, argv: Sequence[str]) -> Engine:
         """Return an engine with a state of its own."""
 
+    def near_file(self, path: str) -> str | None:
+        """Return the path of a file that is there and was probably meant by one that is not."""
+
     def package_prefixes(self) -> dict[str, str]:
         """Return the install prefixes of all packages by name."""
 

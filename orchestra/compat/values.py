@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.substitution import Substitution
@@ -35,7 +35,7 @@ def optional(value: Any, span: Span) -> Template | None:
 
 def words(given: Any, name: str) -> list[Any]:
     """Return the words of a command line as a list. Raises `TypeError` for one text, which is not taken apart."""
-    if isinstance(given, str | Substitution) or not isinstance(given, Iterable):
+    if isinstance(given, str | Substitution | Mapping) or not isinstance(given, Iterable):
         raise TypeError(f"{name} is a list of words, not {given!r}")
     return list(given)
 

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from functools import cached_property
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Problems
+from orchestra.resolve.paths import near_path
 from orchestra.resolve.refusals import missing_package
 
 if TYPE_CHECKING:
@@ -66,6 +68,10 @@ class LoadingConnection:
         """Return what is to be said where code goes no further without a package, and the name that was meant."""
         missing = missing_package(package, self._packages.names(), launching=self._launching)
         return missing.severity, missing.told, missing.meant
+
+    def near_file(self, path: str) -> str | None:
+        """Return the path of a file that is there and was probably meant by one that is not."""
+        return near_path(Path.cwd() / path, path)
 
     def package_prefix(self, package: str) -> str | None:
         """Return the install prefix of a package, None for an unknown one."""

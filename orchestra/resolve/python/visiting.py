@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from pydantic import ValidationError
@@ -46,16 +46,26 @@ def visit_entity(entity: Any, run: Resolution, place: Place | None = None) -> No
     """Visit an entity, by its model where it has one; `place` is that of what holds it."""
     if is_lost(entity):
         run.scope.ledger.incomplete = True
+        visit_entities(entity._lost, run)
         return
     try:
         model = model_of(entity)
     except ValidationError as error:
         _refuse(entity, error, run)
+        visit_entities(_children(entity), run)
     except Exception as error:  # noqa: BLE001 - what users have given it is only looked at here
         faults.report(error, run.problems, run.context.included_from, _span(entity, run, place))
         run.scope.ledger.incomplete = True
     else:
         run.visit((model,), run)
+
+
+def _children(entity: Any) -> list[Any]:
+    """Return the entities that an action of ours holds: what is wrong with them is told without it."""
+    if entity._role == "include":  # a file has a scope of its own
+        return []
+    held = [entity.describe_sub_entities(), *(held for _, held in entity.describe_conditional_sub_entities())]
+    return [child for children in held for child in children if _is_entity(child)]
 
 
 def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
@@ -94,8 +104,9 @@ def _carry_out(entity: Any, span: Span, run: Resolution) -> None:
             at = _uncallable(entity, error)
             if at is None:
                 raise
-            raise WrongType(f"{_name(entity)} is called with the context: {error}", at=at) from None
-        if made is not None and (isinstance(made, str) or not isinstance(made, Iterable)):
+            told_so = f"{_name(entity)} is called with the context: {_short(entity, error)}"
+            raise WrongType(told_so, at=at) from None
+        if made is not None and (isinstance(made, str | Mapping) or not isinstance(made, Iterable)):
             told_so = f"{_name(entity)} returns a list of actions or None, this is {told(made)}"
             raise WrongType(told_so, at=_returned(entity, made))
         following = made
@@ -153,7 +164,13 @@ def _refuse(entity: Any, error: ValidationError, run: Resolution) -> None:
 
 def _name(entity: Any) -> str:
     function = getattr(entity, "function", None)
-    return f"{getattr(function, '__qualname__', '') or type(entity).__name__}"
+    return f"{getattr(function, '__name__', '') or type(entity).__name__}"
+
+
+def _short(entity: Any, error: TypeError) -> str:
+    """Return what Python says of a call, without the functions around the one that is called."""
+    function = entity.function
+    return str(error).replace(function.__qualname__, function.__name__, 1)
 
 
 def _span(entity: Any, run: Resolution, around: Place | None = None) -> Span:

@@ -38,6 +38,7 @@ class OnActionEventBase(ReactingEventHandler):
     takes the event and the context and returns some. Raises `TypeError` for anything else.
     """
 
+    _given_by_subclasses = ("action_matcher", "on_event", "target_event_cls", "target_action_cls")
     _serves_code = False  # whether all that it does is for other code that may be called during the run
 
     def __init__(

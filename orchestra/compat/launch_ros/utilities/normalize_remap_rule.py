@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.text import normalized
@@ -28,6 +28,9 @@ def normalize_remap_rules(
     """Return the two sides of several rules. Raises `TypeError` for anything but pairs in tuples."""
     if not isinstance(remap_rules, Iterable):
         raise WrongType(f"remappings are a list of tuples of two names, not {remap_rules!r}", remap_rules)
+    if isinstance(remap_rules, Mapping):
+        told = "remappings are a list of tuples of two names, not a dict: list(its.items()) is one"
+        raise WrongType(told, remap_rules)
     if _is_one_rule(remap_rules):
         told = f"remappings are a list of tuples of two names, this is one of them: {remap_rules!r}"
         raise WrongType(told, remap_rules)
