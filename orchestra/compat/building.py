@@ -27,7 +27,7 @@ def model_of(entity: LaunchDescriptionEntity) -> Model:
     if isinstance(entity, ModelledAction) and entity._is_as_described():
         model = entity._to_model(conditioned(entity))
         if entity._refused:
-            model._faulty = True
+            model.mark_faulty()
         return model
     place: Place | None = getattr(entity, "_place", None)
     if isinstance(entity, Action) and type(entity).visit is Action.visit:

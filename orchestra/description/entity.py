@@ -7,7 +7,7 @@ follows from it. Reporting itself is the loader's business (`Reader`).
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from functools import cache
 from typing import Any, Protocol, Self, TypeVar
 
@@ -16,7 +16,6 @@ from pydantic import (
     ConfigDict,
     Field,
     ModelWrapValidatorHandler,
-    PrivateAttr,
     ValidationError,
     ValidationInfo,
     model_validator,
@@ -33,6 +32,8 @@ from orchestra.location import Span
 REPORTED = "reported"
 
 _EntityT = TypeVar("_EntityT", bound="Entity")
+
+_set_beside: Callable[[BaseModel, dict[str, Any]], None] = vars(BaseModel)["__pydantic_private__"].__set__
 
 
 class FaultReader(Protocol):
@@ -58,11 +59,6 @@ class Entity(BaseModel):
         frozen=True, extra="forbid", arbitrary_types_allowed=True, populate_by_name=True
     )
 
-    _span: Span = PrivateAttr()
-    _faulty: bool = PrivateAttr(default=False)
-    _origin: Any = PrivateAttr(default=None)
-    _faults: tuple[Problem, ...] = PrivateAttr(default=())
-
     @classmethod
     def at(
         cls,
@@ -77,39 +73,51 @@ class Entity(BaseModel):
         `faults` are what was wrong with values that have been left out. Raises `ValidationError`.
         """
         entity = cls(**values)
-        entity._span = span
-        entity._origin = origin
-        entity._faults = faults
-        entity._faulty = bool(faults)
+        _set_beside(
+            entity,
+            {"span": span, "origin": origin, "faults": faults}
+            if faults
+            else {"span": span, "origin": origin},
+        )
         return entity
 
     @property
-    def _private(self) -> dict[str, Any]:
-        """The private attributes: pydantic's own way to each of them takes ten times as long."""
-        return self.__pydantic_private__ or {}
+    def _beside(self) -> dict[str, Any]:
+        """What is known of the entity beside what was written: pydantic keeps it, compares and copies it.
+
+        Private attributes that pydantic knows of by name would take longer to make than all fields together.
+        """
+        beside = self.__pydantic_private__
+        if beside is None:
+            beside = {}
+            _set_beside(self, beside)
+        return beside
 
     @property
     def span(self) -> Span:
         """Where the entity stands."""
-        span: Span = self._private["_span"]
+        span: Span = self._beside["span"]
         return span
 
     @property
     def faulty(self) -> bool:
         """Whether a part of the entity was wrong and has been left out."""
-        faulty: bool = self._private["_faulty"]
-        return faulty
+        return "faulty" in self._beside or bool(self.faults)
 
     @property
     def faults(self) -> tuple[Problem, ...]:
         """What was wrong where nobody could report it: in Python code. The visit does."""
-        faults: tuple[Problem, ...] = self._private["_faults"]
+        faults: tuple[Problem, ...] = self._beside.get("faults", ())
         return faults
 
     @property
     def origin(self) -> Any:  # noqa: ANN401 - any object
         """The object of a Python launch file that the entity was made from."""
-        return self._private["_origin"]
+        return self._beside.get("origin")
+
+    def mark_faulty(self) -> None:
+        """Say that a part of the entity was wrong and has been left out."""
+        self._beside["faulty"] = True
 
     def conflict(self) -> Conflict | None:
         """Return why the keys that stand here cannot stand together, None where they can."""
@@ -139,7 +147,8 @@ class Entity(BaseModel):
             raise TypeError("mappings are read with a loader as the validation context")
         if isinstance(data.read, cls):  # read before, when something beside it was wrong
             return data.read
-        mapping = reader.keys(cls.known_keys(), data, cls.required_keys())
+        known = cls.known_keys()
+        mapping = data if data.keys() <= known else reader.keys(known, data, cls.required_keys())
         faulty = mapping.lossy
         try:
             entity = handler(dict(mapping))
@@ -150,8 +159,7 @@ class Entity(BaseModel):
             if not faulty:
                 reader.conflict(mapping, conflict)
             raise PydanticCustomError(REPORTED, "reported")
-        entity._span = mapping.head  # noqa: SLF001 - its own class
-        entity._faulty = faulty  # noqa: SLF001 - its own class
+        _set_beside(entity, {"span": mapping.head, "faulty": True} if faulty else {"span": mapping.head})
         data.read = entity
         return entity
 

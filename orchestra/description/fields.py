@@ -55,7 +55,10 @@ class TextReader(Protocol):
 def _text(value: object, info: ValidationInfo) -> Template:
     if isinstance(value, Template):
         return value
-    return _reader(info).template(_scalar(value, "text"))
+    reader = _reader(info)
+    if not isinstance(value, Written) or value.null:
+        raise _no_scalar(value, "text")
+    return reader.template(value)
 
 
 def _literal(value: object, info: ValidationInfo) -> Template:
@@ -75,10 +78,13 @@ def _reader(info: ValidationInfo) -> TextReader:
 
 def _scalar(value: object, wanted: str) -> Written:
     if not isinstance(value, Written) or value.null:
-        raise PydanticCustomError(
-            "wrong_type", "expected {wanted}, found {found}", {"wanted": wanted, "found": kind_of(value)}
-        )
+        raise _no_scalar(value, wanted)
     return value
+
+
+def _no_scalar(value: object, wanted: str) -> PydanticCustomError:
+    facts = {"wanted": wanted, "found": kind_of(value)}
+    return PydanticCustomError("wrong_type", "expected {wanted}, found {found}", facts)
 
 
 def constant_of(

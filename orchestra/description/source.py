@@ -55,22 +55,39 @@ class Verbatim(Written):
 
 
 class Keyed(dict[str, Any]):
-    """A mapping, its keys as written. `keys_at` has the place of each, `head` that of what introduces the mapping.
+    """A mapping, its keys as written; `head` is the place of what introduces the mapping.
 
     `lossy` tells that a key has been reported and left out; `meant` are the keys that such ones probably mean. `read`
     is what a model has made of the mapping.
     """
 
-    __slots__ = ("head", "keys_at", "lossy", "meant", "read", "span")
+    __slots__ = ("_keys_at", "_later", "head", "lossy", "meant", "read", "span")
 
     def __init__(self, span: Span, head: Span) -> None:
         super().__init__()
         self.span = span
         self.head = head
-        self.keys_at: dict[str, Span] = {}
+        self._keys_at: dict[str, Span] = {}
+        self._later: Callable[[], dict[str, Span]] | None = None
         self.lossy = False
         self.meant: AbstractSet[str] = frozenset()
         self.read: Any = None
+
+    @property
+    def keys_at(self) -> dict[str, Span]:
+        """The place of each key."""
+        if self._later is not None:
+            self._keys_at = self._later()
+            self._later = None
+        return self._keys_at
+
+    @keys_at.setter
+    def keys_at(self, places: dict[str, Span]) -> None:
+        self._keys_at, self._later = places, None
+
+    def place_later(self, places: Callable[[], dict[str, Span]]) -> None:
+        """Let the places of the keys be worked out when the first is asked for."""
+        self._later = places
 
     def put(self, key: str, value: Any, at: Span) -> None:  # noqa: ANN401 - a tree
         """Add a key that is written at a place."""

@@ -12,6 +12,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
@@ -19,6 +20,7 @@ from orchestra.description.substitutions import SIGNATURES
 from orchestra.description.text import Call, Template, Words
 from orchestra.errors import Code, Problems
 from orchestra.load.exposed import exposed_part
+from orchestra.load.moving import placed
 from orchestra.load.signatures import excess, lack, meant, usage
 from orchestra.location import Span
 
@@ -29,6 +31,9 @@ if TYPE_CHECKING:
 
 # How deep substitutions may nest: far more than anybody writes, far from the interpreter's recursion limit.
 DEEPEST: Final = 50
+
+# Longer texts are not kept to be read once only.
+_SHORT: Final = 300
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _KEPT_QUOTES = re.compile(r"""(['"])([^'" ()$\\]*)\1(?=[ )])""")
@@ -46,8 +51,27 @@ def parse_template(
 
     Faults go to `problems` and make the template faulty; nothing is raised.
     """
+    known = _sound(text) if len(text) <= _SHORT else None
+    if known is not None:
+        return placed(known, spans, quoted=quoted)
     reader = _Reader(text, spans, problems)
     return Template(reader.parts("", "", 0), text, spans(0, len(text)), quoted, reader.faults > 0)
+
+
+@lru_cache(maxsize=1024)
+def _sound(text: str) -> Template | None:
+    """Return the template of a text, spans as columns; None where something is to be told of it, or others parse it.
+
+    A file of many nodes has the same few texts in it time and again.
+    """
+    found = Problems()
+    reader = _Reader(text, _columns, found)
+    template = Template(reader.parts("", "", 0), text, _columns(0, len(text)))
+    return None if len(found) or reader.foreign else template
+
+
+def _columns(first: int, last: int) -> Span:
+    return Span("", 1, first, 1, last)
 
 
 def unescaped(text: str) -> str:
@@ -65,6 +89,7 @@ class _Reader:
     at: int = 0
     faults: int = 0
     lost: bool = False  # an unterminated quote or too deep a nesting took the rest of the text
+    foreign: bool = False  # a name is not of the language: others may know it
 
     def parts(self, stop: str, within: str, depth: int) -> tuple[Part, ...]:
         """Read literal text and substitutions up to the stop character, which stays unread, or to the end."""
@@ -100,10 +125,12 @@ class _Reader:
             self.fault(start, start + 2, "this substitution is not closed: a ')' is missing")
         call = Call(name, tuple(arguments), self.spans(start, self.at))
         known = len(self.problems)
-        made = exposed_part(call, self.problems) if name not in SIGNATURES and self.faults == before else None
-        if made is not None:
-            self.faults += len(self.problems) > known
-            return made
+        if name not in SIGNATURES:
+            self.foreign = True
+            made = exposed_part(call, self.problems) if self.faults == before else None
+            if made is not None:
+                self.faults += len(self.problems) > known
+                return made
         if name_span and self.known(name, name_span) and self.faults == before:
             self.count(call, start, first, last)
         if self.faults == before:

@@ -62,14 +62,14 @@ class Reader:
 
     def template(self, written: Written) -> Template:
         """Read a text with substitutions."""
-        text, found = written.text, Problems()
+        text = written.text
+        if text and "$" not in text and "\\" not in text:
+            span = written.inside
+            return Template((Words(text, span),), text, span, written.quoted)
+        found = Problems()
         if "${" in text or "$[" in text:
             warn_of_braces(text, written.spans, found)
-        if text and "$(" not in text and "\\" not in text:
-            span = written.inside
-            template = Template((Words(text, span),), text, span, quoted=written.quoted)
-        else:
-            template = parse_template(text, written.spans, found, quoted=written.quoted)
+        template = parse_template(text, written.spans, found, quoted=written.quoted)
         for problem in found:
             self.problems.report(replace(problem, included_from=self.included_from))
         return template

@@ -38,6 +38,7 @@ DEEPEST: Final = 100
 PARSER: Final[type[Any]] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
 _MERGE: Final = "<<"
+_STARTS: Final = (MappingStartEvent, SequenceStartEvent)
 
 
 class _NotPlainError(Exception):
@@ -81,13 +82,10 @@ class _Events:
         kind = type(event)
         if kind is ScalarEvent:
             return self.scalar(event)
-        if event.__dict__.get("anchor") or event.__dict__.get("tag") or depth > DEEPEST:
+        reads = self.mapping if kind is MappingStartEvent else self.sequence
+        if kind not in _STARTS or event.anchor is not None or event.tag is not None or depth > DEEPEST:
             raise _NotPlainError
-        if kind is MappingStartEvent:
-            return self.mapping(event, head, depth)
-        if kind is SequenceStartEvent:
-            return self.sequence(event, depth)
-        raise _NotPlainError
+        return reads(event, head, depth)
 
     def scalar(self, event: Any) -> Written:  # noqa: ANN401 - an event
         if event.anchor is not None or event.tag is not None:
@@ -103,12 +101,12 @@ class _Events:
         spans = spans_of(self.whole, begin, end, text, style)
         return Written(text, span, spans, quoted=bool(style), null=not style and text in NULL)
 
-    def sequence(self, start: Any, depth: int) -> Listed:  # noqa: ANN401 - an event
+    def sequence(self, start: Any, _head: Span | None, depth: int) -> Listed:  # noqa: ANN401 - an event
         begin = start.start_mark.index
         items = Listed(stretch(self.whole, begin, begin))
         event = self.following()
-        while type(event) is not SequenceEndEvent:
-            items.append(self.value(event, None, depth + 1))
+        while (kind := type(event)) is not SequenceEndEvent:
+            items.append(self.scalar(event) if kind is ScalarEvent else self.value(event, None, depth + 1))
             event = self.following()
         items.span = stretch(self.whole, begin, event.end_mark.index)
         return items
@@ -118,21 +116,30 @@ class _Events:
         begin = start.start_mark.index
         first = stretch(whole, begin, begin + 1)
         mapping = Keyed(first, head or first)
-        keys_at = mapping.keys_at
+        keys: list[Any] = []
         event = following()
-        while type(event) is ScalarEvent:
+        while (kind := type(event)) is ScalarEvent:
             key: str = event.value
             if key in mapping or key == _MERGE or DASH.match(key):
                 raise _NotPlainError
             if event.anchor is not None or event.tag is not None:
                 raise _NotPlainError
-            at = stretch(whole, event.start_mark.index, event.end_mark.index)
-            mapping[key] = self.value(following(), at, depth + 1)
-            keys_at[key] = at
+            keys.append(event)
+            value = following()
+            if type(value) is ScalarEvent:
+                mapping[key] = self.scalar(value)
+            else:
+                at = _span(whole, event)
+                mapping[key] = self.value(value, at, depth + 1)
             event = following()
-        if type(event) is not MappingEndEvent:
+        if kind is not MappingEndEvent:
             raise _NotPlainError
         mapping.span = stretch(whole, begin, event.end_mark.index)
-        if head is None and mapping and not start.flow_style:
-            mapping.head = next(iter(keys_at.values()))
+        mapping.place_later(lambda: {key.value: _span(whole, key) for key in keys})
+        if head is None and keys and not start.flow_style:
+            mapping.head = _span(whole, keys[0])
         return mapping
+
+
+def _span(whole: Source, event: Any) -> Span:  # noqa: ANN401 - an event
+    return stretch(whole, event.start_mark.index, event.end_mark.index)

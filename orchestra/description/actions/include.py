@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Literal, Self, TypeAlias
 
-from pydantic import Field, PrivateAttr
+from pydantic import Field
 
 from orchestra.description.entity import Action
 from orchestra.description.fields import Flag, Text
@@ -27,25 +27,22 @@ class Include(Action):
     label: Text | None = Field(default=None, description="Name for all processes inside, for `depends_on`.")
     depends_on: tuple[DependsOn, ...] = Field(default=(), description="What every process inside waits for.")
 
-    _language: Language | None = PrivateAttr(default=None)
-    _children: tuple[Action, ...] | None = PrivateAttr(default=None)
-
     @property
     def language(self) -> Language | None:
         """What the file is read as, None: its name tells. Only Python code says it."""
-        return self._language
+        return self._beside.get("language")
 
     def read_as(self, language: Language | None) -> Self:
         """Set what the file is read as; return the action."""
-        self._language = language
+        self._beside["language"] = language
         return self
 
     @property
     def children(self) -> tuple[Action, ...] | None:
         """What is included where no file is. Only Python code says it."""
-        return self._children
+        return self._beside.get("children")
 
     def holding(self, children: tuple[Action, ...]) -> Self:
         """Set what is included instead of a file; return the action."""
-        self._children = children
+        self._beside["children"] = children
         return self
