@@ -7,8 +7,13 @@ from typing import TYPE_CHECKING, Any
 from orchestra.compat.described import described
 from orchestra.compat.launch.condition import Condition
 from orchestra.compat.launch.utilities.perform_substitutions_impl import perform_substitutions
+from orchestra.compat.place import here
+from orchestra.compat.refusing import collector
 from orchestra.compat.text import normalized, template
 from orchestra.description.text import Call, Opaque, Template
+from orchestra.errors import Code
+from orchestra.location import Location
+from orchestra.nearest import is_slip, nearest
 
 if TYPE_CHECKING:
     from orchestra.compat.launch.launch_context import LaunchContext
@@ -27,6 +32,7 @@ class LaunchConfigurationEquals(Condition):
     def __init__(self, launch_configuration_name: str, expected_value: Sub | None) -> None:
         self.__name = launch_configuration_name
         self.__expected = None if expected_value is None else normalized(expected_value)
+        self.__place = here(self)
         super().__init__(predicate=self._predicate_func)
 
     def describe(self) -> str:
@@ -36,8 +42,20 @@ class LaunchConfigurationEquals(Condition):
 
     def _predicate_func(self, context: LaunchContext) -> bool:
         value: Any = context.launch_configurations.get(self.__name)
+        if value is None and self.__expected is not None:
+            self.__report_slip(context)
         expected = None if self.__expected is None else perform_substitutions(context, self.__expected)
         return (value == expected) is self._wanted
+
+    def __report_slip(self, context: LaunchContext) -> None:
+        """Warn of a configuration that is not set and whose name is a slip for one that is."""
+        meant, collecting = nearest(self.__name, context.launch_configurations), collector()
+        if collecting is None or meant is None or not is_slip(self.__name, meant):
+            return
+        problems, chain = collecting
+        told = f"no launch argument or variable '{self.__name}' is set here: the condition is always the same"
+        at = Location(self.__place.at("launch_configuration_name"), chain)
+        problems.warning(Code.UNDEFINED_VARIABLE, told, at, suggestion=meant)
 
     def _fields(self, span: Span) -> dict[str, Any]:
         """Return an opaque text, of which it is known what it reads: equality of booleans is another thing."""
