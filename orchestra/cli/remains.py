@@ -9,10 +9,11 @@ from typing import TYPE_CHECKING
 from orchestra.cli.boundary import INTERRUPTED, Telling, guarded
 from orchestra.cli.runs import folder, told
 from orchestra.control import remains
+from orchestra.supervise.keeping import remnants as left_behind
 from orchestra.supervise.runs import registry
 
 if TYPE_CHECKING:
-    from orchestra.control.remains import Remnant
+    from orchestra.supervise.keeping.remnants import Remnant
     from orchestra.supervise.runs.registry import Run
 
 _NAMED = 4
@@ -42,7 +43,7 @@ def _look_after() -> int:
 
 def left_of(dead: list[Run]) -> list[tuple[Run, list[Remnant]]]:
     """Return what each of these runs has left; the machine is looked through once."""
-    found = remains.remnants({run.identity.run for run in dead}) if dead else []
+    found = left_behind.remnants({run.identity.run for run in dead}) if dead else []
     return [(run, [one for one in found if one.run == run.identity.run]) for run in dead]
 
 
@@ -55,7 +56,7 @@ def described(run: Run, remnants: list[Remnant]) -> str:
 
 def end(run: Run) -> list[Remnant]:
     """End what a run has left and tidy up after it; return what could not be ended, which is told."""
-    stuck = remains.end({run.identity.run})
+    stuck = left_behind.end({run.identity.run})
     if stuck:
         told(f"error: could not be ended: {', '.join(map(str, stuck))}")
     else:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import contextlib
 import os
+import threading
 from collections.abc import Callable
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
 from orchestra.logs import pieces
@@ -15,6 +16,9 @@ if TYPE_CHECKING:
 
 # Written at a time: after each, whoever waits can see that the disk is alive.
 _SLICE = 1 << 18
+
+# Held while a file is opened: whoever lowers the limit of open files for a moment must not do so meanwhile.
+OPENING: Final = threading.RLock()
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,6 +136,11 @@ class Appended:
     def _rotate(self) -> None:
         """Put the piece away and remove the oldest. Where that is impossible the file just grows."""
         self.close()
+        with OPENING:
+            self._put_away()
+        self._open()
+
+    def _put_away(self) -> None:
         if self._newest is None:
             self._newest = max(pieces.numbers(self.path), default=0)
         with contextlib.suppress(OSError):
@@ -143,11 +152,11 @@ class Appended:
             for number in pieces.numbers(self.path):
                 if number <= self._newest - self._rotation.keep:
                     pieces.put_away(self.path, number).unlink()
-        self._open()
 
     def _open(self) -> int:
         if self._descriptor is None:
             flags = os.O_WRONLY | os.O_APPEND | os.O_CREAT | os.O_CLOEXEC | os.O_NOCTTY
-            self._descriptor = os.open(self.path, flags, 0o644)
+            with OPENING:
+                self._descriptor = os.open(self.path, flags, 0o644)
             self._size = os.fstat(self._descriptor).st_size
         return self._descriptor

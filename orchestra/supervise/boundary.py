@@ -24,7 +24,7 @@ if TYPE_CHECKING:
 
 def guarded_run(beginnings: Beginnings) -> int:
     """Run and return the exit status. After a bug the keeper ends what is left, or we do where it was killed."""
-    open_files.take_more()
+    open_files.keep_to_ourselves()
     try:
         return conduct(beginnings)
     except Refused as refusal:

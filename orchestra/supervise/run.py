@@ -28,6 +28,7 @@ from orchestra.supervise.keeping.signals import (
 from orchestra.supervise.keeping.stacks import Stacks
 from orchestra.supervise.keeping.standard_streams import fill_standard_descriptors
 from orchestra.supervise.resolver.process import fork_resolver
+from orchestra.supervise.resolver.recalling import recalled
 from orchestra.supervise.summons import taken
 
 TYPE_CHECKING = False  # `typing` itself costs more than the rest of this module
@@ -36,10 +37,14 @@ if TYPE_CHECKING:
 
     from orchestra.supervise.attendance import Attend
     from orchestra.supervise.resolver.process import Prepare
+    from orchestra.supervise.resolver.recalling import Recall
 
 
 def run(
-    prepare: Prepare, attend: Attend | None = None, afterwards: Callable[[str], None] | None = None
+    prepare: Prepare,
+    attend: Attend | None = None,
+    afterwards: Callable[[str], None] | None = None,
+    recall: Recall | None = None,
 ) -> int:
     """Run what `prepare` describes and return the exit status of the design's table.
 
@@ -64,6 +69,7 @@ def run(
 
     `attend` is called in the supervisor process when the run is about to begin, and may import what it needs then.
     `afterwards` is called in the keeper with the run's mark when everything is over, whoever was killed before.
+    `recall` is called in the supervisor: where it returns a document `prepare` is not called.
     """
     fill_standard_descriptors()
     keeper = os.getpid()
@@ -71,20 +77,28 @@ def run(
     patience, stacks = Patience(), Stacks()
 
     def supervise() -> int:
-        return _supervise(prepare, attend, Kept(keeper, run_id, patience, stacks))
+        return _supervise(prepare, attend, Kept(keeper, run_id, patience, stacks), recall)
 
-    status = keep(supervise, patience, stacks)
+    def bury() -> None:
+        from orchestra.supervise.keeping import remnants  # noqa: PLC0415 - only where keeper and supervisor were killed
+
+        remnants.end({run_id})
+        if afterwards:
+            afterwards(run_id)
+
+    status = keep(supervise, patience, stacks, bury)
     if afterwards:
         afterwards(run_id)
     return status
 
 
-def _supervise(prepare: Prepare, attend: Attend | None, kept: Kept) -> int:
+def _supervise(prepare: Prepare, attend: Attend | None, kept: Kept, recall: Recall | None) -> int:
     os.environ[RUN] = kept.run_id
     kernel.set_lock_limit(number_of(kept.run_id) or 0)
     summons = taken(os.environ, kept.keeper)
     # The keeper's mask is still in force: no signal can reach the resolver with our handlers, nor us without them.
-    resolver = fork_resolver(prepare, kept.stacks)
+    document, prepare = recalled(recall, prepare)
+    resolver = None if document else fork_resolver(prepare, kept.stacks)
     reset_signals(unblock=False)
     signals = receive_signals(received_signals())
     kept.stacks.show_on_request(chain=True)
@@ -96,4 +110,4 @@ def _supervise(prepare: Prepare, attend: Attend | None, kept: Kept) -> int:
     except BaseException:  # noqa: BLE001 - a forked child must not run on into its parent's code
         sys.excepthook(*sys.exc_info())
         return 3
-    return guarded_run(Beginnings(kept, resolver, signals, attend, summons))
+    return guarded_run(Beginnings(kept, document or resolver, signals, attend, summons))

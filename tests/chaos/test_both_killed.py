@@ -1,6 +1,6 @@
-"""Keeper and supervisor killed in the same instant: the one case in which something is left, and what becomes of it.
+"""Keeper and supervisor killed in the same instant: the guard ends what is left.
 
-The kernel tells the programs of the plan to end (PR_SET_PDEATHSIG), but not what they have started themselves.
+Where it is killed with them, in the one case in which something stays, the next command says so.
 """
 
 from __future__ import annotations
@@ -33,16 +33,17 @@ BELOW = 3
 STUBBORN = process("stubborn", "ignore=INT,TERM", "say=up", "linger")
 AWAITED = process("awaited", "say=up", "linger", ready=ready_when(message="/never"))
 OURS = ("orc-keeper", "orc-supervisor")
+ALL_OF_OURS = (*OURS, "orc-guard")
 
 
-def kill_both(run: Launched) -> None:
-    """Neither has the time to do anything about the end of the other: both are stopped when they are killed."""
-    pids = [run.own(name) for name in OURS]
+def kill_both(run: Launched, names: tuple[str, ...] = OURS) -> None:
+    """None has the time to do anything about the end of the others: all are stopped when they are killed."""
+    pids = [run.own(name) for name in names]
     for number in (signal.SIGSTOP, signal.SIGKILL):
         for pid in reversed(pids):
             os.kill(pid, number)
     run.popen.wait()
-    wait_for(lambda: not any(map(alive, pids)), "the end of both")
+    wait_for(lambda: not any(map(alive, pids)), "the end of these")
 
 
 def orchestra(run: Launched, *words: str) -> subprocess.CompletedProcess[str]:
@@ -64,20 +65,19 @@ def sockets(folder: Path) -> list[Path]:
     return [path for path in folder.rglob("*") if path.is_socket()]
 
 
-def test_what_does_not_heed_sigterm_is_left_and_the_next_command_says_so(tmp_path: Path) -> None:
+def test_without_a_guard_all_is_left_and_the_next_command_says_so(tmp_path: Path) -> None:
     environment = {"XDG_RUNTIME_DIR": str(tmp_path)}
     with launched(tmp_path, plan(FAMILY, STUBBORN), environment=environment) as run:
         for name in ("family", "stubborn"):
             run.await_line(name, "up")
         before = run.everything()
-        kill_both(run)
-        wait_for(lambda: len(run.everything()) == BELOW + 1, "the end of who heeds SIGTERM")
+        kill_both(run, ALL_OF_OURS)
         left = run.everything()
         marks = sorted(str(proc.marks(pid, ("ORCHESTRA_PROCESS",))[0]) for pid in left)
-        assert marks == [*["family"] * BELOW, "stubborn"]
+        assert marks == [*["family"] * (1 + BELOW), "stubborn"]
 
         told = orchestra(run, "ps")
-        assert "died and left 4 processes: " in told.stderr
+        assert "died and left 5 processes: " in told.stderr
         assert run.everything() == left
 
         cleaned = orchestra(run, "clean", "--yes")
@@ -85,6 +85,17 @@ def test_what_does_not_heed_sigterm_is_left_and_the_next_command_says_so(tmp_pat
         assert not any(map(alive, before))
         assert not sockets(tmp_path)
         assert "died" not in orchestra(run, "ps").stderr
+
+
+def test_the_guard_ends_what_does_not_heed_sigterm(tmp_path: Path) -> None:
+    with launched(tmp_path, plan(FAMILY, STUBBORN), environment={"XDG_RUNTIME_DIR": str(tmp_path)}) as run:
+        for name in ("family", "stubborn"):
+            run.await_line(name, "up")
+        before = run.everything()
+        kill_both(run)
+        run.assert_gone()
+        assert not any(map(alive, before))
+        assert not sockets(tmp_path)
 
 
 def test_what_is_ours_ends_by_itself(tmp_path: Path) -> None:

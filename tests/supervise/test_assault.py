@@ -30,7 +30,7 @@ def test_keeper_or_supervisor(tmp_path: Path, target: str, number: signal.Signal
         for name in ("family", "stubborn", "polite"):
             run.await_line(name, "up")
         before = run.everything()
-        assert len(before) == 2 + 3 + 3
+        assert len(before) == 3 + 3 + 3
         os.kill(run.own(target), number)
         run.assert_gone()
         assert_ended(before)

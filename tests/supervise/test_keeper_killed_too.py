@@ -1,44 +1,96 @@
-"""Keeper and supervisor killed at once: what the programs started is left, and can be found and ended."""
+"""Keeper and supervisor killed at once: the guard ends everything, and where it was killed too all can be found."""
 
 from __future__ import annotations
 
 import os
 import signal
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.control import remains
-from orchestra.supervise.keeping import proc
+from orchestra.supervise.keeping import proc, remnants
 from orchestra.supervise.keeping.marks import RUN, number_of, run_mark, run_of
-from tests.supervise.plans import alive, assert_ended, launched, plan, process, stand_in, wait_for
+from tests.supervise.plans import assert_ended, launched, plan, process, stand_in, wait_for
 
 if TYPE_CHECKING:
-    from pathlib import Path
+    from tests.supervise.plans import Launched
 
 PLAIN = process("plain", "say=up", "linger")
 FAMILY = process("family", "child", "escape", "daemon", "anonymous", "say=up", "linger")
+STUBBORN = process("stubborn", "ignore=INT,TERM", "say=up", "linger")
+
+
+OURS = ("orc-keeper", "orc-supervisor", "orc-guard")
 
 
 @pytest.mark.parametrize("first", ["keeper", "supervisor"])
-def test_programs_end_and_what_they_left_is_found(tmp_path: Path, first: str) -> None:
-    with launched(tmp_path, plan(PLAIN, FAMILY)) as run:
-        for name in ("plain", "family"):
-            run.await_line(name, "up")
-        ours = [run.own("orc-keeper"), run.own("orc-supervisor")]
-        programs = {event.pid for event in run.of_kind("process_running")}
-        below = run.everything() - {*ours, *programs}
-        assert len(below) == 4
-        (mark,) = proc.marks(min(pid for pid in programs if pid), (RUN,))
-        assert mark
+def test_the_guard_ends_everything(tmp_path: Path, first: str) -> None:
+    with launched(tmp_path, plan(PLAIN, FAMILY, STUBBORN), environment=_folder(tmp_path)) as run:
+        _await_all(run)
+        ours = [run.own(name) for name in OURS[:2]]
+        before = run.everything() | {run.own("orc-guard")}
         for pid in ours if first == "keeper" else reversed(ours):
             os.kill(pid, signal.SIGKILL)
         run.popen.wait()
-        wait_for(lambda: not any(alive(pid) for pid in (*programs, *ours) if pid), "the end of the programs")
-        left = {pid for pid in below if alive(pid)}
-        assert {remnant.pid for remnant in remains.remnants([mark])} == left
-        assert not remains.end([mark])
+        run.assert_gone()
+        assert_ended(before)
+        assert not [path for path in tmp_path.rglob("*") if path.is_socket()]
+
+
+def test_without_a_guard_what_is_left_is_found(tmp_path: Path) -> None:
+    with launched(tmp_path, plan(PLAIN, FAMILY, STUBBORN)) as run:
+        _await_all(run)
+        ours = [run.own(name) for name in OURS]
+        below = run.everything() - {*ours}
+        assert len(below) == 7
+        (mark,) = proc.marks(min(below), (RUN,))
+        assert mark
+        for number in (signal.SIGSTOP, signal.SIGKILL):
+            for pid in ours:
+                os.kill(pid, number)
+        run.popen.wait()
+        assert_ended({*ours})
+        assert {remnant.pid for remnant in remnants.remnants([mark])} == below
+        assert not remnants.end([mark])
         assert_ended(below)
+
+
+def test_a_guard_that_is_killed_is_replaced(tmp_path: Path) -> None:
+    with launched(tmp_path, plan(PLAIN)) as run:
+        run.await_line("plain", "up")
+        first = run.own("orc-guard")
+        os.kill(first, signal.SIGKILL)
+        wait_for(lambda: run.own("orc-guard") != first, "another guard")
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+        run.assert_gone()
+
+
+def test_a_guard_is_not_found_by_our_name_and_holds_nothing(tmp_path: Path) -> None:
+    with launched(tmp_path, plan(PLAIN)) as run:
+        run.await_line("plain", "up")
+        guard = run.own("orc-guard")
+        wait_for(lambda: proc.command(guard) == "orc-guard", "its name")
+        wait_for(lambda: _opened(guard) == 3 * [os.devnull] + 2 * ["pidfd"], "what it keeps open")
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+
+
+def _opened(pid: int) -> list[str]:
+    """Return what a process has open, by descriptor; a pidfd has another name in every kernel (pidfs)."""
+    folder = Path(f"/proc/{pid}/fd")
+    names = [(int(path.name), str(path.readlink())) for path in folder.iterdir()]
+    return ["pidfd" if "pidfd" in name else name for _, name in sorted(names)]
+
+
+def _await_all(run: Launched) -> None:
+    for name in ("plain", "family", "stubborn"):
+        run.await_line(name, "up")
+
+
+def _folder(path: Path) -> dict[str, str]:
+    return {"XDG_RUNTIME_DIR": str(path)}
 
 
 def test_a_program_that_has_lost_everything_is_attributed(tmp_path: Path) -> None:

@@ -26,6 +26,7 @@ TYPE_CHECKING = False
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from orchestra.supervise.keeping.guard import Guard
     from orchestra.supervise.keeping.patience import Patience
     from orchestra.supervise.keeping.stacks import Stacks
     from orchestra.supervise.keeping.terminal_modes import Modes
@@ -44,8 +45,11 @@ FAILED, UNSTOPPABLE = 1, 4
 _BUG = 3
 
 
-def keep(supervise: Callable[[], int], patience: Patience, stacks: Stacks) -> int:
-    """Run `supervise` in a child and return its status; 1 where it died of a signal, 4 where something is left."""
+def keep(supervise: Callable[[], int], patience: Patience, stacks: Stacks, bury: Callable[[], object]) -> int:
+    """Run `supervise` in a child and return its status; 1 where it died of a signal, 4 where something is left.
+
+    `bury` is called by whoever is left where we are killed as well.
+    """
     kernel.set_name("orc-keeper")
     kernel.become_subreaper()
     for number in received_signals():
@@ -53,8 +57,13 @@ def keep(supervise: Callable[[], int], patience: Patience, stacks: Stacks) -> in
     signal.pthread_sigmask(signal.SIG_SETMASK, received_signals())
     modes = terminal_modes.kept()
     began = time.time()
-    watch = _Watch(_fork(supervise), patience, stacks, modes)
+    supervisor = _fork(supervise)
+    from orchestra.supervise.keeping.guard import Guard  # noqa: PLC0415 - the supervisor is at work meanwhile
+
+    guard = Guard(supervisor, bury)
+    watch = _Watch(supervisor, guard, patience, stacks, modes)
     status = watch.until_it_ends()
+    guard.dismiss()
     if status is None or not os.WIFEXITED(status):
         terminal_modes.give_back(modes)
     if status is not None and os.WIFEXITED(status) and os.WEXITSTATUS(status) == UNSTOPPABLE:
@@ -119,8 +128,11 @@ def _fork(supervise: Callable[[], int]) -> int:
 class _Watch:
     """The time while the supervisor lives."""
 
-    def __init__(self, supervisor: int, patience: Patience, stacks: Stacks, modes: Modes | None) -> None:
+    def __init__(
+        self, supervisor: int, guard: Guard, patience: Patience, stacks: Stacks, modes: Modes | None
+    ) -> None:
         self._supervisor = supervisor
+        self._guard = guard
         self._patience = patience
         self._stacks = stacks
         self._modes = modes
@@ -133,6 +145,7 @@ class _Watch:
         """Forward signals until the supervisor has ended; return its wait status, None where nothing can end it."""
         while True:
             received = _fetch(None if self._deadline is None else max(0.0, self._deadline - time.monotonic()))
+            self._guard.renew()
             status = reap(self._supervisor)
             if status is not None:
                 return status

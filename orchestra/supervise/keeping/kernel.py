@@ -9,8 +9,10 @@ import os
 _SET_PDEATHSIG = 1
 _SET_NAME = 15
 _SET_CHILD_SUBREAPER = 36
-# From asm-generic/resource.h.
-_RLIMIT_LOCKS = 10
+# From asm-generic/resource.h; `resource` has no name for it.
+LOCKS = 10
+# Fields 48 and 49 of /proc/PID/stat, counted behind the name: where the words of the command line begin and end.
+_ARG_START = 45
 # From linux/signal.h.
 _SS_DISABLE = 2
 
@@ -38,6 +40,18 @@ def set_name(name: str) -> None:
     _prctl(_SET_NAME, ctypes.addressof(buffer))
 
 
+def set_command_line(text: str) -> None:
+    """Set what /proc/PID/cmdline has, and so `ps` and `pkill -f`: the memory in which our words came (proc(5)).
+
+    What is longer than these were is cut.
+    """
+    with open("/proc/self/stat", "rb") as file:  # noqa: PTH123 - pathlib is slow to import and this runs in the keeper
+        begin, end = map(int, file.read().rpartition(b")")[2].split()[_ARG_START : _ARG_START + 2])
+    size = end - begin
+    if size > 0:
+        ctypes.memmove(begin, text.encode()[: size - 1].ljust(size, b"\0"), size)
+
+
 class _Limit(ctypes.Structure):
     _fields_ = (("soft", ctypes.c_uint64), ("hard", ctypes.c_uint64))
 
@@ -48,9 +62,9 @@ def set_lock_limit(number: int) -> None:
     Where the hard limit is lower it stays as it is: whoever looks for the number has other ways.
     """
     limit = _Limit()
-    _LIBC.prlimit64(0, _RLIMIT_LOCKS, None, ctypes.byref(limit))
+    _LIBC.prlimit64(0, LOCKS, None, ctypes.byref(limit))
     limit.soft = min(number, limit.hard)
-    _LIBC.prlimit64(0, _RLIMIT_LOCKS, ctypes.byref(limit), None)
+    _LIBC.prlimit64(0, LOCKS, ctypes.byref(limit), None)
 
 
 class _Stack(ctypes.Structure):

@@ -13,7 +13,7 @@ import signal
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
-from orchestra.supervise.keeping import kernel, proc
+from orchestra.supervise.keeping import proc
 from orchestra.supervise.keeping.marks import PROCESS, RUN, number_of
 
 if TYPE_CHECKING:
@@ -52,20 +52,11 @@ class Kin:
         self._own: dict[int, str | None] = {}
         self._adopted: dict[int, Adopted] = {}
 
-    def marked(self, owner: str, prepare: Callable[[], None] | None) -> Callable[[], None] | None:
-        """Return what is to be done in a program of a process before it begins: to take its number, then to prepare."""
+    def number(self, owner: str) -> int | None:
+        """Return the number that a program of a process gets before it begins, and never loses."""
         if owner not in self._numbers:
             self._numbers[owner] = number_of(self._run_id, len(self._numbers) + 1)
-        mark = self._numbers[owner]
-        if mark is None:
-            return prepare
-
-        def take_number() -> None:
-            kernel.set_lock_limit(mark)
-            if prepare:
-                prepare()
-
-        return take_number
+        return self._numbers[owner]
 
     def add(self, pid: int, owner: str | None) -> None:
         """Take note of a child that we started; `owner` None for one of our own tools."""

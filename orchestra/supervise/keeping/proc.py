@@ -144,6 +144,12 @@ def marks(pid: int, names: tuple[str, ...]) -> tuple[str | None, ...]:
     return tuple(_text(entries.get(name.encode())) for name in names)
 
 
+def name(pid: int) -> str | None:
+    """Return the name that `ps -o comm` shows, of a process that has ended and is not reaped too; None else."""
+    content = _read(f"/proc/{pid}/comm")
+    return None if content is None else content.decode("utf-8", "replace").rstrip("\n")
+
+
 def command(pid: int) -> str:
     """Return the command line for people, the name where there is none."""
     content = _read(f"/proc/{pid}/cmdline") or b""

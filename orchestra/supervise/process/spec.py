@@ -25,6 +25,7 @@ class Spec:
     that one terminal for everything, which controls it: job control and questions for a password work there (setsid(2),
     ioctl_tty(2)).
 
+    `mark` is the number by which it can be told (`keeping.marks`), None for that of the run.
     `before_exec` is called in the child, after the fork and before the program begins; where it raises, nothing runs.
     """
 
@@ -36,6 +37,7 @@ class Spec:
     stdin: bool
     before_exec: Callable[[], None] | None = None
     foremost: bool = False
+    mark: int | None = None
 
 
 def located(process: Process, folder: str) -> Process:

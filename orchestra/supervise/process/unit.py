@@ -183,9 +183,9 @@ class Unit:
             environment.update(self._notices.begin())
             self._crashes.begins(environment)
             self.tail = Tail(_LAST_LINES)
-            before = self._around.kin.marked(self.id, self._around.confines.prepare(process))
+            before, mark = self._around.confines.prepare(process), self._around.kin.number(self.id)
             child = spawn(
-                Spec(self.id, argv(process), environment, process.cwd, tty, stdin, before, foremost)
+                Spec(self.id, argv(process), environment, process.cwd, tty, stdin, before, foremost, mark)
             )
         except OSError as error:
             self._not_started(unstartable(error))
