@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import signal
 import tempfile
 import time
 import uuid
@@ -29,6 +30,9 @@ def pytest_configure(config: pytest.Config) -> None:
     # The same code is tried with the same examples each time; the long checks look for others in every run.
     if config.option.markexpr == "not long" and not config.getoption("--hypothesis-profile"):
         hypothesis.settings.load_profile("steady")
+    # Programs in the background of a shell ignore both, and what they start does so too: the tests send them.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    signal.signal(signal.SIGQUIT, signal.SIG_DFL)
     os.environ[_SESSION] = uuid.uuid4().hex
     # The control sockets of this session's runs, among which no other's are, nor those of the user.
     os.environ["XDG_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="orchestra-tests-")

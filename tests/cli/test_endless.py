@@ -6,11 +6,13 @@ import os
 import signal
 import subprocess
 import sys
+from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
 import pytest
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
 
 _ENDLESS = """\
@@ -29,8 +31,9 @@ def generate_launch_description():
 _PATIENCE = 60.0
 
 
-def _started(folder: Path, home: Path, *words: str) -> subprocess.Popen[str]:
-    return subprocess.Popen(
+@contextmanager
+def _started(folder: Path, home: Path, *words: str) -> Iterator[subprocess.Popen[str]]:
+    with subprocess.Popen(
         [sys.executable, "-m", "orchestra", *words],
         cwd=folder,
         env={**os.environ, "ORCHESTRA_HOME": str(home), "NO_COLOR": "1"},
@@ -38,7 +41,11 @@ def _started(folder: Path, home: Path, *words: str) -> subprocess.Popen[str]:
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
-    )
+    ) as process:
+        try:
+            yield process
+        finally:
+            process.kill()
 
 
 @pytest.mark.parametrize(
