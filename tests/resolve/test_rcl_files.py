@@ -90,7 +90,7 @@ def test_a_file_may_hold_several_documents() -> None:
     ("text", "place", "part"),
     [
         ("/n:\n", "1:1", "'/n' is empty: parameters belong below 'ros__parameters'"),
-        ("/n:\n  x: 1\n", "2:3", "'x' stands outside 'ros__parameters'"),
+        ("/n:\n  x: 1\n", "1:1", "'ros__parameters' is missing below '/n'"),
         ("/n:\n  ros__parameters:\n", "2:3", "must hold a mapping"),
         ("/n:\n  ros__parameters: [1]\n", "2:20", "a list cannot stand above"),
         ("ros__parameters:\n  x: 1\n", "1:1", "below the name of a node"),
@@ -157,7 +157,7 @@ def test_one_reading_tells_of_several_errors() -> None:
         "/e:\n"
         "  ros__parameters: {z: 2}\n"
     )
-    assert [problem.span.line for problem in problems.errors if problem.span] == [1, 3, 5, 6, 7, 9, 12]
+    assert [problem.span.line for problem in problems.ordered if problem.span] == [1, 3, 5, 6, 7, 9, 12]
     assert [(section.pattern, _flat(section)) for section in sections if section.entries] == [
         ("/b", {"z": 1}),
         ("/e", {"z": 2}),

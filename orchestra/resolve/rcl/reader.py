@@ -16,8 +16,7 @@ from orchestra.resolve.rcl.opened import OpenList, OpenParameter, OpenSection
 from orchestra.resolve.rcl.patterns import instead, pattern_fault
 from orchestra.resolve.rcl.sections import Entry, Section
 from orchestra.resolve.rcl.strays import SECTION_KEY, Key, Strays, is_misspelt_section, is_section
-from orchestra.resolve.rcl.table import kind_of
-from orchestra.resolve.rcl.values import odd_boolean, scalar, terminated
+from orchestra.resolve.rcl.values import scalar, span_of_events, terminated
 
 if TYPE_CHECKING:
     from orchestra.values import ParameterValue, Scalar
@@ -64,7 +63,7 @@ class Reader:
 
     def sections(self) -> tuple[Section, ...]:
         """Return the sections read so far."""
-        self.strays.end()
+        self.strays.end(0)
         sound = (section for section in self.found if section.sound)
         return tuple(Section(section.pattern, tuple(section.entries), section.location) for section in sound)
 
@@ -156,15 +155,11 @@ class Reader:
             self.expects_key = True
 
     def item(self, read: Scalar, event: yaml.ScalarEvent) -> None:
-        """Take an item of a list, which must be of the type of the first."""
+        """Take an item of a list."""
         current = self.lists[-1]
-        items = current.items if current.items is not None else []
-        if current.sound and items and type(items[0]) is not type(read):
-            message = f"a list must hold values of one type, not {kind_of(items[0])} and {kind_of(read)}"
-            self.problems.error(Code.PARAMETER_TYPE, message, self.at(event), notes=odd_boolean(read, event))
-            current.sound = False
-        items.append(read)
-        current.items = items
+        if current.items is None:
+            current.items = []
+        current.items.append(read)
         current.written.append(event)
 
     def drop(self) -> None:
@@ -181,7 +176,7 @@ class Reader:
             raise self.unreadable("a parameter file must be a mapping from nodes to parameters", event)
         empty = isinstance(event, yaml.ScalarEvent) and not event.value and not event.style
         if self.inside and not empty:
-            self.error(f"'{SECTION_KEY}' must hold a mapping from names to values", self.at(event))
+            self.strays.no_mapping(event, self.at(event))
         else:
             key, around = Key(self.last_key, at, self.depth), self.key_places[-1]
             self.strays.value(key, self.keys, around, self.emptied, empty=empty)
@@ -216,7 +211,7 @@ class Reader:
                     self.emptied = self.at(event)
         elif self.depth == self.node.count + 1:
             self.node.shrink()
-        self.strays.end()
+        self.strays.end(self.depth)
         self.depth -= 1
         self.keys.pop()
         self.key_places.pop()
@@ -253,6 +248,13 @@ class Reader:
         current = self.lists[-1]
         if current.items is None or not current.sound:
             return
+        if len({type(item) for item in current.items}) > 1:
+            # Here, because most lists are of one type.
+            from orchestra.resolve.rcl.mixed_events import report_mixed  # noqa: PLC0415
+
+            report_mixed(current, self.at, self.problems)
+            current.sound = False
+            return
         value: ParameterValue | None = tuple(current.items) or None  # type: ignore[assignment] # of one type
         self.emit(value, self.at(current.start, event))
         entries, items = self.found[-1].entries, tuple(map(self.at, current.written))
@@ -279,12 +281,7 @@ class Reader:
 
     def at(self, first: yaml.Event, last: yaml.Event | None = None) -> Location:
         """Return the place of an event, or from one to another."""
-        start, end = first.start_mark, (last or first).end_mark
-        assert start is not None  # noqa: S101 - events of a parser have marks
-        assert end is not None  # noqa: S101
-        unseen = isinstance(first, yaml.CollectionStartEvent) and start.index == end.index  # in block form
-        span = Span(self.file, start.line + 1, start.column + 1, end.line + 1, end.column + 1 + unseen)
-        return Location(span, self.included_from)
+        return Location(span_of_events(first, last or first, self.file), self.included_from)
 
     def error(self, message: str, at: Location, suggestion: str | None = None) -> None:
         """Report what rcl refuses."""

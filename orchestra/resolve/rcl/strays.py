@@ -1,7 +1,7 @@
 """What stands where rcl takes nothing: outside the parameters of a node, or a key with nothing behind it.
 
-rcl stops at the first such value. Here one mistake is told once, at its key: of several parameters without
-`ros__parameters` the first, and of a line that is indented too little that line, not the key above it.
+rcl stops at the first such value. Here one mistake is told once, when all of its node is known: where `ros__parameters`
+is missing, at the key that lacks it, and of a line that is indented too little that line, not the key above it.
 """
 
 from __future__ import annotations
@@ -10,9 +10,11 @@ import re
 from dataclasses import field
 from typing import TYPE_CHECKING, Final
 
+import yaml
+
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
-from orchestra.location import Location
+from orchestra.location import Location, Span
 from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
@@ -20,7 +22,9 @@ if TYPE_CHECKING:
 
 SECTION_KEY: Final = "ros__parameters"
 
+_NODE_DEPTH: Final = 2  # inside the file's mapping, inside that of a key of it
 _UNPREFIXED: Final = ("parameter", "parameters", "params")
+_COLON: Final = re.compile(r"([^\s:\[\]{}]+):(\S+)")
 _MISSPELT: Final = re.compile(r"ros[_-]*p[a-z]{1,4}m[a-z]{0,6}", re.IGNORECASE)
 
 
@@ -31,6 +35,19 @@ class Key:
     name: str
     at: Location
     depth: int
+
+
+@dataclass(frozen=True, slots=True)
+class _Stray:
+    """A value above the parameters: its key, the keys of the mappings around it, and the place of the innermost.
+
+    `ended` is the place of an empty mapping that has ended the parameters for rcl.
+    """
+
+    key: Key
+    keys: tuple[str, ...]
+    above: Location | None
+    ended: Location | None
 
 
 def is_section(name: str) -> bool:
@@ -47,10 +64,15 @@ def is_misspelt_section(name: str) -> bool:
 
 @dataclass(slots=True)
 class Strays:
-    """Reports strays; `told` are the keys of the file's mapping below which one has been."""
+    """Reports strays, one for each key of the file's mapping; `held` are those of which not all is known yet.
+
+    `sections` are the keys of the mappings that have `ros__parameters`.
+    """
 
     problems: Problems
     told: set[str] = field(default_factory=set)
+    held: dict[str, _Stray] = field(default_factory=dict)
+    sections: set[tuple[str, ...]] = field(default_factory=set)
     empty: Key | None = None
 
     def has_told(self, keys: Sequence[str]) -> bool:
@@ -73,19 +95,18 @@ class Strays:
         """
         if empty:
             self.empty = key
-        elif not self.has_told(keys):
-            self.told.add(_outermost(keys))
-            if keys[-1] in _UNPREFIXED and len(keys) > 2 and above is not None:  # noqa: PLR2004 - a node around it
-                message = f"'{keys[-1]}' is not '{SECTION_KEY}', below which parameters belong"
-                self.problems.error(Code.PARAMETER_SYNTAX, message, above, suggestion=SECTION_KEY)
-                return
-            notes = () if ended is None else (f"the empty mapping at {ended} ends the section for rcl",)
-            message = f"'{key.name}' stands outside '{SECTION_KEY}': parameters belong below '{SECTION_KEY}' of a node"
-            self.problems.error(Code.PARAMETER_SYNTAX, message, key.at, notes=notes)
+            return
+        outermost = _outermost(keys)
+        held = self.held.get(outermost)
+        if (held is None and outermost not in self.told) or (held is not None and len(keys) < len(held.keys)):
+            self.held[outermost] = _Stray(key, tuple(keys), above, ended)
+        self.told.add(outermost)
 
     def key(self, key: Key, keys: Sequence[str]) -> bool:
         """Take a key that is no parameter's; return whether it has been told to stand beside what it belongs below."""
         above, self.empty = self.empty, None
+        if is_section(key.name):
+            self.sections.add(tuple(keys))
         if above is None:
             return False
         if above.depth == key.depth and is_section(above.name) != is_section(key.name):
@@ -96,11 +117,51 @@ class Strays:
         self._tell(above)
         return False
 
-    def end(self) -> None:
-        """Take the end of a mapping, or of the file: an empty key is nothing but empty."""
+    def no_mapping(self, event: yaml.Event, at: Location) -> None:
+        """Report what stands below `ros__parameters` and is no mapping: a colon may lack the blank behind it."""
+        found = None
+        if isinstance(event, yaml.ScalarEvent) and not event.style:
+            found = _COLON.match(event.value)
+        if found is None:
+            message = f"'{SECTION_KEY}' must hold a mapping from names to values"
+            self.problems.error(Code.PARAMETER_SYNTAX, message, at)
+            return
+        span = at.span
+        word = Span(span.file, span.line, span.column, span.line, span.column + len(found[0]))
+        message = f"a blank is missing behind '{found[1]}:'"
+        instead = f"{found[1]}: {found[2]}"
+        self.problems.error(
+            Code.PARAMETER_SYNTAX, message, Location(word, at.included_from), suggestion=instead
+        )
+
+    def end(self, depth: int) -> None:
+        """Take the end of a mapping so deep, or of the file: an empty key is nothing but empty, a node is known."""
         if self.empty is not None:
             self._tell(self.empty)
             self.empty = None
+        if depth <= _NODE_DEPTH:
+            for stray in self.held.values():
+                self._tell_stray(stray)
+            self.held.clear()
+
+    def _tell_stray(self, stray: _Stray) -> None:
+        key, keys, above = stray.key, stray.keys, stray.above
+        within = above is not None and len(keys) > 1
+        if above is not None and keys[-1] in _UNPREFIXED and len(keys) > 2:  # noqa: PLR2004 - a node around it
+            message = f"'{keys[-1]}' is not '{SECTION_KEY}', below which parameters belong"
+            self.problems.error(Code.PARAMETER_SYNTAX, message, above, suggestion=SECTION_KEY)
+        elif within and keys not in self.sections and not any(map(is_section, keys)) and stray.ended is None:
+            message = f"'{SECTION_KEY}' is missing below '{keys[-1]}': parameters belong below it"
+            one = f"'{key.name}' at {key.at} is one"
+            self.problems.error(Code.PARAMETER_SYNTAX, message, above, notes=(one,))
+        else:
+            notes = (
+                ()
+                if stray.ended is None
+                else (f"the empty mapping at {stray.ended} ends the section for rcl",)
+            )
+            message = f"'{key.name}' stands outside '{SECTION_KEY}': parameters belong below '{SECTION_KEY}' of a node"
+            self.problems.error(Code.PARAMETER_SYNTAX, message, key.at, notes=notes)
 
     def _tell(self, key: Key) -> None:
         if is_section(key.name):

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 import yaml
 
+from orchestra.location import Span
 from orchestra.resolve.rcl.scalars import typed
 
 if TYPE_CHECKING:
@@ -32,6 +33,15 @@ def scalar(event: yaml.ScalarEvent) -> Scalar:
 def terminated(text: str) -> str:
     """Return the text up to its first NUL, where a C string ends."""
     return text.partition("\0")[0]
+
+
+def span_of_events(first: yaml.Event, last: yaml.Event, file: str) -> Span:
+    """Return the place from one event to another."""
+    start, end = first.start_mark, last.end_mark
+    assert start is not None  # noqa: S101 - events of a parser have marks
+    assert end is not None  # noqa: S101
+    unseen = isinstance(first, yaml.CollectionStartEvent) and start.index == end.index  # in block form
+    return Span(file, start.line + 1, start.column + 1, end.line + 1, end.column + 1 + unseen)
 
 
 def odd_boolean(read: Scalar, event: yaml.ScalarEvent) -> tuple[str, ...]:
