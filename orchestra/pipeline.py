@@ -14,6 +14,7 @@ from orchestra.load.files import load
 from orchestra.location import displayed, is_python, point
 from orchestra.plan.build import build
 from orchestra.plan.relocated import relocated
+from orchestra.plan.warm import warmed
 from orchestra.resolve import launch_files
 from orchestra.resolve.command_line import inputs_from
 from orchestra.resolve.commands import run_command
@@ -79,7 +80,7 @@ def plan_of_node(
     plan = build(single_node(package, executable, arguments, prefix, problems, packages), problems)
     if problems.errors:
         raise DescriptionError(problems.ordered)
-    return plan
+    return warmed(plan, inputs.environment)
 
 
 def find_launch_file(words: Sequence[str]) -> tuple[str, tuple[str, ...]]:
@@ -122,7 +123,9 @@ def opened(
             if description is not None:
                 resolved = _symbolic(carry_through(description, run), isolation.files)
                 _warn_of_remaining(path, isolation, problems)
-                launch = Launch(build(resolved, problems, digests=digests), run, isolation.files)
+                plan = build(resolved, problems, digests=digests)
+                plan = warmed(plan, inputs.environment) if digests else plan
+                launch = Launch(plan, run, isolation.files)
             _point_into_code(problems)
             settle(problems, path, inputs.severity, bare=_is_bare(path))
             if launch is not None:

@@ -47,6 +47,7 @@ _SMALL_CORE = {
         "orchestra.plan.reactions",
         "orchestra.plan.codec",
         "orchestra.plan.parameter_file",
+        "orchestra.plan.startup",
     ),
 }
 _SMALL_ROOMS = {"supervise", "logs", "probes"}

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any
 
 from orchestra.plan.build import build
 from orchestra.plan.codec import encode, encode_problem
 from orchestra.plan.triggers import actions
+from orchestra.plan.warm import warmed
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -26,7 +28,7 @@ def fragment(
     """
     named = {process.id for process in before.processes} | {component.id for component in before.components}
     known = named | {trigger.id for trigger in before.triggers}
-    after = build(resolved, problems, triggers_before=triggers, known=named)
+    after = warmed(build(resolved, problems, triggers_before=triggers, known=named), os.environ)
     new = {
         "processes": [record for record in after.processes if record.id not in known],
         "components": [record for record in after.components if record.id not in known],

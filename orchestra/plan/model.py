@@ -99,6 +99,25 @@ class Provenance:
 
 
 @dataclass(frozen=True, slots=True)
+class Warm:
+    """Whether the fork server starts a process, and if not, the `reason`.
+
+    If it does: `target` is the path of a script or the name of a module (`kind`), `interpreter` are the words that
+    stand for the first `skip` of the command on the command line that is shown, `executable` is the path by which the
+    interpreter is found, `comm` the name of the process (prctl(2), PR_SET_NAME).
+    """
+
+    warm: bool
+    reason: str | None
+    kind: Literal["script", "module"] | None = None
+    target: str | None = None
+    interpreter: tuple[str, ...] = ()
+    executable: str | None = None
+    skip: int = 0
+    comm: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
 class Process:
     """One process to run.
 
@@ -139,7 +158,7 @@ class Process:
     depends_on: tuple[Dependency, ...]
     stop: Stop | None
     limits: Limits | None
-    warm: None
+    warm: Warm | None
     machine: None
     digest: str
     location: Location

@@ -32,6 +32,7 @@ def portable(plan: Plan, symbols: Mapping[str, str]) -> Plan:
     paths = sorted((path for path in symbols if path not in ("", "/")), key=len, reverse=True)
     if not paths:
         return plan
+    plan = replace(plan, processes=tuple(replace(process, warm=None) for process in plan.processes))
     known = re.compile(f"{_NO_NAME_BEFORE}(?:{'|'.join(map(re.escape, paths))}){_NO_MORE_NAME}")
     return redigested(rewritten(plan, lambda text: known.sub(lambda found: symbols[found[0]], text)))
 

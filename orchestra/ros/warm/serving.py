@@ -1,0 +1,179 @@
+"""Takes requests and forks: once in between, so that the nodes become children of the supervisor, a subreaper.
+
+Who has lost its parent is given to the next subreaper above (prctl(2), PR_SET_CHILD_SUBREAPER). The process in between
+forks for several requests at once; a node is announced when it has ended: then it is the supervisor's child already.
+"""
+
+from __future__ import annotations
+
+import array
+import gc
+import json
+import os
+import signal
+import socket
+import sys
+import threading
+import warnings
+from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
+
+from orchestra.ros.warm.born import born
+from orchestra.ros.warm.preloading import preload, preload_common
+from orchestra.supervise.keeping import kernel
+
+if TYPE_CHECKING:
+    from collections.abc import Collection, Sequence
+
+    from orchestra.ros.warm.born import Born
+
+NAME = "orc-warm"
+_LARGEST = 1 << 18  # bytes of a message
+_DESCRIPTORS = 4
+# So many are forked before the first of them begins: a fork in between costs as much as one of a node.
+_AT_ONCE = 4
+_FAILED = -1
+
+
+class Request(NamedTuple):
+    """What is to be started, and its descriptors: to be told to go, its output, its errors, perhaps its input."""
+
+    facts: dict[str, Any]
+    descriptors: list[int]
+
+
+def serve(path: Sequence[str], modules: Collection[str]) -> Born:
+    """Serve until nobody asks any more; returns in the processes of nodes alone.
+
+    The one argument of the program is our parent's pid; `path` and `modules` are those of a fresh interpreter.
+    """
+    supervisor = int(sys.argv[1])
+    kernel.set_name(NAME)
+    kernel.die_with_parent(signal.SIGKILL, supervisor)
+    connection = socket.socket(fileno=os.dup(0))
+    os.dup2(os.open(os.devnull, os.O_RDONLY | os.O_CLOEXEC), 0)
+    try:
+        with _quietly_interrupted():
+            _make_ready(connection)
+            while True:
+                request = _serve_some(connection)
+                if request:
+                    break
+    except ConnectionError:
+        _leave()
+    return born(request, supervisor, path, modules)
+
+
+class _quietly_interrupted:  # noqa: N801 - a context manager that reads like a word
+    """Whoever signals the server wants it gone, without a traceback; a node has the interpreter's own handler again."""
+
+    def __enter__(self) -> None:
+        self._before = signal.signal(signal.SIGINT, signal.SIG_DFL)
+
+    def __exit__(self, *_: object) -> None:
+        signal.signal(signal.SIGINT, self._before)
+
+
+def _make_ready(connection: socket.socket) -> None:
+    try:
+        preload_common()
+    except Exception as error:  # noqa: BLE001 - told to the supervisor, which starts the nodes without us
+        _refuse(connection, f"{type(error).__name__}: {error}")
+    _freeze(connection)
+
+
+def _freeze(connection: socket.socket) -> None:
+    """Leave what there is to all processes alike: the collector would write to it."""
+    running = [thread.name for thread in threading.enumerate() if thread is not threading.main_thread()]
+    if running:  # a fork copies no thread, and their locks stay as they are
+        _refuse(connection, f"an import has started threads: {', '.join(running)}")
+    gc.collect()
+    gc.freeze()
+
+
+def _refuse(connection: socket.socket, reason: str) -> NoReturn:
+    connection.send(json.dumps({"unusable": reason}).encode())
+    _leave()
+
+
+def _leave() -> NoReturn:
+    sys.stderr.flush()
+    os._exit(0)
+
+
+def _serve_some(connection: socket.socket) -> Request | None:
+    """Carry out what is asked now; return a request in the process that is to become its node."""
+    starts, targets = _received(connection)
+    if targets:
+        preload(targets)
+        _freeze(connection)
+    for index in range(0, len(starts), _AT_ONCE):
+        mine = _fork_some(connection, starts[index : index + _AT_ONCE])
+        if mine:
+            return mine
+    return None
+
+
+def _received(connection: socket.socket) -> tuple[list[Request], list[tuple[str, str]]]:
+    """Return all requests that wait, after the first of them, and what is to be imported for later ones."""
+    starts: list[Request] = []
+    targets: list[tuple[str, str]] = []
+    flags = 0
+    while True:
+        try:
+            facts, descriptors = _message(connection, flags)
+        except BlockingIOError:
+            return starts, targets
+        if "prepare" in facts:
+            targets.extend((kind, name) for kind, name in facts["prepare"])
+        else:
+            starts.append(Request(facts, descriptors))
+        flags = socket.MSG_DONTWAIT
+
+
+def _message(connection: socket.socket, flags: int) -> tuple[dict[str, Any], list[int]]:
+    """Return one message. Raises `ConnectionError` where there is nobody any more, `BlockingIOError` with that flag."""
+    space = socket.CMSG_SPACE(_DESCRIPTORS * array.array("i").itemsize)
+    content, ancillary, _, _ = connection.recvmsg(_LARGEST, space, flags | socket.MSG_CMSG_CLOEXEC)
+    if not content:
+        raise ConnectionResetError
+    descriptors = array.array("i")
+    for level, kind, data in ancillary:
+        if (level, kind) == (socket.SOL_SOCKET, socket.SCM_RIGHTS):
+            descriptors.frombytes(data[: len(data) - len(data) % descriptors.itemsize])
+    return json.loads(content), list(descriptors)
+
+
+def _fork_some(connection: socket.socket, requests: list[Request]) -> Request | None:
+    """Fork for some requests; return one of them in the process that is to become its node."""
+    readable, writable = os.pipe()
+    between = _fork()
+    if between == 0:
+        for request in requests:
+            pid = _fork()
+            if pid == 0:
+                return request
+            os.write(writable, f"{pid}\n".encode())
+        os._exit(0)
+    os.close(writable)
+    if between > 0:
+        os.waitpid(between, 0)
+    with os.fdopen(readable, "rb") as told:
+        pids = [int(line) for line in told]
+    pids += [_FAILED] * (len(requests) - len(pids))
+    for request, pid in zip(requests, pids, strict=True):
+        answer = {"cold": "there is no room for one more process"} if pid == _FAILED else {"pid": pid}
+        connection.send(json.dumps({"id": request.facts["id"], **answer}).encode())
+        for descriptor in request.descriptors:
+            os.close(descriptor)
+    return None
+
+
+def _fork() -> int:
+    """Fork; -1 where there is no memory or no room for one more process."""
+    with warnings.catch_warnings():
+        # Later interpreters warn of threads: libraries have some here, for tracing, and they are to be left behind.
+        warnings.simplefilter("ignore")
+        try:
+            return os.fork()
+        except OSError:
+            return _FAILED

@@ -1,0 +1,76 @@
+"""What /proc shows of a process: its command line and its environment, at addresses that the process itself may choose.
+
+PR_SET_MM_MAP needs no privilege (prctl(2); kernel/sys.c, prctl_set_mm_map), but a kernel that is built with
+CONFIG_CHECKPOINT_RESTORE, as those of the distributions are. Without it the node shows what the server shows; it is
+told from others by its number (`marks`).
+"""
+
+from __future__ import annotations
+
+import contextlib
+import ctypes
+import mmap
+import os
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping, Sequence
+
+# From linux/prctl.h.
+_SET_MM, _SET_MM_MAP = 35, 14
+_NO_FILE = 0xFFFFFFFF
+# The addresses of /proc/PID/stat that struct prctl_mm_map wants back, by their fields (proc(5)).
+_FIELDS = {
+    "start_code": 26,
+    "end_code": 27,
+    "start_data": 45,
+    "end_data": 46,
+    "start_brk": 47,
+    "start_stack": 28,
+}
+_AFTER_NAME = 3  # the first field behind the name of the program
+
+_kept: list[mmap.mmap] = []
+
+
+class _Map(ctypes.Structure):
+    _fields_ = (
+        *((name, ctypes.c_uint64) for name in ("start_code", "end_code", "start_data", "end_data")),
+        *((name, ctypes.c_uint64) for name in ("start_brk", "brk", "start_stack", "arg_start", "arg_end")),
+        *((name, ctypes.c_uint64) for name in ("env_start", "env_end", "auxv")),
+        *((name, ctypes.c_uint32) for name in ("auxv_size", "exe_fd")),
+    )
+
+
+def show(words: Sequence[str], environment: Mapping[str, str]) -> None:
+    """Let /proc show this command line and this environment, as far as the kernel allows it."""
+    arguments = b"".join(os.fsencode(word) + b"\0" for word in words)
+    variables = b"".join(os.fsencode(f"{name}={value}") + b"\0" for name, value in environment.items())
+    # Private pages: the kernel reads no others for this (mm/util.c, get_cmdline).
+    memory = mmap.mmap(-1, len(arguments) + len(variables) + 1, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+    memory.write(arguments + variables)
+    begin = ctypes.addressof(ctypes.c_char.from_buffer(memory))
+    middle = begin + len(arguments)
+    with contextlib.suppress(OSError, ValueError):
+        _set_map(begin, middle, middle + len(variables))
+        _kept.append(memory)
+
+
+def _set_map(begin: int, middle: int, end: int) -> None:
+    libc = ctypes.CDLL(None, use_errno=True)
+    libc.sbrk.restype = ctypes.c_void_p
+    with open("/proc/self/stat", "rb") as file:  # noqa: PTH123 - on the way of each node
+        facts = file.read().rpartition(b")")[2].split()
+    known = {name: int(facts[field - _AFTER_NAME]) for name, field in _FIELDS.items()}
+    wanted = _Map(
+        **known,
+        brk=libc.sbrk(0),
+        arg_start=begin,
+        arg_end=middle,
+        env_start=middle,
+        env_end=end,
+        auxv=0,
+        auxv_size=0,
+        exe_fd=_NO_FILE,
+    )
+    libc.prctl(_SET_MM, _SET_MM_MAP, ctypes.byref(wanted), ctypes.sizeof(wanted), 0)

@@ -1,0 +1,183 @@
+"""Starts the processes of the plan: warm, by the fork server, where the plan says so, and cold else.
+
+A server that is lost is replaced at the next start; a second loss within a minute, and one that says that it is of no
+use, leaves everything cold. Whatever goes wrong with a warm start, the process is started cold.
+"""
+
+from __future__ import annotations
+
+import errno
+import itertools
+from typing import TYPE_CHECKING, Any
+
+from orchestra.supervise.keeping import proc
+from orchestra.supervise.process.spawn import spawn
+from orchestra.supervise.warm import dialogue
+from orchestra.supervise.warm.server import Server
+from orchestra.supervise.warm.start import Start
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Mapping
+
+    from orchestra.plan.model import Process
+    from orchestra.supervise.keeping.kin import Kin
+    from orchestra.supervise.loop import Loop, Timer
+    from orchestra.supervise.process.spec import Spec
+    from orchestra.supervise.warm.start import Told
+
+# How long a warm start may take, the server's own imports included, on a machine that is busy; in seconds.
+_PATIENCE = 15.0
+_TWICE_WITHIN = 60.0
+# It ends when nobody can ask any more, but not before its imports are over; in seconds.
+_LEAVE_WITHIN = 0.3
+# What it calls itself (ros/warm/serving.py), and its copies as long as they are not nodes yet.
+_NAME = "orc-warm"
+
+
+class Starts:
+    """Starts processes. `environment` is that of the server, `said` gets what users should know of it."""
+
+    def __init__(
+        self, loop: Loop, kin: Kin, environment: Mapping[str, str], said: Callable[[str], None]
+    ) -> None:
+        self.said = said
+        self._loop = loop
+        self._kin = kin
+        self._environment = environment
+        self._server: Server | None = None
+        self._former: list[Server] = []
+        self._numbers = itertools.count(1)
+        self._open: dict[int, Start] = {}
+        self._lost_at: float | None = None
+        self._hopeless: str | None = None
+        self._timer: Timer | None = None
+        kin.unborn = self._is_unborn
+
+    @property
+    def alive(self) -> bool:
+        """Whether a server's process has not been reaped."""
+        self._former = [one for one in self._former if one.alive]
+        return bool(self._former) or (self._server is not None and self._server.alive)
+
+    def prepare(self, processes: Iterable[Process] = ()) -> None:
+        """Start the server early, or let it import early what these processes need, where they can be started warm."""
+        targets = {(one.warm.kind, one.warm.target) for one in processes if one.warm and one.warm.warm}
+        server = self._ready() if targets or not processes else self._server
+        if server and targets:
+            server.tell({"prepare": sorted(targets, key=str)})
+
+    def start(self, process: Process, spec: Spec, told: Told) -> None:
+        """Start a process; `told` hears what comes of it, at once where it is started cold."""
+        if process.warm is None or not process.warm.warm or spec.foremost:
+            start_cold(spec, told)
+            return
+        differs = dialogue.obstacle(spec.environment, self._environment)
+        server = None if differs else self._ready()
+        if server is None:
+            told.cold(f"{differs} differs" if differs else f"the fork server {self._hopeless}")
+            return
+        number = next(self._numbers)
+        try:
+            start = Start(self._loop, process, spec, told, lambda: self._close(number))
+        except OSError as error:
+            told.failed(error)
+            return
+        self._open[number] = start
+        self._be_patient()
+        request = dialogue.request(number, process, spec, server.environment)
+        server.tell(request, start.descriptors, start.sent)
+
+    def withdraw(self, process: str) -> None:
+        """Do not start a process that is not there yet: somebody wants its end already."""
+        for start in [one for one in self._open.values() if one.process.id == process and one.pid is None]:
+            start.cancel(OSError(errno.ECANCELED, "it was to end before it had begun"))
+
+    def relieve(self) -> None:
+        """Let the server end: nothing is started warm any more, or not soon."""
+        if self._server is not None and not self._open:
+            self._loop.call_later(_LEAVE_WITHIN, self._server.kill)
+            self._retire()
+
+    def leave(self) -> None:
+        """Let the server end, whatever is to be started."""
+        for start in [*self._open.values()]:
+            start.cancel(OSError(errno.ECANCELED, "the run has ended"))
+        self.relieve()
+
+    def _ready(self) -> Server | None:
+        """Return the server, started where there is none; None where there will not be one."""
+        if self._server is None and self._hopeless is None:
+            ears = (self._heard, self._lost)
+            try:
+                self._server = Server(self._loop, self._kin, self._environment, self._say, ears)
+            except OSError as error:
+                self._hopeless = f"could not be started: {error}"
+        return self._server
+
+    def _say(self, text: str) -> None:
+        self.said(text.rstrip())
+
+    def _heard(self, message: dict[str, Any]) -> None:
+        if "unusable" in message:
+            self._hopeless = f"is of no use: {message['unusable']}"
+            self._lost("")
+            return
+        start = self._open.get(message["id"])
+        if "pid" in message and start is not None:
+            self._kin.add(message["pid"], start.process.id)
+            start.there(message["pid"])
+        elif "cold" in message and start is not None:
+            start.give_up(message["cold"])
+
+    def _lost(self, reason: str) -> None:
+        now, before = self._loop.clock(), self._lost_at
+        self._lost_at = now
+        if self._hopeless is None and before is not None and now < before + _TWICE_WITHIN:
+            self._hopeless = f"{reason}, and so did the one before"
+        self._retire()
+        why = self._hopeless or reason
+        for start in [one for one in self._open.values() if one.pid is None]:
+            start.give_up(f"the fork server {why}")
+
+    def _retire(self) -> None:
+        if self._server is not None:
+            self._server.leave()
+            self._former.append(self._server)
+            self._server = None
+
+    def _close(self, number: int) -> None:
+        start = self._open.pop(number)
+        if start.pid is not None and start.withdrawn:
+            self._kin.remove(start.pid)
+        if not self._open and self._timer:
+            self._timer.cancel()
+            self._timer = None
+
+    def _be_patient(self) -> None:
+        if self._timer is None:
+            self._timer = self._loop.call_later(_PATIENCE, self._lose_patience)
+
+    def _lose_patience(self) -> None:
+        """What has not begun by now is started cold."""
+        self._timer = None
+        server = self._server
+        stuck = [start for start in self._open.values() if start.pid is not None]
+        if server is not None and len(stuck) < len(self._open):
+            server.kill()
+            self._lost(f"has not answered for {_PATIENCE:g} s")
+        for start in stuck:
+            start.give_up(f"it has not begun for {_PATIENCE:g} s")
+
+    def _is_unborn(self, pid: int) -> bool:
+        """Tell whether a child of ours is a node that the server has forked and not told of yet."""
+        return any(start.pid is None for start in self._open.values()) and proc.name(pid) == _NAME
+
+
+def start_cold(spec: Spec, told: Told) -> None:
+    """Start a program by itself."""
+    try:
+        child = spawn(spec)
+    except OSError as error:
+        told.failed(error)
+        return
+    told.begun(child)
