@@ -8,7 +8,8 @@ TYPE_CHECKING = False  # `typing` itself costs more than this module
 if TYPE_CHECKING:
     from typing import BinaryIO
 
-    from orchestra.supervise.resolver.serving import Answer
+    from orchestra.cli.remembered import Remembered
+    from orchestra.supervise.resolver.serving import Answer, Settled
 
 _ONLY_SHOWING = {"--help", "--show-args", "--show-arguments", "--print", "--print-description"}
 # Commands that tell of runs that died and left something behind. `clean` does it in its own way.
@@ -31,6 +32,7 @@ def main() -> int:
             lambda stream: _prepare(words, stream),
             detach="--detach" in flags,
             wait_ready="--wait-ready" in flags,
+            recall=(lambda: _recall(words)) if words[0] == "launch" else None,
         )
     from orchestra.cli.main import main as command_line
 
@@ -86,7 +88,14 @@ def _flags_of_run(words: list[str]) -> list[str]:
     return flags
 
 
-def _prepare(words: list[str], stream: BinaryIO) -> int | Answer:
+def _recall(words: list[str]) -> Remembered | None:
+    """Return what the same command line has come to before, where that is still so."""
+    from orchestra.cli.remembered import remembered
+
+    return remembered(words)
+
+
+def _prepare(words: list[str], stream: BinaryIO) -> int | Answer | Settled:
     """Make the plan and write it to the stream. This is the resolver process, where heavy imports belong."""
     from orchestra.cli.main import prepare
 

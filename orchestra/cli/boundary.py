@@ -97,9 +97,22 @@ def show_problems(
     command_line: str = "",
     texts: Mapping[str, str] | None = None,
 ) -> None:
-    """Print problems to a stream; `command_line` is the text that those of the command line point into.
+    """Print problems to a stream: see `problems_text`."""
+    stream.write(problems_text(problems, problem_format, stream, command_line=command_line, texts=texts))
 
-    `texts` has what stands in files that are not read from the disk.
+
+def problems_text(
+    problems: Sequence[Problem],
+    problem_format: str,
+    stream: TextIO,
+    *,
+    command_line: str = "",
+    texts: Mapping[str, str] | None = None,
+) -> str:
+    """Return the text that shows problems on a stream.
+
+    `command_line` is the text that those of the command line point into, `texts` has what stands in files that are not
+    read from the disk.
     """
     # `orchestra --help` should be fast, and it has no problems.
     from orchestra.cli.problems.formats import renderer  # noqa: PLC0415
@@ -108,7 +121,7 @@ def show_problems(
 
     paint = colour.painter(enabled=colour.wanted(stream, os.environ))
     sources = from_files({COMMAND_LINE: command_line, **(texts or {})})
-    stream.write(renderer(problem_format)(problems, sources, paint))
+    return renderer(problem_format)(problems, sources, paint)
 
 
 def _show_bug(error: Exception, *, debug: bool) -> None:

@@ -21,21 +21,19 @@ if TYPE_CHECKING:
 
     from orchestra.errors import Problem
     from orchestra.plan.model import Plan
-    from orchestra.supervise.resolver.serving import Answer
+    from orchestra.supervise.resolver.serving import Answer, Settled
 
 
-def hand_over(
-    plan: Plan, options: Namespace, default_name: str, stream: BinaryIO, *, files: str | None = None
-) -> None:
-    """Write the plan and how to run it to the supervisor's stream. Raises `UsageError`.
+def document_of(plan: Plan, options: Namespace, default_name: str, *, files: str | None = None) -> bytes:
+    """Return the plan and how to run it, as the supervisor reads it. Raises `UsageError`.
 
     `files` is a folder that becomes part of the run directory.
     """
-    stream.write(document.dumps(plan, replace(run_options(options, default_name), files=files)))
+    return document.dumps(plan, replace(run_options(options, default_name), files=files))
 
 
-def warn(plan: Plan, options: Namespace) -> None:
-    """Print the warnings of a plan that is to be run, those about its limits on this machine among them.
+def warnings_of(plan: Plan, options: Namespace) -> str:
+    """Return the warnings of a plan that is to be run, those about its limits on this machine among them.
 
     Raises `DescriptionError` where this machine cannot grant the limits; the supervisor would refuse them in plainer
     words.
@@ -45,7 +43,7 @@ def warn(plan: Plan, options: Namespace) -> None:
     everything = (*plan.problems, *problems)
     if any(problem.severity is Severity.ERROR for problem in problems):
         raise DescriptionError(everything)
-    inputs.warn(replace(plan, problems=everything), options)
+    return inputs.warnings_text(everything, options)
 
 
 def _unfit(plan: Plan) -> tuple[Problem, ...]:
@@ -57,7 +55,7 @@ def _unfit(plan: Plan) -> tuple[Problem, ...]:
 
 
 def supervised(
-    command: str, prepare: Callable[[Namespace, BinaryIO], int | Answer], options: Namespace
+    command: str, prepare: Callable[[Namespace, BinaryIO], int | Answer | Settled], options: Namespace
 ) -> int:
     """Run what `prepare` hands over: for a command line that `orchestra.__main__` did not know for a run."""
     return started(

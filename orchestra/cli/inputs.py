@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING
 
 from orchestra.cli import boundary, launch_prefix, leaving, severities
 from orchestra.errors import DescriptionError, Problems, Severity, UsageError
+from orchestra.witness.observing import observer
+from orchestra.witness.variables import ObservedEnvironment
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
@@ -62,7 +64,11 @@ def inputs_of(words: Sequence[str], options: Namespace) -> Inputs:
     from orchestra import pipeline  # noqa: PLC0415 - as above
 
     words = (*words, *launch_prefix.words(options))
-    given = pipeline.inputs_from(words, environment=os.environ, params_files=options.params_file)
+    watching = observer()
+    with watching.aside():
+        given = pipeline.inputs_from(words, environment=os.environ, params_files=options.params_file)
+    if watching.active:
+        given = dataclasses.replace(given, environment=ObservedEnvironment(given.environment, watching))
     debug, noninteractive = getattr(options, "debug", False), getattr(options, "noninteractive", True)
     weights = severities.given(options)
     return dataclasses.replace(given, debug=debug, noninteractive=noninteractive, severity=weights)
@@ -102,9 +108,14 @@ def launch_from(options: Namespace, lasting: ExitStack) -> Launch:
 
 def warn(plan: Plan, options: Namespace) -> None:
     """Print the warnings of a plan on standard error."""
+    sys.stderr.write(warnings_text(plan.problems, options))
+
+
+def warnings_text(problems: tuple[Problem, ...], options: Namespace) -> str:
+    """Return the text that shows warnings on standard error."""
     telling = boundary.Telling.of("", options)
-    boundary.show_problems(
-        plan.problems, telling.problem_format, sys.stderr, command_line=telling.command_line
+    return boundary.problems_text(
+        problems, telling.problem_format, sys.stderr, command_line=telling.command_line
     )
 
 

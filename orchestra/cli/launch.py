@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import sys
-from contextlib import ExitStack
+from contextlib import ExitStack, nullcontext
 from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -11,13 +11,15 @@ from typing import TYPE_CHECKING, Any
 from orchestra.cli import boundary, inputs, run_options
 from orchestra.cli.parser import CommandParser
 from orchestra.cli.problems.formats import FORMATS
+from orchestra.cli.remembered import NO_CACHE
 
 if TYPE_CHECKING:
     from argparse import Namespace
+    from collections.abc import Sequence
     from typing import BinaryIO
 
     from orchestra.pipeline import Launch
-    from orchestra.supervise.resolver.serving import Answer
+    from orchestra.supervise.resolver.serving import Answer, Settled
 
 
 def parser() -> CommandParser:
@@ -31,6 +33,11 @@ def parser() -> CommandParser:
         help="how problems are shown (default: text)",
     )
     run_options.add_to(made)
+    made.add_argument(
+        NO_CACHE,
+        action="store_true",
+        help="read the launch file, also where nothing has changed since last time",
+    )
     showing = made.add_mutually_exclusive_group()
     showing.add_argument(
         *("-s", "--show-args", "--show-arguments"),
@@ -66,21 +73,34 @@ def run(options: Namespace) -> int:
     return supervised("launch", prepare, options)
 
 
-def prepare(options: Namespace, stream: BinaryIO) -> int | Answer:
+def prepare(options: Namespace, stream: BinaryIO, words: Sequence[str] = ()) -> int | Answer | Settled:
     """Make the plan and hand it to the supervisor; its warnings go to standard error.
 
-    Where code of the launch files decides about something in the run, what is returned asks it.
+    Where code of the launch files decides about something in the run, what is returned asks it. `words` are those of
+    the command line: what they come to is kept for the next time, where there are some.
     """
-    from orchestra.cli.handover import hand_over, warn  # noqa: PLC0415 - heavy, and only a run needs it
+    # All of it is heavy, and only a run needs it.
+    from orchestra import pipeline  # noqa: F401, PLC0415 - before it is watched what is read
+    from orchestra.cli.handover import document_of, warnings_of  # noqa: PLC0415
+    from orchestra.cli.remembering import memory  # noqa: PLC0415
+    from orchestra.supervise.resolver.serving import Settled  # noqa: PLC0415
 
+    kept = memory(words) if words else None
     with ExitStack() as lasting:
-        launch = inputs.launch_from(options, lasting)
-        warn(launch.plan, options)
-        name = Path(launch.plan.file).name.partition(".")[0]
-        hand_over(launch.plan, options, name, stream, files=launch.files.keep(more=launch.deferred))
+        with kept.watching() if kept else nullcontext():
+            launch = inputs.launch_from(options, lasting)
+            told = warnings_of(launch.plan, options)
+            name = Path(launch.plan.file).name.partition(".")[0]
+            files = launch.files.keep(more=launch.deferred)
+            document = document_of(launch.plan, options, name, files=files)
+        sys.stderr.write(told)
+        stream.write(document)
         if launch.deferred:
             return partial(_answer, lasting.pop_all(), launch)
-    return boundary.OK
+        # Whether limits can be granted is another question each time, and files are another folder.
+        lasts = files is None and all(process.limits is None for process in launch.plan.processes)
+        keep = kept.keep(document, told) if kept and lasts else None
+    return Settled(keep) if keep else boundary.OK
 
 
 def _answer(lasting: ExitStack, launch: Launch, question: dict[str, Any]) -> dict[str, Any]:

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from typing import Any, BinaryIO
 
-    from orchestra.supervise.resolver.serving import Answer
+    from orchestra.supervise.resolver.serving import Answer, Settled
 
 _ResultT = TypeVar("_ResultT")
 
@@ -32,14 +32,14 @@ def main(words: Sequence[str]) -> int:
     return status
 
 
-def prepare(words: Sequence[str], stream: BinaryIO) -> int | Answer:
+def prepare(words: Sequence[str], stream: BinaryIO) -> int | Answer | Settled:
     """Write the plan of `launch` or `run` to the stream; return 0, or the status of the error that was shown.
 
     This is what the resolver process of a run does.
     """
 
-    def act(module: Any, options: Namespace) -> int | Answer:  # noqa: ANN401 - the module of a command
-        prepared: int | Answer = module.prepare(options, stream)
+    def act(module: Any, options: Namespace) -> int | Answer | Settled:  # noqa: ANN401 - the module of a command
+        prepared: int | Answer | Settled = module.prepare(options, stream, words)
         return prepared
 
     return guarded(lambda: _carry_out(words[0], words[1:], act), Telling(words[0]))

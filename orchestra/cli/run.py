@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import os
+import sys
 from typing import TYPE_CHECKING
 
 from orchestra.cli import boundary, run_options
@@ -12,6 +13,7 @@ from orchestra.errors import UsageError
 
 if TYPE_CHECKING:
     from argparse import Namespace
+    from collections.abc import Sequence
     from typing import BinaryIO
 
 _EPILOG = "All words after the executable go to the node unchanged."
@@ -37,17 +39,18 @@ def run(options: Namespace) -> int:
     return supervised("run", prepare, options)
 
 
-def prepare(options: Namespace, stream: BinaryIO) -> int:
+def prepare(options: Namespace, stream: BinaryIO, words: Sequence[str] = ()) -> int:
     """Make the plan of the one node and hand it to the supervisor."""
+    del words  # there is nothing to be remembered: one node is found at once
     if len(options.words) < 2:  # noqa: PLR2004 - a package and an executable
         raise UsageError("a package and an executable are wanted")
     # Both are heavy, and `--help` does not need them.
     from orchestra import pipeline  # noqa: PLC0415
-    from orchestra.cli.handover import hand_over, warn  # noqa: PLC0415
+    from orchestra.cli.handover import document_of, warnings_of  # noqa: PLC0415
 
     package, executable, *arguments = options.words
     given = pipeline.inputs_from((), environment=os.environ)
     plan = pipeline.plan_of_node(package, executable, arguments, given, prefix=options.prefix)
-    warn(plan, options)
-    hand_over(plan, options, executable, stream)
+    sys.stderr.write(warnings_of(plan, options))
+    stream.write(document_of(plan, options, executable))
     return boundary.OK

@@ -10,6 +10,7 @@ if TYPE_CHECKING:
     from orchestra.supervise.attendance import Attend
     from orchestra.supervise.keeping.patience import Patience
     from orchestra.supervise.keeping.stacks import Stacks
+    from orchestra.supervise.resolver.document import Document
     from orchestra.supervise.resolver.process import Resolver
     from orchestra.supervise.summons import Summons
 
@@ -27,8 +28,9 @@ class Kept:
 
 
 class Beginnings:
-    """The run's mark, the keeper's pid, the resolver at work, the descriptor on which signals arrive as bytes.
+    """The run's mark, the keeper's pid, the descriptor on which signals arrive as bytes.
 
+    `given` is the resolver at work, or what an earlier one has handed over;
     `began` is now, in seconds since the epoch;
     `stacks` is where our processes write where they are; `attend` is what attends to the run besides;
     `summons` what the service manager wants that has started us.
@@ -38,8 +40,8 @@ class Beginnings:
         "_patience",
         "attend",
         "began",
+        "given",
         "keeper",
-        "resolver",
         "run_id",
         "signals",
         "stacks",
@@ -47,13 +49,18 @@ class Beginnings:
     )
 
     def __init__(
-        self, kept: Kept, resolver: Resolver, signals: int, attend: Attend | None, summons: Summons
+        self,
+        kept: Kept,
+        given: Resolver | Document,
+        signals: int,
+        attend: Attend | None,
+        summons: Summons,
     ) -> None:
         self.began = time.time()
         self.run_id = kept.run_id
         self.keeper = kept.keeper
         self.stacks = kept.stacks
-        self.resolver = resolver
+        self.given = given
         self.signals = signals
         self.attend = attend
         self.summons = summons

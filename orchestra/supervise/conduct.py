@@ -18,6 +18,7 @@ from orchestra.supervise.keeping.standard_streams import say
 from orchestra.supervise.limits.confines import Confines
 from orchestra.supervise.loop import Loop
 from orchestra.supervise.outcome import FAILED, MISTAKE, UNSTOPPABLE, judge
+from orchestra.supervise.resolver.document import Document
 from orchestra.supervise.resolver.resolving import Collection, Refused
 from orchestra.supervise.runs import directory
 from orchestra.supervise.runs.furnishing import furnish
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from orchestra.plan.model import Plan
     from orchestra.supervise.beginnings import Beginnings
     from orchestra.supervise.outcome import Outcome
-    from orchestra.supervise.resolver.document import Document
     from orchestra.supervise.resolver.process import Resolver
     from orchestra.supervise.runs.directory import RunDirectory
     from orchestra.supervise.surroundings import Surroundings
@@ -42,14 +42,15 @@ _TOOLS_LEAVE_WITHIN = 1.5
 def conduct(beginnings: Beginnings) -> int:
     """Carry out a run and return its exit status. Raises `Refused` where there is nothing to run."""
     loop = Loop()
-    collection = Collection(beginnings.resolver, loop)
-    attention = Attention(loop, beginnings.signals, collection.stop_signal)
+    attention = Attention(loop, beginnings.signals, lambda _number: None)
     service = ServiceManager(loop, beginnings.summons, say)
     service.reading()
     dump = Dump(loop, beginnings.stacks, say)
-    dump.report, dump.resolver = collection.state_report, lambda: collection.pid
     attention.on_dump = dump.take
-    document, resolver = _collect(loop, collection, beginnings.resolver)
+    given = beginnings.given
+    document, resolver = (
+        (given, None) if isinstance(given, Document) else _collect(loop, given, attention, dump)
+    )
     confines = Confines(loop, beginnings.run_id)
     unfit = confines.take_up(document.plan)
     if unfit:
@@ -85,18 +86,23 @@ def conduct(beginnings: Beginnings) -> int:
     return outcome.status
 
 
-def _collect(loop: Loop, collection: Collection, resolver: Resolver) -> tuple[Document, Resolver | None]:
-    """Wait for the plan, and for the end of the resolver unless a trigger needs it: then it is returned too.
+def _collect(
+    loop: Loop, resolver: Resolver, attention: Attention, dump: Dump
+) -> tuple[Document, Resolver | None]:
+    """Wait for the plan, and for the end of the resolver unless it goes on: then it is returned too.
 
     What the resolver started and left behind ends here: it was not asked for.
     """
+    collection = Collection(resolver, loop)
+    attention.on_stop = collection.stop_signal
+    dump.report, dump.resolver = collection.state_report, lambda: collection.pid
     try:
         while not collection.done:
             loop.run_once()
         document = collection.result()
         if not collection.stays:
             return document, None
-        if any(trigger.deferred for trigger in document.plan.triggers):
+        if collection.settled or any(trigger.deferred for trigger in document.plan.triggers):
             collection.hand_on()
             return document, resolver
         collection.dismiss()

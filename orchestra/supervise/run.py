@@ -98,7 +98,7 @@ def _supervise(prepare: Prepare, attend: Attend | None, kept: Kept, recall: Reca
     summons = taken(os.environ, kept.keeper)
     # The keeper's mask is still in force: no signal can reach the resolver with our handlers, nor us without them.
     document, prepare = recalled(recall, prepare)
-    resolver = None if document else fork_resolver(prepare, kept.stacks)
+    given = document or fork_resolver(prepare, kept.stacks)
     reset_signals(unblock=False)
     signals = receive_signals(received_signals())
     kept.stacks.show_on_request(chain=True)
@@ -110,4 +110,4 @@ def _supervise(prepare: Prepare, attend: Attend | None, kept: Kept, recall: Reca
     except BaseException:  # noqa: BLE001 - a forked child must not run on into its parent's code
         sys.excepthook(*sys.exc_info())
         return 3
-    return guarded_run(Beginnings(kept, document or resolver, signals, attend, summons))
+    return guarded_run(Beginnings(kept, given, signals, attend, summons))

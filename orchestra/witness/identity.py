@@ -3,35 +3,22 @@
 from __future__ import annotations
 
 import os
-import sys
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Final
 
 from orchestra.witness.looking import digest_of
+from orchestra.witness.standing import standing
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
 _OURS: Final = os.path.dirname(os.path.dirname(os.path.abspath(__file__)))
 _LIBRARIES: Final = ("pydantic", "pydantic_core", "yaml")
-# Variables that libraries in C read by themselves.
-_READ_BY_ALL: Final = ("LANG", "LC_ALL", "LC_CTYPE", "LC_MESSAGES", "TZ", "PYTHONHASHSEED", "PYTHONWARNINGS")
 
 
 def identity(environment: Mapping[str, str]) -> str:
     """Return a text that is another one wherever something of that is."""
-    parts = [
-        sys.version,
-        sys.executable,
-        os.getcwd(),
-        *sys.path,
-        *os.uname(),
-        str(sorted(os.sched_getaffinity(0))),
-        str(os.getuid()),
-        *(f"{name}={environment.get(name)}" for name in _READ_BY_ALL),
-        *_our_files(_OURS),
-        *map(_library, _LIBRARIES),
-    ]
+    parts = [*standing(environment), *_our_files(_OURS), *map(_library, _LIBRARIES)]
     return digest_of("\0".join(parts).encode("utf-8", "surrogateescape"))
 
 

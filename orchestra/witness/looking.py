@@ -5,13 +5,18 @@ from __future__ import annotations
 import os
 import stat
 import time
-from hashlib import blake2b
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
+    from hashlib import blake2b
 
     from orchestra.witness.record import Signature
+else:
+    try:
+        from _blake2 import blake2b  # what `hashlib` has, without the library of ciphers that it loads first
+    except ImportError:  # not every interpreter has it by this name
+        from hashlib import blake2b
 
 # Taken before anybody wraps them.
 _stat, _lstat, _readlink, _access, _scandir, _open = (
@@ -132,6 +137,21 @@ LOOKS: Final[dict[str, Callable[[str], Any]]] = {
     "access": readable,
     "listing": listing,
 }
+
+
+# The functions that look without opening, and the kind of look that each is.
+_LOOKING: Final = (("stat", "mode"), ("lstat", "own_mode"), ("readlink", "link"), ("access", "access"))
+
+
+def wrap(wrapped: Callable[[Any, str], Any]) -> None:
+    """Put what `wrapped` makes of them in the place of the functions that look without opening."""
+    for name, kind in _LOOKING:
+        function = getattr(os, name)
+        found = wrapped(function, kind)
+        setattr(os, name, found)
+        for able in (os.supports_dir_fd, os.supports_fd, os.supports_follow_symlinks):
+            if function in able:
+                able.add(found)
 
 
 def _described(entries: Iterable[os.DirEntry[str]]) -> list[str]:

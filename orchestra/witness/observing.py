@@ -9,8 +9,8 @@ from functools import wraps
 from types import CodeType
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
-from orchestra.witness import looking, unknowable
-from orchestra.witness.origins import INSTALLED, OF_THE_KERNEL, OURS, is_python, source_of
+from orchestra.witness import looking, origins, unknowable
+from orchestra.witness.origins import INSTALLED, OURS, is_python, source_of
 from orchestra.witness.record import Record, question
 from orchestra.witness.variables import ObservedData
 
@@ -21,18 +21,21 @@ if TYPE_CHECKING:
 
 _AnswerT = TypeVar("_AnswerT")
 
-_LOOKING: Final = (("stat", "mode"), ("lstat", "own_mode"), ("readlink", "link"), ("access", "access"))
 _MOST_PATHS: Final = 100_000  # that are remembered
 _WRITING: Final = os.O_WRONLY | os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_TRUNC
 
 
 class Observer:
-    """Records what this process looks at. There is one per process, `observer()`."""
+    """Records what this process looks at. There is one per process, `observer()`.
+
+    `foreign` are modules in other languages, `code` is what is read of ours. Unless it `asks`, no question is recorded.
+    """
 
     def __init__(self) -> None:
         self.record: Record | None = None
         self.scratch: str | None = None
         self.foreign: set[str] = set()
+        self.code: set[str] = set()
         self._aside = 0
         self._seen: dict[str, Signature | None] = {}
         self._digests: dict[str, tuple[Signature | None, str]] = {}
@@ -43,7 +46,7 @@ class Observer:
         self._paths: set[tuple[Any, ...]] = set()
         self._harmless: set[str] = set()
         self._wholes: dict[str, str | None] = {}
-        self.installed = False
+        self.installed, self.asks = False, True
         self.kept: dict[tuple[Any, ...], tuple[Record, Any]] = {}
 
     @property
@@ -56,13 +59,7 @@ class Observer:
         if not self.installed:
             self.installed = True
             sys.addaudithook(self._heard)
-            for name, kind in _LOOKING:
-                function = getattr(os, name)
-                wrapped = self._wrapped(function, kind)
-                setattr(os, name, wrapped)
-                for able in (os.supports_dir_fd, os.supports_fd, os.supports_follow_symlinks):
-                    if function in able:
-                        able.add(wrapped)
+            looking.wrap(self._wrapped)
             environ: Any = os.environ
             environ._data = ObservedData(environ._data, self)  # noqa: SLF001 - there is no other way to it
 
@@ -135,6 +132,8 @@ class Observer:
 
     def answered(self, words: tuple[str, ...], answer: Callable[[], _AnswerT]) -> _AnswerT:
         """Return the answer to a question, and record it instead of what is looked at for it; it is JSON data."""
+        if not self.asks:
+            return answer()
         with self.aside():
             found = answer()
         if self.active and self.record is not None:
@@ -226,7 +225,7 @@ class Observer:
         if event == "open":
             self._opened(*args)
         elif event in ("os.listdir", "os.scandir"):
-            self._listed(args[0])
+            self.listed(args[0])
         elif event == "import":
             self._imports(*args[:3])
         elif event == "exec":
@@ -244,13 +243,14 @@ class Observer:
             return
         whole = self._whole(path)
         if whole is None or whole == os.devnull:
+            self.code.update(origins.own_source(path))
             return
         if (mode and not {"w", "a", "x", "+"}.isdisjoint(mode)) or (mode is None and flags & _WRITING):
             self.unknown(f"{whole} is written")
             return
         if whole.endswith(".pyc"):
             whole = source_of(whole)
-        if whole.startswith(OF_THE_KERNEL):
+        if whole.startswith(origins.OF_THE_KERNEL):
             self.unknown(f"{whole} is another one each time")
             return
         self.file(whole)
@@ -259,7 +259,8 @@ class Observer:
             with self.aside():
                 self._complete(self._installed, whole, before)
 
-    def _listed(self, path: Any) -> None:
+    def listed(self, path: Any) -> None:
+        """Record that it matters what is in a folder."""
         if isinstance(path, int):
             self.unknown("folders that are open")
             return
@@ -281,15 +282,11 @@ class Observer:
                 self._look("listing", whole)
 
     def _executes(self, code: Any) -> None:
-        if not isinstance(code, CodeType):
-            return
-        file = code.co_filename
-        if file.startswith((OURS, "<frozen", *INSTALLED)) or is_python(file):
-            return
-        self._of_users = True
-        sign = unknowable.sign_in(code)
-        if sign is not None:
-            self.unknown(f"code uses {sign}")
+        if isinstance(code, CodeType) and origins.of_users(code.co_filename):
+            self._of_users = True
+            sign = unknowable.sign_in(code)
+            if sign is not None:
+                self.unknown(f"code uses {sign}")
 
 
 _OBSERVER: Final = Observer()

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 import os
+import sys
 import sysconfig
 from importlib.util import source_from_cache
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from orchestra.witness import looking
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 OURS: Final = os.path.dirname(os.path.dirname(os.path.abspath(__file__))) + os.sep
 PYTHON: Final = tuple(
@@ -35,3 +39,19 @@ def source_of(cached: str) -> str:
     except ValueError:
         return cached
     return source if looking.signature(source) is not None else cached
+
+
+def of_users(file: str) -> bool:
+    """Tell whether code is of neither Orchestra nor Python, nor installed beside them."""
+    return not (file.startswith((OURS, "<frozen", *INSTALLED)) or is_python(file))
+
+
+def own_source(path: object) -> tuple[str, ...]:
+    """Return the source of what is opened where that is a file of Orchestra's own."""
+    return (source_of(path),) if isinstance(path, str) and path.startswith(OURS) else ()
+
+
+def loaded(more: Iterable[str] = ()) -> set[str]:
+    """Return the files that are loaded as code, and some more; what is part of Python itself is left out."""
+    files = {getattr(module, "__file__", None) for module in list(sys.modules.values())}
+    return {file for file in (*files, *more) if isinstance(file, str) and not is_python(file)}

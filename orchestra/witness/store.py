@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import os
+import stat
 import time
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Final
@@ -19,6 +20,7 @@ if TYPE_CHECKING:
 
 _MOST: Final = 64 * 1024 * 1024  # bytes that entries may take together
 _DAY: Final = 86_400
+_OF_OTHERS: Final = stat.S_IWGRP | stat.S_IWOTH
 
 
 class Store:
@@ -34,8 +36,10 @@ class Store:
         path = self._path(key)
         try:
             with open(path, "rb") as file:
+                status = os.fstat(file.fileno())
+                if status.st_uid != os.geteuid() or status.st_mode & _OF_OTHERS:
+                    return None  # somebody else may have written it
                 digest, _, body = file.read().partition(b"\n")
-                changed = os.fstat(file.fileno()).st_mtime
             if digest.decode("ascii", "replace") != digest_of(body):
                 return None
             found = json.loads(body)
@@ -44,7 +48,7 @@ class Store:
             record, result = Record.from_data(found["record"]), found["result"]
         except (OSError, ValueError, KeyError, TypeError, RecursionError):
             return None
-        if time.time() - changed > _DAY:
+        if time.time() - status.st_mtime > _DAY:
             with suppress(OSError):  # it was removed meanwhile, or belongs to somebody else
                 os.utime(path)  # those that are used last are kept longest
         return record, result
@@ -62,7 +66,7 @@ class Store:
             if not self._made:
                 os.makedirs(self._folder, mode=0o700, exist_ok=True)
                 self._made = True
-            with open(own, "wb") as file:
+            with open(own, "wb", opener=_for_us_alone) as file:
                 file.write(digest_of(body).encode() + b"\n" + body)
             os.replace(own, path)
         except OSError:
@@ -90,6 +94,10 @@ class Store:
 
     def _path(self, key: str) -> str:
         return os.path.join(self._folder, digest_of(key.encode("utf-8", "surrogatepass")))
+
+
+def _for_us_alone(path: str, flags: int) -> int:
+    return os.open(path, flags, 0o600)  # values of the environment are in it
 
 
 def _status(entry: os.DirEntry[str]) -> os.stat_result | None:

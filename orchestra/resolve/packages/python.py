@@ -8,6 +8,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from orchestra.witness.searching import searched
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -35,6 +37,7 @@ def folder(package: str) -> Path | None:
     if not package.isidentifier() or package in sys.stdlib_module_names or package == "__main__":
         return None
     spec = find_spec(package)
+    searched(sys.path, None if spec is None else spec.submodule_search_locations)
     if spec is None or spec.origin is None or not spec.submodule_search_locations:
         return None
     return Path(spec.submodule_search_locations[0]).absolute()

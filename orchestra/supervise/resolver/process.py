@@ -1,7 +1,8 @@
 """The resolver process: `prepare` with everything heavy and all user code lives and dies there.
 
-It hands over one document, behind a line of JSON `{"size": BYTES, "stays": BOOL}`, and ends; where it stays it answers
-what it is asked (`serving`) until the supervisor closes the connection.
+It hands over one document, behind a line of JSON `{"size": BYTES, "stays": BOOL, "settled": BOOL}`, and ends; where it
+stays it answers what it is asked (`serving`) until the supervisor closes the connection, or, where it is settled, does
+something more that is nothing to the run.
 """
 
 from __future__ import annotations
@@ -21,9 +22,9 @@ if TYPE_CHECKING:
     from typing import BinaryIO, TypeAlias
 
     from orchestra.supervise.keeping.stacks import Stacks
-    from orchestra.supervise.resolver.serving import Answer
+    from orchestra.supervise.resolver.serving import Answer, Settled
 
-    Prepare: TypeAlias = Callable[[BinaryIO], int | Answer]
+    Prepare: TypeAlias = Callable[[BinaryIO], int | Answer | Settled]
 
 BUG = 3
 
@@ -78,11 +79,16 @@ def _prepare(prepare: Prepare, descriptor: int) -> int:
         result = prepare(document)
         if result == 0 or not isinstance(result, int):
             # Only now, and only here: neither keeper nor supervisor needs it.
-            from orchestra.supervise.resolver.serving import hand_over, serve  # noqa: PLC0415
+            from orchestra.supervise.resolver.serving import Settled, hand_over, serve  # noqa: PLC0415
 
-            stays = not isinstance(result, int)
-            hand_over(document.getbuffer(), descriptor, stays=stays)
-            result = serve(result, descriptor) if not isinstance(result, int) else result
+            settled = isinstance(result, Settled)
+            flush()
+            hand_over(document.getbuffer(), descriptor, stays=not isinstance(result, int), settled=settled)
+            if isinstance(result, Settled):
+                result.afterwards()
+                result = 0
+            elif not isinstance(result, int):
+                result = serve(result, descriptor)
         status = result
     except SystemExit as error:
         status = _status(error)

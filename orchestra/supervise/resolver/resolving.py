@@ -76,6 +76,11 @@ class Collection:
         header = self._header
         return self._open and header is not None and header["stays"] and len(self._content) == header["size"]
 
+    @property
+    def settled(self) -> bool:
+        """Whether a resolver that stays does so for itself: nobody has to wait for it, nor to ask it."""
+        return self.stays and self._header is not None and self._header["settled"]
+
     def result(self) -> Document:
         """Return the document. Raises `Refused` where there is none."""
         if not self.stays:

@@ -19,9 +19,21 @@ if TYPE_CHECKING:
     Answer: TypeAlias = Callable[[dict[str, Any]], dict[str, Any]]
 
 
-def hand_over(document: memoryview, descriptor: int, *, stays: bool) -> None:
-    """Send the document; `stays` says whether questions are answered after it."""
-    header = json.dumps({"size": len(document), "stays": stays}) + "\n"
+class Settled:
+    """What `prepare` returns where it has succeeded, and `afterwards` is something for which nobody need wait."""
+
+    __slots__ = ("afterwards",)
+
+    def __init__(self, afterwards: Callable[[], None]) -> None:
+        self.afterwards = afterwards
+
+
+def hand_over(document: memoryview, descriptor: int, *, stays: bool, settled: bool) -> None:
+    """Send the document.
+
+    `stays` says that this process does not end yet, `settled` that it has nothing to do with the run any more.
+    """
+    header = json.dumps({"size": len(document), "stays": stays, "settled": settled}) + "\n"
     _send(descriptor, header.encode())
     _send(descriptor, document)
 
