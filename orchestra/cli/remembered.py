@@ -40,25 +40,32 @@ def store() -> Store | None:
     return None if place is None else Store(os.path.join(place, "plans"), _MOST)  # noqa: PTH118 - pathlib is slow
 
 
-def key(words: Sequence[str]) -> str:
-    """Return what tells one launch from another, besides all that may change: its words and where it stands."""
+def key(words: Sequence[str]) -> str | None:
+    """Return what tells one launch from another, besides all that may change: its words and where it stands.
+
+    None where that cannot be told: the working folder is gone.
+    """
     terminals = [os.isatty(descriptor) for descriptor in (0, 1, 2)]
-    return json.dumps([list(words), terminals, str(sys.flags), *standing(as_called(os.environ))])
+    try:
+        where = [*standing(as_called(os.environ))]
+    except OSError:
+        return None
+    return json.dumps([list(words), terminals, str(sys.flags), *where])
 
 
 def remembered(words: Sequence[str]) -> Remembered | None:
     """Return what an earlier launch with the same words has come to, if that is still so."""
-    kept = None if NO_CACHE in words else store()
-    found = None if kept is None else kept.read(key(words))
+    kept, name = (None, None) if NO_CACHE in words else (store(), key(words))
+    found = None if kept is None or name is None else kept.read(name)
     if found is None:
         return None
     record, result = found
     try:
-        remembered = Remembered(result["document"].encode("utf-8", "surrogatepass"), result["told"])
+        known = Remembered(result["document"].encode("utf-8", "surrogatepass"), result["told"])
         still = unchanged(result["code"]) and World(as_called(os.environ), _nobody_asks).holds(record)
     except (KeyError, TypeError, ValueError, AttributeError):
         return None
-    return remembered if still else None
+    return known if still else None
 
 
 def _nobody_asks(words: str) -> None:

@@ -64,8 +64,8 @@ class Memory:
 
 def memory(words: Sequence[str]) -> Memory | None:
     """Return what a launch is to be remembered by; None where nobody wants that, or there is no place for it."""
-    kept = None if NO_CACHE in words else store()
-    return None if kept is None else Memory(kept, key(words))
+    kept, name = (None, None) if NO_CACHE in words else (store(), key(words))
+    return None if kept is None or name is None else Memory(kept, name)
 
 
 class _Noticing:
