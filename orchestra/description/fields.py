@@ -16,7 +16,7 @@ from pydantic import PlainValidator, ValidationError, ValidationInfo, WithJsonSc
 from pydantic_core import InitErrorDetails, PydanticCustomError
 
 from orchestra.description.source import Listed, Written, kind_of
-from orchestra.description.text import Constant, NoItems, Template, Words
+from orchestra.description.text import Constant, Items, Template, Words
 from orchestra.nearest import nearest
 
 TRUE_WORDS = frozenset({"true", "1", "yes", "on"})
@@ -151,10 +151,9 @@ def text_or_list(value: object, info: ValidationInfo) -> Template | tuple[Templa
     """Read a text, or a list of texts."""
     if isinstance(value, tuple):
         return value
-    if isinstance(value, Listed) and not value:
-        return NoItems(value.span)
     if isinstance(value, list):
-        return items_of(value, _text, info)
+        items = items_of(value, _text, info)
+        return Items(items, value.span) if isinstance(value, Listed) else items
     return _text(value, info)
 
 

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Any, Self, TypeAlias
+from typing import TYPE_CHECKING, Any, Self, TypeAlias
 
 from orchestra.dataclass import dataclass
 from orchestra.location import Span
 from orchestra.values import ParameterValue
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
 
 
 @dataclass(frozen=True, slots=True)
@@ -82,25 +85,33 @@ class Constant:
     span: Span
 
 
-class NoItems(tuple[()]):  # noqa: SLOT001 - a tuple has no room for slots
-    """An empty list, which knows where it stands."""
+class Items(tuple[Template, ...]):  # noqa: SLOT001 - a tuple has no room for slots
+    """A list as it is written in a file, which knows where it stands."""
 
     span: Span
 
-    def __new__(cls, span: Span) -> Self:
+    def __new__(cls, items: Iterable[Template], span: Span) -> Self:
         """Return the list that stands at a place."""
-        made = super().__new__(cls)
+        made = super().__new__(cls, items)
         made.span = span
         return made
 
 
 def span_of(value: Template | Constant | tuple[Template | Constant, ...]) -> Span | None:
     """Return where a value begins, None for an empty list of Python code."""
-    if isinstance(value, NoItems):
-        return value.span
-    if isinstance(value, tuple):
-        return value[0].span if value else None
-    return value.span
+    if isinstance(value, tuple) and value:
+        return value[0].span
+    return value.span if isinstance(value, Items | Template | Constant) else None
+
+
+def whole_span_of(value: tuple[Template | Constant, ...]) -> Span | None:
+    """Return the place to point at for a list: all of one on one line, else what it begins with."""
+    if not isinstance(value, Items):
+        return span_of(value)
+    span = value.span
+    if span.line == span.end_line:
+        return span
+    return Span(span.file, span.line, span.column, span.line, span.column + 1)
 
 
 def raw_of(value: Template | tuple[Template, ...]) -> str:

@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from orchestra.description.parts import VALUE_TYPES, Override
-from orchestra.description.text import Constant, span_of
+from orchestra.description.text import Constant, span_of, whole_span_of
 from orchestra.errors import Code
 from orchestra.location import is_python, point
 from orchestra.resolve.context import POISON, Poison, Value
@@ -15,6 +15,7 @@ from orchestra.resolve.parameter_files import file_parameters
 from orchestra.resolve.rcl.overrides import override_value
 from orchestra.resolve.rcl.surprises import plainly
 from orchestra.resolve.scalars import checked, coerced, described, differs, unified, upstream_value
+from orchestra.resolve.wrong_lists import odd_place, wrong_as_a_whole
 from orchestra.resolve.yaml_scalars import QUOTE
 
 if TYPE_CHECKING:
@@ -170,6 +171,9 @@ def _list(
     element = type_word.removeprefix("list_of_") if type_word is not None else None
     if element == type_word and element not in (None, "yaml"):
         return _refuse(name, f"a list is no {element}", at, run)
+    whole = None if element is None or len(items) <= 1 else wrong_as_a_whole(items, element)
+    if whole is not None:
+        return _refuse(name, whole, run.at(whole_span_of(items) or at.span), run)
     texts: list[str] = []
     values: list[ParameterValue] = []
     for item in items:
@@ -188,12 +192,14 @@ def _list(
     try:
         return unified(values, texts)
     except ValueError as error:
-        odd = next((index for index, item in enumerate(values) if type(item) is not type(values[0])), None)
-        span = span_of(items[odd]) if odd is not None else None
-        return _refuse(name, error, at if span is None else run.at(span), run)
+        odd = odd_place(items, values)
+        place, instead = (at, None) if odd is None else (run.at(odd[0]), odd[1])
+        return _refuse(name, error, place, run, instead)
 
 
-def _refuse(name: str, reason: object, location: Location, run: Resolution) -> Poison:
+def _refuse(
+    name: str, reason: object, location: Location, run: Resolution, suggestion: str | None = None
+) -> Poison:
     """Report a value that no parameter can have. In Python its place is often that of the whole node: it is named."""
     told = str(reason)
     if is_python(location):
@@ -201,7 +207,7 @@ def _refuse(name: str, reason: object, location: Location, run: Resolution) -> P
         notes = (_AS_TEXT,) if len(told) < len(str(reason)) else ()
         run.problems.error(Code.PARAMETER_TYPE, f"parameter '{name}': {told}", location, notes=notes)
     else:
-        run.problems.error(Code.PARAMETER_TYPE, told, location)
+        run.problems.error(Code.PARAMETER_TYPE, told, location, suggestion=suggestion)
     return POISON
 
 
