@@ -1,0 +1,1 @@
+"""What launch files import as `ros2run`."""
