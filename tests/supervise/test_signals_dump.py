@@ -97,7 +97,8 @@ def test_it_tells_where_the_code_of_a_trigger_hangs(tmp_path: Path) -> None:
         wait_for(lambda: "this is stuck" in run.stderr, "the resolver")
         run.send(signal.SIGQUIT)
         wait_for(lambda: "in stuck_when_asked" in run.stderr, "the stack of the resolver")
-        assert "in stuck_when_asked" in (run.directory / "dump.txt").read_text()
+        dump = run.directory / "dump.txt"
+        wait_for(lambda: "in stuck_when_asked" in dump.read_text(), "the same in the file")
         run.send(signal.SIGINT)
         assert run.wait() == 130
 
