@@ -5,15 +5,21 @@ from __future__ import annotations
 import dataclasses
 import json
 import re
+import sys
 import types
 import typing
+from collections.abc import Callable
 from enum import Enum
-from functools import cache
-from typing import Any
+from functools import cache, lru_cache
+from typing import Any, TypeAlias
 
 from orchestra.errors import Problem
-from orchestra.location import Location, Span
+from orchestra.location import Location, Span, point
 from orchestra.plan import model
+from orchestra.plan.json_text import text_of
+
+_SCALARS = frozenset({str, int, float, bool, type(None)})
+Read: TypeAlias = Callable[[Any], Any]
 
 _SURROGATE = re.compile("[\ud800-\udfff]")
 
@@ -23,7 +29,7 @@ def dumps(plan: model.Plan, *, indent: int | None = None) -> str:
 
     Texts that are no Unicode, as bytes of the command line may be, are written as escapes, so that it is always UTF-8.
     """
-    text = json.dumps(encode(plan), indent=indent, ensure_ascii=False)
+    text = text_of(plan, indent)
     return text if text.isascii() else _SURROGATE.sub(lambda found: f"\\u{ord(found[0]):04x}", text)
 
 
@@ -45,6 +51,8 @@ def plan_from(document: Any) -> model.Plan:  # noqa: ANN401 - JSON
 
 def encode(value: Any) -> Any:  # noqa: ANN401 - JSON
     """Return JSON data for a value made of the plan's dataclasses."""
+    if type(value) in _SCALARS:
+        return value
     if isinstance(value, Location):
         return {**_plain_span(value.span), "included_from": [_start(span) for span in value.included_from]}
     if isinstance(value, Problem):
@@ -52,12 +60,17 @@ def encode(value: Any) -> Any:  # noqa: ANN401 - JSON
     if isinstance(value, Enum):
         return value.value
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
-        return {entry.name: encode(getattr(value, entry.name)) for entry in dataclasses.fields(value)}
+        return {name: encode(getattr(value, name)) for name in _names(type(value))}
     if isinstance(value, dict):
         return {key: encode(item) for key, item in value.items()}
     if isinstance(value, tuple | list):
         return [encode(item) for item in value]
     return value
+
+
+@cache
+def _names(kind: Any) -> tuple[str, ...]:  # noqa: ANN401 - a dataclass
+    return tuple(entry.name for entry in dataclasses.fields(kind))
 
 
 def encode_problem(problem: Problem) -> dict[str, Any]:
@@ -77,20 +90,42 @@ def encode_problem(problem: Problem) -> dict[str, Any]:
 
 def decode(kind: Any, data: Any) -> Any:  # noqa: ANN401 - JSON
     """Build a value of a type of the plan from JSON data."""
+    return _reader(kind)(data)
+
+
+@cache
+def _reader(kind: Any) -> Read:  # noqa: ANN401 - a type of any form
+    """Return what builds values of a type."""
     if kind is Location:
-        return Location(_span(data), tuple(_span(at) for at in data["included_from"]))
+        return _location
     if kind is Problem:
-        return _problem(data)
+        return _problem
     origin = typing.get_origin(kind)
     if origin in (types.UnionType, typing.Union):
-        return _decode_union(kind, data)
+        return _union_reader(kind)
     if origin is tuple:
-        return tuple(decode(typing.get_args(kind)[0], item) for item in data)
+        item = _reader(typing.get_args(kind)[0])
+        return tuple if item is _as_it_is else lambda data: tuple(map(item, data))
     if origin is dict:
-        return {key: decode(typing.get_args(kind)[1], item) for key, item in data.items()}
-    if _is_record(kind):
+        entry = _reader(typing.get_args(kind)[1])
+        return lambda data: {key: entry(value) for key, value in data.items()}
+    return _record_reader(kind) if _is_record(kind) else _as_it_is
+
+
+def _record_reader(kind: Any) -> Read:  # noqa: ANN401 - a dataclass
+    fields: dict[str, Read] = {}
+
+    def read(data: Any) -> Any:  # noqa: ANN401 - JSON
+        if not fields:  # not before, since its hints may lead back to it
+            fields.update((name, _reader(hint)) for name, hint in _hints(kind).items())
         # What an older version has not written keeps its default.
-        return kind(**{name: decode(hint, data[name]) for name, hint in _hints(kind).items() if name in data})
+        values = {name: field(data[name]) for name, field in fields.items() if name in data}
+        return kind(**values)
+
+    return read
+
+
+def _as_it_is(data: Any) -> Any:  # noqa: ANN401 - JSON
     return data
 
 
@@ -103,23 +138,26 @@ def _hints(kind: type) -> dict[str, Any]:
     return typing.get_type_hints(kind)
 
 
-def _decode_union(kind: Any, data: Any) -> Any:  # noqa: ANN401 - JSON
+def _union_reader(kind: Any) -> Read:  # noqa: ANN401 - a union
     """Choose the alternative: actions by their `action`, lists become tuples, scalars stay."""
-    if data is None:
-        return None
     alternatives = [item for item in typing.get_args(kind) if item is not type(None)]
-    if isinstance(data, dict):
-        records = [item for item in alternatives if _is_record(item)]
-        if len(records) > 1:
-            records = [
-                item for item in records if typing.get_args(_hints(item)["action"])[0] == data["action"]
-            ]
-        mappings = [item for item in alternatives if typing.get_origin(item) is dict]
-        return decode((records or mappings)[0], data)
-    if isinstance(data, list):
-        pairs = [item for item in alternatives if typing.get_origin(item) is tuple]
-        return decode(pairs[0], data) if len(pairs) == 1 else tuple(data)
-    return data
+    records = [item for item in alternatives if _is_record(item)]
+    mappings = [item for item in alternatives if typing.get_origin(item) is dict]
+    lists = [item for item in alternatives if typing.get_origin(item) is tuple]
+
+    def read(data: Any) -> Any:  # noqa: ANN401 - JSON
+        if isinstance(data, dict):
+            found = records
+            if len(records) > 1:
+                found = [
+                    item for item in records if typing.get_args(_hints(item)["action"])[0] == data["action"]
+                ]
+            return decode((found or mappings)[0], data)
+        if isinstance(data, list):
+            return decode(lists[0], data) if len(lists) == 1 else tuple(data)
+        return data
+
+    return read
 
 
 def _plain_span(span: Span) -> dict[str, Any]:
@@ -136,9 +174,21 @@ def _start(span: Span) -> dict[str, Any]:
     return {"file": span.file, "line": span.line, "column": span.column}
 
 
+def _location(data: dict[str, Any]) -> Location:
+    chain = data["included_from"]
+    found = _starts(*[(at["file"], at["line"], at["column"]) for at in chain]) if chain else ()
+    return Location(_span(data), found)
+
+
+@lru_cache(maxsize=1024)  # all that stands in a file has the same one
+def _starts(*chain: tuple[str, int, int]) -> tuple[Span, ...]:
+    return tuple(point(*at) for at in chain)
+
+
 def _span(data: dict[str, Any]) -> Span:
     line, column = data["line"], data["column"]
-    return Span(data["file"], line, column, data.get("end_line", line), data.get("end_column", column))
+    file = sys.intern(data["file"])
+    return Span(file, line, column, data.get("end_line", line), data.get("end_column", column))
 
 
 def _problem(data: dict[str, Any]) -> Problem:

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 import hashlib
 import json
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.plan.codec import encode
 
 if TYPE_CHECKING:
     from orchestra.plan.model import Process
+
+# Tuples are lists to it.
+_text: Final = json.JSONEncoder(sort_keys=True, ensure_ascii=False).encode
 
 
 def digest(process: Process) -> str:
@@ -19,10 +22,9 @@ def digest(process: Process) -> str:
         (process.environment, process.inherit_environment),
         process.cwd,
         process.parameters,
-        process.parameter_files,
+        encode(process.parameter_files),
         process.stdin,
         process.shell,
-        process.limits,
+        encode(process.limits),
     )
-    text = json.dumps([encode(item) for item in content], sort_keys=True, ensure_ascii=False)
-    return hashlib.sha256(text.encode("utf-8", "surrogatepass")).hexdigest()
+    return hashlib.sha256(_text(content).encode("utf-8", "surrogatepass")).hexdigest()

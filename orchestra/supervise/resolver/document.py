@@ -6,6 +6,7 @@ import json
 from typing import TYPE_CHECKING, NamedTuple
 
 from orchestra.plan import codec, model
+from orchestra.plan.json_text import text_of
 from orchestra.supervise import options
 
 if TYPE_CHECKING:
@@ -21,8 +22,8 @@ class Document(NamedTuple):
 
 def dumps(plan: model.Plan, run_options: RunOptions) -> bytes:
     """Return the document for the stream that `prepare` is given."""
-    document = {"plan": codec.encode(plan), "options": options.encode(run_options)}
-    return json.dumps(document, ensure_ascii=False).encode("utf-8", "surrogatepass")
+    chosen = json.dumps(options.encode(run_options), ensure_ascii=False)
+    return f'{{"plan": {text_of(plan)}, "options": {chosen}}}'.encode("utf-8", "surrogatepass")
 
 
 def loads(content: bytes) -> Document:
