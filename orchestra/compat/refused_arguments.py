@@ -11,9 +11,7 @@ from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.faulty_call import FaultyCall
-from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.compat.place import Place, here, is_own
-from orchestra.compat.refusing import is_lost
 from orchestra.compat.syntax_trees import Tree, is_dealt_with
 
 if TYPE_CHECKING:
@@ -69,9 +67,9 @@ def settled(
 
 def _entities(given: Any, depth: int = 0) -> Iterator[Any]:
     """Yield the entities among what a call was given: what is wrong with them is told without it."""
-    if isinstance(given, LaunchDescriptionEntity):
+    if callable(getattr(type(given), "visit", None)):
         yield given
-    elif is_lost(given):
+    elif "_lost" in getattr(given, "__dict__", {}):
         yield from given._lost
     elif isinstance(given, list | tuple) and depth < _DEPTH:
         for item in given:

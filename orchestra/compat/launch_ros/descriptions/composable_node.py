@@ -116,7 +116,7 @@ class ComposableNode(Refusing):
             **({} if condition is None else condition_fields(condition, at("condition"))),
         )
         if self._refused:
-            model._faulty = True
+            model.mark_faulty()
         return model
 
     def _more(self) -> dict[str, Any]:
