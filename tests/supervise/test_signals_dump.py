@@ -98,7 +98,7 @@ def test_it_tells_where_the_code_of_a_trigger_hangs(tmp_path: Path) -> None:
         run.send(signal.SIGQUIT)
         wait_for(lambda: "in stuck_when_asked" in run.stderr, "the stack of the resolver")
         dump = run.directory / "dump.txt"
-        wait_for(lambda: "in stuck_when_asked" in dump.read_text(), "the same in the file")
+        wait_for(lambda: dump.exists() and "in stuck_when_asked" in dump.read_text(), "the same in the file")
         run.send(signal.SIGINT)
         assert run.wait() == 130
 
