@@ -33,10 +33,18 @@ def main() -> int:
             detach="--detach" in flags,
             wait_ready="--wait-ready" in flags,
             recall=(lambda: _recall(words)) if words[0] == "launch" else None,
+            foresee=lambda: _foresee(words),
         )
     from orchestra.cli.main import main as command_line
 
     return command_line(words)
+
+
+def _foresee(words: list[str]) -> bool:
+    """Tell whether the run is likely to have nodes in Python. The supervisor asks while the plan is being made."""
+    from orchestra.cli.foresight import nodes_ahead
+
+    return nodes_ahead(words)
 
 
 def _concerns_runs(words: list[str]) -> bool:

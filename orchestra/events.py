@@ -15,6 +15,7 @@ Kind: TypeAlias = Literal[
     "process_waiting",
     "process_starting",
     "process_running",  # the program runs; data: start, which counts from 1
+    "started_cold",  # the fork server was to start it, and could not; data: reason
     "process_ready",
     "process_stopping",
     "process_restarting",  # data: delay, short_runs

@@ -49,6 +49,11 @@ def add_to(parser: ArgumentParser) -> None:
         action="store_true",
         help="take no terminal for granted (default where standard input is none)",
     )
+    parser.add_argument(
+        "--no-warm",
+        action="store_true",
+        help="start each node by itself, not as a fork of a process that has its imports already",
+    )
     log_options.add_to(parser)
 
 
@@ -73,6 +78,7 @@ def run_options(options: Namespace, default_name: str) -> RunOptions:
         show_all_output=options.show_all,
         noninteractive=options.noninteractive or not _at_a_terminal(),
         debug=options.debug,
+        warm=not options.no_warm,
         log_size=log_size,
         log_keep=log_keep,
     )

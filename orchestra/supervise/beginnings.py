@@ -7,6 +7,8 @@ import time
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from orchestra.supervise.attendance import Attend
     from orchestra.supervise.keeping.patience import Patience
     from orchestra.supervise.keeping.stacks import Stacks
@@ -33,13 +35,15 @@ class Beginnings:
     `given` is the resolver at work, or what an earlier one has handed over;
     `began` is now, in seconds since the epoch;
     `stacks` is where our processes write where they are; `attend` is what attends to the run besides;
-    `summons` what the service manager wants that has started us.
+    `summons` what the service manager wants that has started us;
+    `foresee` tells whether there are likely to be nodes in Python.
     """
 
     __slots__ = (
         "_patience",
         "attend",
         "began",
+        "foresee",
         "given",
         "keeper",
         "run_id",
@@ -55,6 +59,7 @@ class Beginnings:
         signals: int,
         attend: Attend | None,
         summons: Summons,
+        foresee: Callable[[], bool] | None = None,
     ) -> None:
         self.began = time.time()
         self.run_id = kept.run_id
@@ -64,6 +69,7 @@ class Beginnings:
         self.signals = signals
         self.attend = attend
         self.summons = summons
+        self.foresee = foresee
         self._patience = kept.patience
 
     def orphaned(self) -> bool:

@@ -24,8 +24,9 @@ from orchestra.supervise.runs import directory
 from orchestra.supervise.runs.furnishing import furnish
 from orchestra.supervise.runs.identity import identity
 from orchestra.supervise.service_manager import ServiceManager
-from orchestra.supervise.setting import surroundings
+from orchestra.supervise.setting import Before, surroundings
 from orchestra.supervise.system import System
+from orchestra.supervise.warm.starts import Starts
 
 if TYPE_CHECKING:
     from orchestra.plan.model import Plan
@@ -47,12 +48,19 @@ def conduct(beginnings: Beginnings) -> int:
     service.reading()
     dump = Dump(loop, beginnings.stacks, say)
     attention.on_dump = dump.take
+    kin = Kin(beginnings.run_id)
+    starts = Starts(loop, kin, beginnings.run_id, say)
     given = beginnings.given
-    document, resolver = (
-        (given, None) if isinstance(given, Document) else _collect(loop, given, attention, dump)
-    )
+    if isinstance(given, Document):
+        document, resolver = given, None
+    else:
+        if beginnings.foresee and beginnings.foresee():
+            starts.foresee()
+        document, resolver = _collect(loop, given, attention, dump, starts)
     confines = Confines(loop, beginnings.run_id)
     unfit = confines.take_up(document.plan)
+    starts.wanted = document.options.warm
+    starts.prepare(document.plan.processes)
     if unfit:
         raise Refused(MISTAKE, unfit)
     runs = directory.state_folder() / "runs"
@@ -73,8 +81,7 @@ def conduct(beginnings: Beginnings) -> int:
         replace(document.options, name=run_directory.name),
         beginnings=beginnings,
         resolver=resolver,
-        confines=confines,
-        service=service,
+        before=Before(kin, confines, service, starts),
     ) as around:
         dump.say, dump.folder, dump.resolver = around.journal.say, around.folder, lambda: around.questions.pid
         outcome = _run(beginnings, attention, dump, plan, around)
@@ -87,7 +94,7 @@ def conduct(beginnings: Beginnings) -> int:
 
 
 def _collect(
-    loop: Loop, resolver: Resolver, attention: Attention, dump: Dump
+    loop: Loop, resolver: Resolver, attention: Attention, dump: Dump, starts: Starts
 ) -> tuple[Document, Resolver | None]:
     """Wait for the plan, and for the end of the resolver unless it goes on: then it is returned too.
 
@@ -113,6 +120,8 @@ def _collect(
     finally:
         kin = Kin("")
         kin.add(resolver.pid, None)
+        if starts.pid is not None:
+            kin.add(starts.pid, None)
         kin.refresh()
         send_to_groups([adopted.pid for adopted in kin.of(None)], signal.SIGKILL)
 
@@ -159,10 +168,11 @@ def _run(
 def _conclude(system: System, around: Surroundings, beginnings: Beginnings) -> Outcome:
     """Look for leftovers, and tell how it all ended: the last line and the last event."""
     around.observers.leave()
+    around.starts.leave()
     around.questions.leave()
     patience = around.loop.call_later(_TOOLS_LEAVE_WITHIN, lambda: None)
     while (
-        around.observers.alive or around.questions.alive or around.trials.alive
+        around.observers.alive or around.questions.alive or around.trials.alive or around.starts.alive
     ) and not patience.cancelled:
         around.loop.run_once()
     left = end_leftovers(around, beginnings.run_id, remaining=system.stopping.remaining)

@@ -19,7 +19,7 @@ class RunOptions:
     output of every process, whatever the description says. `noninteractive` is accepted as by `ros2 launch`: nothing
     here depends on a terminal. A run that is `detached` has no screen: what processes write is in their logs alone.
     `debug` shows messages of level debug too. `files` is a folder with temporary files of the launch files' code: it
-    becomes part of the run directory.
+    becomes part of the run directory. Without `warm` each node starts by itself.
 
     Each log file is put away when it has `log_size` bytes (0: never), and `log_keep` older pieces of it are kept.
 
@@ -37,6 +37,7 @@ class RunOptions:
     noninteractive: bool = False
     debug: bool = False
     files: str | None = None
+    warm: bool = True
     log_size: int = 64 * 1024 * 1024
     log_keep: int = 7
     service_timeout: float = 60.0

@@ -45,6 +45,7 @@ def run(
     attend: Attend | None = None,
     afterwards: Callable[[str], None] | None = None,
     recall: Recall | None = None,
+    foresee: Callable[[], bool] | None = None,
 ) -> int:
     """Run what `prepare` describes and return the exit status of the design's table.
 
@@ -70,6 +71,7 @@ def run(
     `attend` is called in the supervisor process when the run is about to begin, and may import what it needs then.
     `afterwards` is called in the keeper with the run's mark when everything is over, whoever was killed before.
     `recall` is called in the supervisor: where it returns a document `prepare` is not called.
+    `foresee` is called there too: it tells, before there is a plan, whether nodes in Python are to be expected.
     """
     fill_standard_descriptors()
     keeper = os.getpid()
@@ -77,7 +79,7 @@ def run(
     patience, stacks = Patience(), Stacks()
 
     def supervise() -> int:
-        return _supervise(prepare, attend, Kept(keeper, run_id, patience, stacks), recall)
+        return _supervise(prepare, attend, Kept(keeper, run_id, patience, stacks), recall, foresee)
 
     def bury() -> None:
         from orchestra.supervise.keeping import remnants  # noqa: PLC0415 - only where keeper and supervisor were killed
@@ -92,7 +94,13 @@ def run(
     return status
 
 
-def _supervise(prepare: Prepare, attend: Attend | None, kept: Kept, recall: Recall | None) -> int:
+def _supervise(
+    prepare: Prepare,
+    attend: Attend | None,
+    kept: Kept,
+    recall: Recall | None,
+    foresee: Callable[[], bool] | None,
+) -> int:
     os.environ[RUN] = kept.run_id
     kernel.set_lock_limit(number_of(kept.run_id) or 0)
     summons = taken(os.environ, kept.keeper)
@@ -110,4 +118,4 @@ def _supervise(prepare: Prepare, attend: Attend | None, kept: Kept, recall: Reca
     except BaseException:  # noqa: BLE001 - a forked child must not run on into its parent's code
         sys.excepthook(*sys.exc_info())
         return 3
-    return guarded_run(Beginnings(kept, given, signals, attend, summons))
+    return guarded_run(Beginnings(kept, given, signals, attend, summons, foresee))

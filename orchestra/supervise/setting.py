@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from contextlib import ExitStack, contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from orchestra.logs.screen import Screen, same_file
 from orchestra.logs.sheets import Sheet, Sheets
@@ -13,7 +13,6 @@ from orchestra.supervise.environment import node_environment
 from orchestra.supervise.graph.discovery import quick_discovery
 from orchestra.supervise.graph.observation import Observers
 from orchestra.supervise.host import this_host
-from orchestra.supervise.keeping.kin import Kin
 from orchestra.supervise.output.books import books
 from orchestra.supervise.output.console import Console
 from orchestra.supervise.reactions.questions import Questions
@@ -25,16 +24,27 @@ if TYPE_CHECKING:
 
     from orchestra.plan.model import Plan, Process
     from orchestra.supervise.beginnings import Beginnings
+    from orchestra.supervise.keeping.kin import Kin
     from orchestra.supervise.limits.confines import Confines
     from orchestra.supervise.loop import Loop
     from orchestra.supervise.options import RunOptions
     from orchestra.supervise.resolver.process import Resolver
     from orchestra.supervise.runs.directory import RunDirectory
     from orchestra.supervise.service_manager import ServiceManager
+    from orchestra.supervise.warm.starts import Starts
 
 _STDOUT, _STDERR = 1, 2
 # A screen that takes nothing for so long gets no more, in seconds.
 _SCREEN_PATIENCE = 0.5
+
+
+class Before(NamedTuple):
+    """What is at work before there is a run directory."""
+
+    kin: Kin
+    confines: Confines
+    service: ServiceManager
+    starts: Starts
 
 
 @contextmanager
@@ -46,19 +56,18 @@ def surroundings(
     *,
     beginnings: Beginnings,
     resolver: Resolver | None,
-    confines: Confines,
-    service: ServiceManager,
+    before: Before,
 ) -> Iterator[Surroundings]:
     """Open everything for a run; `resolver` is the one that stays for it."""
     run_id = beginnings.run_id
     with ExitStack() as opened:
-        opened.callback(confines.close)
+        opened.callback(before.confines.close)
         sheets = opened.enter_context(_screens(loop, options))
         written = opened.enter_context(books(loop, run_directory, plan, options, sheets))
         journal = written.journal
         console = Console(loop, os.getppid(), detached=options.detached)
         opened.callback(console.close)
-        kin = Kin(run_id)
+        kin, before.starts.said = before.kin, journal.say
         yield Surroundings(
             loop=loop,
             kin=kin,
@@ -68,9 +77,10 @@ def surroundings(
             console=console,
             observers=Observers(loop, kin, lambda text: journal.say(f"observer: {text.rstrip()}")),
             trials=Trials(loop, kin),
-            service=service,
+            service=before.service,
+            starts=before.starts,
             questions=Questions(resolver, loop, kin, options.resolver_timeout),
-            confines=confines,
+            confines=before.confines,
             environment=_environment(run_directory, run_id, colour=sheets.output.colour),
             folder=run_directory.path,
             options=options,

@@ -20,6 +20,7 @@ from orchestra.supervise.output.recorder import Recorder
 from orchestra.supervise.reactions.questions import Questions
 from orchestra.supervise.service_manager import ServiceManager
 from orchestra.supervise.signs.trial import Trials
+from orchestra.supervise.warm.starts import Starts
 
 if TYPE_CHECKING:
     from orchestra.supervise.process.ending import Ending
@@ -78,6 +79,7 @@ class Surroundings:
     trials: Trials
     service: ServiceManager
     questions: Questions
+    starts: Starts
     confines: Confines
     environment: Callable[[Process | None], dict[str, str]]
     folder: Path

@@ -85,7 +85,7 @@ class System:
         self._beginning.hold(held(self._plan.triggers))
         self._nodes.add(self._plan.processes, self._plan.components, self._plan.triggers)
         self._triggers.add(self._plan.triggers)
-        self._beginning.prepare_observers(self._needs_observer)
+        self._beginning.prepare_tools(self._needs_observer)
         self._triggers.happened(happenings.run_started())
         self.changed()
 

@@ -51,6 +51,8 @@ class Kin:
         self._numbers: dict[str, int | None] = {}
         self._own: dict[int, str | None] = {}
         self._adopted: dict[int, Adopted] = {}
+        # Whether a child is a node that the fork server has forked, and that will be added with its owner.
+        self.unborn: Callable[[int], bool] = lambda _pid: False
 
     def number(self, owner: str) -> int | None:
         """Return the number that a program of a process gets before it begins, and never loses."""
@@ -73,7 +75,7 @@ class Kin:
         """Look at our children: return who is new among us, and who has ended. The latter are reaped."""
         new = []
         for pid in proc.children(os.getpid()):
-            if pid not in self._own and pid not in self._adopted:
+            if pid not in self._own and pid not in self._adopted and not self.unborn(pid):
                 self._adopted[pid] = adopted = Adopted(pid, self._owner(pid), proc.command(pid))
                 new.append(adopted)
         ended = [adopted for adopted in self._adopted.values() if self._reaped(adopted.pid)]

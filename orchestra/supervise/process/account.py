@@ -52,6 +52,10 @@ class Account:
         if phase is Phase.READY:
             self.say(f"is ready after {self._around.loop.clock() - state.started_at:.1f} s")
 
+    def cold(self, reason: str) -> None:
+        """Record that it is started by itself although the fork server was to start it."""
+        self._around.recorder.record("started_cold", self._process, reason=reason)
+
     def ended(self, state: State, ending: Ending, pid: int, left: Iterable[Adopted]) -> None:
         """Record the end of a program, and what it leaves behind; tell it where nobody asked for it."""
         uptime = self._around.loop.clock() - state.started_at

@@ -41,8 +41,9 @@ class Beginning:
         """Tell whether a process waits for a trigger."""
         return process in self._held
 
-    def prepare_observers(self, needed: Callable[[Unit], bool]) -> None:
-        """Start observers early: their imports take as long as those of the nodes that they look at."""
+    def prepare_tools(self, needed: Callable[[Unit], bool]) -> None:
+        """Start the fork server and observers early: their imports take as long as those of a node."""
+        self._around.starts.prepare(unit.process for unit in self._units.values())
         for unit in self._units.values():
             if needed(unit):
                 try:
@@ -55,6 +56,7 @@ class Beginning:
 
         Of many that begin together some are left for the next round, so that signals and output are seen to in between.
         """
+        self._around.starts.relieve(self._units.values())
         standings = {name: unit.standing for name, unit in self._units.items()}
         begun = 0
         for unit in [unit for unit in self._units.values() if unit.state.phase is Phase.WAITING]:

@@ -19,7 +19,6 @@ from orchestra.supervise.process.life import LIVE, Phase, State
 from orchestra.supervise.process.machine import ladder, transition
 from orchestra.supervise.process.order import Life
 from orchestra.supervise.process.rules import rules_of
-from orchestra.supervise.process.spawn import spawn
 from orchestra.supervise.process.spec import Spec, argv
 from orchestra.supervise.signs.liveness import Liveness
 from orchestra.supervise.signs.notification import Notices
@@ -126,6 +125,8 @@ class Unit:
             self._account.entered(self.state, event, self.pid)
         for effect in effects:
             self._perform(effect)
+        if self.state.asked and self.state.phase is Phase.STARTING:
+            self._around.starts.withdraw(self.id)
         if self.state.phase is not before.phase:
             self._listener.changed()
 
@@ -184,19 +185,29 @@ class Unit:
             self._crashes.begins(environment)
             self.tail = Tail(_LAST_LINES)
             before, mark = self._around.confines.prepare(process), self._around.kin.number(self.id)
-            child = spawn(
-                Spec(self.id, argv(process), environment, process.cwd, tty, stdin, before, foremost, mark)
-            )
         except OSError as error:
-            self._not_started(unstartable(error))
+            self.failed(error)
             return
+        spec = Spec(self.id, argv(process), environment, process.cwd, tty, stdin, before, foremost, mark)
+        self._around.starts.start(process, spec, self)
+
+    def begun(self, child: Child, spec: Spec) -> None:
+        """Its program runs."""
         self._child = child
         self._around.kin.add(child.pid, self.id)
-        self._around.confines.started(process, child.pid)
-        self._output.begin(child, environment, foremost=foremost)
+        self._around.confines.started(self.process, child.pid)
+        self._output.begin(child, spec.environment, foremost=spec.foremost)
         self._around.loop.on_readable(child.pidfd, self._exited)
         self.handle(life.Started(self._around.loop.clock()))
         self._listener.started(self.id, child.pid)
+
+    def cold(self, reason: str) -> None:
+        """It is started by itself, although the plan says otherwise."""
+        self._account.cold(reason)
+
+    def failed(self, error: OSError) -> None:
+        """Its program could not be started."""
+        self._not_started(unstartable(error))
 
     def _not_started(self, ending: Ending) -> None:
         self._notices.end()

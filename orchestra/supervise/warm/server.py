@@ -70,6 +70,11 @@ class Server:
         loop.on_readable(self._child.pidfd, self._ended)
 
     @property
+    def pid(self) -> int | None:
+        """Its pid, until it has been reaped."""
+        return self._child.pid if self._child else None
+
+    @property
     def alive(self) -> bool:
         """Whether its process has not been reaped."""
         return self._child is not None

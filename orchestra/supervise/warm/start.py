@@ -25,13 +25,13 @@ _GO = b"g"
 
 
 class Told(Protocol):
-    """Who wants to know what becomes of a start; exactly one of these is called, once."""
+    """Who wants to know what becomes of a start: it has `begun` or has `failed`, once."""
 
-    def begun(self, child: Child) -> None:
+    def begun(self, child: Child, spec: Spec) -> None:
         """The program runs."""
 
     def cold(self, reason: str) -> None:
-        """It is to be started cold."""
+        """It will be started cold, although the plan says otherwise."""
 
     def failed(self, error: OSError) -> None:
         """It cannot be started, neither way."""
@@ -41,9 +41,19 @@ class Start:
     """A start under way. It owns the ends of the output, and the socket on which the node waits, until it is over."""
 
     def __init__(
-        self, loop: Loop, process: Process, spec: Spec, told: Told, over: Callable[[], None]
+        self,
+        loop: Loop,
+        process: Process,
+        spec: Spec,
+        told: Told,
+        *,
+        over: Callable[[], None],
+        cold: Callable[[str], None],
     ) -> None:
-        """Make the ends of its output. Raises `OSError`. `over` is called before one of `told` is."""
+        """Make the ends of its output. Raises `OSError`.
+
+        `over` is called when it is over, before `told` hears of it; `cold` starts it cold, for a reason.
+        """
         self.process = process
         self.spec = spec
         self.pid: int | None = None
@@ -51,6 +61,7 @@ class Start:
         self._loop = loop
         self._told = told
         self._over = over
+        self._cold = cold
         with contextlib.ExitStack() as kept:
             ends = kept.enter_context(outputs.opened(spec))
             ours, theirs = _socket.socketpair(_socket.AF_UNIX, _socket.SOCK_STREAM)
@@ -80,7 +91,7 @@ class Start:
         """Start it cold; a process that is there is ended."""
         if self._go is not None:
             self._withdraw()
-            self._told.cold(reason)
+            self._cold(reason)
 
     def cancel(self, error: OSError) -> None:
         """Do not start it at all."""
@@ -108,12 +119,12 @@ class Start:
             self._close_outer()
             self._told.failed(error)
             return
-        self._told.begun(child)
+        self._told.begun(child, self.spec)
 
     def _refused(self, answer: list[object] | dict[str, str]) -> None:
         self._withdraw()
         if isinstance(answer, dict):
-            self._told.cold(answer["cold"])
+            self._cold(answer["cold"])
         else:
             number, text, file = answer
             self._told.failed(OSError(number, text, file) if file else OSError(number, text))

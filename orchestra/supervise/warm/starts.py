@@ -8,20 +8,25 @@ from __future__ import annotations
 
 import errno
 import itertools
-from typing import TYPE_CHECKING, Any
+import os
+from typing import TYPE_CHECKING, Any, Protocol
 
+from orchestra.supervise.environment import node_environment
+from orchestra.supervise.host import this_host
 from orchestra.supervise.keeping import proc
+from orchestra.supervise.process.life import FINAL
 from orchestra.supervise.process.spawn import spawn
 from orchestra.supervise.warm import dialogue
 from orchestra.supervise.warm.server import Server
 from orchestra.supervise.warm.start import Start
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Mapping
+    from collections.abc import Callable, Iterable
 
-    from orchestra.plan.model import Process
+    from orchestra.plan.model import Process, Warm
     from orchestra.supervise.keeping.kin import Kin
     from orchestra.supervise.loop import Loop, Timer
+    from orchestra.supervise.process.life import State
     from orchestra.supervise.process.spec import Spec
     from orchestra.supervise.warm.start import Told
 
@@ -34,16 +39,28 @@ _LEAVE_WITHIN = 0.3
 _NAME = "orc-warm"
 
 
-class Starts:
-    """Starts processes. `environment` is that of the server, `said` gets what users should know of it."""
+class Startable(Protocol):
+    """A process of the plan, and where it is in its life."""
 
-    def __init__(
-        self, loop: Loop, kin: Kin, environment: Mapping[str, str], said: Callable[[str], None]
-    ) -> None:
+    @property
+    def process(self) -> Process:
+        """What the plan says of it."""
+
+    @property
+    def state(self) -> State:
+        """Where it is."""
+
+
+class Starts:
+    """Starts processes. `said` gets what users should know of the server; without `wanted` there is none."""
+
+    def __init__(self, loop: Loop, kin: Kin, run_id: str, said: Callable[[str], None]) -> None:
         self.said = said
+        self.wanted = True
         self._loop = loop
         self._kin = kin
-        self._environment = environment
+        self._environment = _environment(run_id)
+        self._prepared: set[tuple[str, str]] = set()
         self._server: Server | None = None
         self._former: list[Server] = []
         self._numbers = itertools.count(1)
@@ -51,7 +68,13 @@ class Starts:
         self._lost_at: float | None = None
         self._hopeless: str | None = None
         self._timer: Timer | None = None
+        self._reasons: set[str] = set()
         kin.unborn = self._is_unborn
+
+    @property
+    def pid(self) -> int | None:
+        """The pid of the server that is at work."""
+        return self._server.pid if self._server is not None else None
 
     @property
     def alive(self) -> bool:
@@ -59,26 +82,39 @@ class Starts:
         self._former = [one for one in self._former if one.alive]
         return bool(self._former) or (self._server is not None and self._server.alive)
 
-    def prepare(self, processes: Iterable[Process] = ()) -> None:
-        """Start the server early, or let it import early what these processes need, where they can be started warm."""
-        targets = {(one.warm.kind, one.warm.target) for one in processes if one.warm and one.warm.warm}
-        server = self._ready() if targets or not processes else self._server
-        if server and targets:
-            server.tell({"prepare": sorted(targets, key=str)})
+    def foresee(self) -> None:
+        """Start the server: what it will be asked for is not known yet, but that it will be is likely."""
+        self._ready()
+
+    def prepare(self, processes: Iterable[Process]) -> None:
+        """Let the server, which takes some time for it, import what those of the processes need that it will start."""
+        targets = {(warm.kind or "", warm.target or "") for warm in map(_warm, processes) if warm is not None}
+        server = self._ready() if targets - self._prepared else None
+        if server:
+            server.tell({"prepare": sorted(targets - self._prepared)})
+            self._prepared |= targets
 
     def start(self, process: Process, spec: Spec, told: Told) -> None:
         """Start a process; `told` hears what comes of it, at once where it is started cold."""
-        if process.warm is None or not process.warm.warm or spec.foremost:
-            start_cold(spec, told)
+        if _warm(process) is None or spec.foremost or not self.wanted:
+            _start_cold(spec, told)
             return
         differs = dialogue.obstacle(spec.environment, self._environment)
         server = None if differs else self._ready()
         if server is None:
-            told.cold(f"{differs} differs" if differs else f"the fork server {self._hopeless}")
+            self._start_cold(
+                spec,
+                told,
+                f"its {differs} is another one" if differs else f"the fork server {self._hopeless}",
+            )
             return
         number = next(self._numbers)
         try:
-            start = Start(self._loop, process, spec, told, lambda: self._close(number))
+            start = Start(
+                *(self._loop, process, spec, told),
+                over=lambda: self._close(number),
+                cold=lambda reason: self._start_cold(spec, told, reason),
+            )
         except OSError as error:
             told.failed(error)
             return
@@ -92,21 +128,27 @@ class Starts:
         for start in [one for one in self._open.values() if one.process.id == process and one.pid is None]:
             start.cancel(OSError(errno.ECANCELED, "it was to end before it had begun"))
 
-    def relieve(self) -> None:
-        """Let the server end: nothing is started warm any more, or not soon."""
-        if self._server is not None and not self._open:
-            self._loop.call_later(_LEAVE_WITHIN, self._server.kill)
-            self._retire()
+    def relieve(self, units: Iterable[Startable]) -> None:
+        """Let the server end where none of these runs or will that it starts."""
+        if self._server is None or self._open:
+            return
+        if not any(_warm(unit.process) and unit.state.phase not in FINAL for unit in units):
+            self._dismiss()
 
     def leave(self) -> None:
         """Let the server end, whatever is to be started."""
         for start in [*self._open.values()]:
             start.cancel(OSError(errno.ECANCELED, "the run has ended"))
-        self.relieve()
+        self._dismiss()
+
+    def _dismiss(self) -> None:
+        if self._server is not None:
+            self._loop.call_later(_LEAVE_WITHIN, self._server.kill)
+            self._retire()
 
     def _ready(self) -> Server | None:
         """Return the server, started where there is none; None where there will not be one."""
-        if self._server is None and self._hopeless is None:
+        if self._server is None and self._hopeless is None and self.wanted:
             ears = (self._heard, self._lost)
             try:
                 self._server = Server(self._loop, self._kin, self._environment, self._say, ears)
@@ -114,8 +156,16 @@ class Starts:
                 self._hopeless = f"could not be started: {error}"
         return self._server
 
+    def _start_cold(self, spec: Spec, told: Told, reason: str) -> None:
+        """Start cold what the plan starts warm; users are told each reason once."""
+        told.cold(reason)
+        if reason not in self._reasons:
+            self._reasons.add(reason)
+            self.said(f"{spec.id} is started without the fork server: {reason}")
+        _start_cold(spec, told)
+
     def _say(self, text: str) -> None:
-        self.said(text.rstrip())
+        self.said(f"fork server: {text.rstrip()}")
 
     def _heard(self, message: dict[str, Any]) -> None:
         if "unusable" in message:
@@ -144,6 +194,7 @@ class Starts:
             self._server.leave()
             self._former.append(self._server)
             self._server = None
+            self._prepared.clear()
 
     def _close(self, number: int) -> None:
         start = self._open.pop(number)
@@ -173,11 +224,21 @@ class Starts:
         return any(start.pid is None for start in self._open.values()) and proc.name(pid) == _NAME
 
 
-def start_cold(spec: Spec, told: Told) -> None:
+def _warm(process: Process) -> Warm | None:
+    """Return how the server starts a process, None where it does not."""
+    return process.warm if process.warm is not None and process.warm.warm else None
+
+
+def _environment(run_id: str) -> dict[str, str]:
+    """Return the environment of the server: what is the same for all nodes of a run."""
+    return node_environment(os.environ, this_host(), {}, log_folder="", colour=False, marks=(run_id, ""))
+
+
+def _start_cold(spec: Spec, told: Told) -> None:
     """Start a program by itself."""
     try:
         child = spawn(spec)
     except OSError as error:
         told.failed(error)
         return
-    told.begun(child)
+    told.begun(child, spec)
