@@ -2,43 +2,45 @@
 
 The form is that of rcutils: `[INFO] [1700000000.123456789] [logger]: text`, or what RCUTILS_CONSOLE_OUTPUT_FORMAT of
 the process says (https://docs.ros.org/en/jazzy/Concepts/Intermediate/About-Logging.html).
+
+Lines that one head counts for are found together, by one regular expression: a match for each line takes several times
+as long, and most programs write many lines of the same gravity one after the other.
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from orchestra.dataclass import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
-
-# From a line without colours to its severity, in capitals, and its logger; None where it has no head.
-Read: TypeAlias = Callable[[str], tuple[str | None, str | None] | None]
+    from collections.abc import Iterator, Mapping
 
 # A head is not longer: some formats take time that grows with the square of the length.
 _LONGEST: Final = 1000
-# Stands in no line.
-_NEVER: Final = "\n\n"
 
 FORMAT: Final = "RCUTILS_CONSOLE_OUTPUT_FORMAT"
 DEFAULT: Final = "[{severity}] [{time}] [{name}]: {message}"
 
 _TOKENS: Final = {
-    "severity": r"(?P<severity>DEBUG|INFO|WARN|ERROR|FATAL)",
-    "name": r"(?P<name>[^\s\]]*)",
+    "severity": r"(?:DEBUG|INFO|WARN|ERROR|FATAL)",
+    "name": r"[^\s\]]*",
     "message": r".*",
-    "time": r"\d+\.\d+",
-    "time_as_nanoseconds": r"\d+",
-    "date_time_with_ms": r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d\.\d+",
+    "time": r"[0-9]+\.[0-9]+",
+    "time_as_nanoseconds": r"[0-9]+",
+    "date_time_with_ms": r"[0-9]{4}-[0-9]{2}-[0-9]{2} [0-9]{2}:[0-9]{2}:[0-9]{2}\.[0-9]+",
     "function_name": r".*?",
     "file_name": r".*?",
-    "line_number": r"\d+",
+    "line_number": r"[0-9]+",
 }
-_TOKEN = re.compile(r"\{(\w+)\}")
+_TOLD: Final = ("severity", "name")
+# These go on until what follows them fits.
+_OPEN: Final = ("message", "function_name", "file_name")
+# What no other token can contain, so that one that is followed by it ends there and nowhere else.
+_ENDS: Final = ("]", " ", "\t", "\n")
+_BRACED: Final = r"\{(\w+)\}"
 # How rcutils reads them in a format.
 _ESCAPES: Final = {
     "a": "\a",
@@ -51,66 +53,136 @@ _ESCAPES: Final = {
     "\\": "\\",
     "?": "?",
 }
-_ESCAPE = re.compile(r"\\([abfnrtv?\\'\"])")
+_ESCAPE: Final = r"\\([abfnrtv?\\'\"])"
+
+
+# What a line says of its message: the severity in capitals, the logger; None where it does not say.
+Head: TypeAlias = tuple[bytes | None, bytes | None]
+# Lines to the end of the last, and their head; None where they have none.
+Run: TypeAlias = tuple[int, Head | None]
 
 
 @dataclass(frozen=True, slots=True)
 class Heads:
-    """How to read the begin of a line. Where `mark` is not in a text, none of its lines has a head."""
+    """How to read the begins of lines: text and names of tokens, in turn. Without a `mark` there are no heads."""
 
-    mark: str
-    read: Read
+    parts: tuple[str, ...]
+    mark: bytes | None
+
+    def among(self, lines: bytes) -> bool:
+        """Tell whether some of the lines may have a head."""
+        mark = self.mark
+        if mark is None or mark[:1] not in lines:  # one byte is found many times faster than two
+            return False
+        return lines.startswith(mark) or b"\n" + mark in lines
+
+    def runs(self, lines: bytes) -> Iterator[Run]:
+        """Yield, in their order, where lines end that one head counts for, or those before the first head."""
+        return _together(self.parts, lines) if _ends_plainly(self.parts) else _one_by_one(self.parts, lines)
 
 
-def heads_of(environment: Mapping[str, str]) -> Heads:
-    """Return how to read the lines of a process with this environment."""
-    return _heads(environment.get(FORMAT) or DEFAULT)
+def format_of(environment: Mapping[str, str]) -> str:
+    """Return the form of the lines of a process with this environment."""
+    return environment.get(FORMAT) or DEFAULT
 
 
 @lru_cache(maxsize=64)
-def _heads(written: str) -> Heads:
-    pattern = _pattern(written)
-    if pattern is None:
-        return Heads(_NEVER, lambda _line: None)
-    first = written[:1]
-    return Heads("" if first in "{\\" else first, _reader(pattern))
+def heads_of(written: str) -> Heads:
+    """Return how to read lines that are written in a form."""
+    parts = _parts(written)
+    told = any(name in parts[1::2] for name in _TOLD)
+    return Heads(parts, parts[0].encode("utf-8", "surrogateescape") if told else None)
 
 
-def _reader(pattern: re.Pattern[str]) -> Read:
-    match = pattern.match
-    severity, name = (pattern.groupindex.get(group) for group in ("severity", "name"))
+def _together(parts: tuple[str, ...], lines: bytes) -> Iterator[Run]:
+    run, following = _run(parts)
+    end = 0
+    while end < len(lines):
+        found = run.match(lines, end)
+        if found is not None:
+            end = found.end()
+        else:
+            follows = following.search(lines, end)
+            end = follows.start() + 1 if follows else len(lines)
+        yield end, _told(found)
 
-    def read(line: str) -> tuple[str | None, str | None] | None:
-        found = match(line, 0, _LONGEST)
-        if found is None:
-            return None
-        return found[severity] if severity else None, (found[name] or None) if name else None
 
-    return read
+def _one_by_one(parts: tuple[str, ...], lines: bytes) -> Iterator[Run]:
+    single = _single(parts)
+    begin = 0
+    while begin < len(lines):
+        end = lines.index(b"\n", begin) + 1
+        yield end, _told(single.match(lines, begin, min(begin + _LONGEST, end - 1)))
+        begin = end
 
 
-def _pattern(written: str) -> re.Pattern[str] | None:
-    """Return what matches the begin of a line; None where the format tells neither severity nor logger."""
-    text = _ESCAPE.sub(lambda found: _ESCAPES.get(found[1], found[1]), written)
+def _told(found: re.Match[bytes] | None) -> Head | None:
+    if found is None:
+        return None
+    told = found.groupdict()
+    return told.get("severity"), told.get("name") or None
+
+
+@lru_cache(maxsize=64)
+def _single(parts: tuple[str, ...]) -> re.Pattern[bytes]:
+    """Return what matches the begin of a line."""
+    return re.compile(_pattern(parts, first=True))
+
+
+@lru_cache(maxsize=64)
+def _run(parts: tuple[str, ...]) -> tuple[re.Pattern[bytes], re.Pattern[bytes]]:
+    """Return what matches a line and all those for which its head counts, and what finds the next head."""
+    head, same, other = (_pattern(parts, first=first) for first in (True, False, None))
+    # Greedy, and nothing behind it that could fail: no line is looked at twice.
+    run = re.compile(b"%b.*\n(?:(?:%b|(?!%b)).*\n)*" % (head, same, other))
+    return run, re.compile(b"\n(?=%b)" % other)
+
+
+def _parts(written: str) -> tuple[str, ...]:
+    """Return text and names of tokens, in turn, of what a line must begin with."""
+    text = re.sub(_ESCAPE, lambda found: _ESCAPES.get(found[1], found[1]), written)
     # A message has lines of its own, so what stands behind it is not looked at.
     head, message, rest = text.partition("{message}")
     if "{severity}" not in head and "{name}" not in head:
         head = head + message + rest
-    parts: list[str] = []
-    end, seen = 0, set()
-    for token in _TOKEN.finditer(head):
-        name = token[1]
-        if name not in _TOKENS:
-            continue  # rcutils writes what it does not know as it stands
-        parts += (re.escape(head[end : token.start()]), _again(name) if name in seen else _TOKENS[name])
+    parts = [""]
+    end = 0
+    for token in re.finditer(_BRACED, head):
+        if token[1] in _TOKENS:  # rcutils writes what it does not know as it stands
+            parts[-1] += head[end : token.start()]
+            parts += (token[1], "")
+            end = token.end()
+    parts[-1] += head[end:]
+    return tuple(parts)
+
+
+def _pattern(parts: tuple[str, ...], *, first: bool | None) -> bytes:
+    """Return what matches the begin of a line.
+
+    The `first` one names severity and logger, others refer to these; with None it is any.
+    """
+    pattern, seen = "", set[str]()
+    for text, name in zip(parts[::2], (*parts[1::2], ""), strict=True):
+        pattern += re.escape(text) + _group(name, first=first, again=name in seen)
         seen.add(name)
-        end = token.end()
-    parts.append(re.escape(head[end:]))
-    if not seen & {"severity", "name"}:
-        return None
-    return re.compile("".join(parts))
+    return pattern.encode("utf-8", "surrogateescape")
 
 
-def _again(name: str) -> str:
-    """Return what matches a token for the second time; a group has its name once."""
-    return f"(?P={name})" if name in ("severity", "name") else _TOKENS[name]
+def _group(name: str, *, first: bool | None, again: bool) -> str:
+    """Return what matches a token; a group has its name once."""
+    form = _TOKENS.get(name, "")
+    if first is None or name not in _TOLD:
+        return form
+    return f"(?P<{name}>{form})" if first and not again else f"(?P={name})"
+
+
+@lru_cache(maxsize=64)
+def _ends_plainly(parts: tuple[str, ...]) -> bool:
+    """Tell whether each token can end in one place only, so that no line takes more time than it is long."""
+    names = parts[1::2]
+    if len({*names}) < len(names) or any(name in _OPEN for name in names):
+        return False
+    behind = [
+        text for name, text in zip(names, parts[2::2], strict=True) if name == "name" or text is not parts[-1]
+    ]
+    return "\n" not in "".join(parts[::2]) and all(text.startswith(_ENDS) for text in behind)

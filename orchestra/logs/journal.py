@@ -7,6 +7,7 @@ import time
 from typing import TYPE_CHECKING
 
 from orchestra.logs import forms, names, outputs
+from orchestra.logs.block import block_of
 from orchestra.logs.narration import Narration
 from orchestra.logs.page import Page
 from orchestra.logs.records import OURS, Record, dumps
@@ -55,8 +56,7 @@ class Journal:
         self._rotation = rotation or Rotation()
         self._forced = forced
         self._shown: dict[str, frozenset[str]] = {}
-        self._prefixes: dict[str, str] = {}
-        self._colours: dict[str, str] = {}
+        self._prefixes: dict[str, bytes] = {}
         self._files: dict[str, LogFile] = {}
         self._narrations: dict[str, Narration] = {}
         self._all = writer.file(folder / "all.log", self._rotation, forms.OUTPUT)
@@ -69,8 +69,9 @@ class Journal:
         for process, output in wanted.items():
             self._shown[process] = outputs.on_screen(output if self._forced is None else self._forced)
             self._narrations[process] = Narration(process)
-        self._prefixes = names.prefixes(self._shown)
-        self._colours = self._colour_prefixes() if self._sheets.output.colour else self._prefixes
+        prefixes = names.prefixes(self._shown)
+        shown = self._colour(prefixes) if self._sheets.output.colour else prefixes
+        self._prefixes = {process: prefix.encode("utf-8", "replace") for process, prefix in shown.items()}
         stems = names.log_stems(self._shown)
         for process in wanted:
             path = self._folder / f"{stems[process]}.log"
@@ -80,18 +81,18 @@ class Journal:
         """Another run of a process begins: what it writes from now on is of this pid."""
         self._narrations[process].begin(pid, environment)
 
-    def output(self, process: str, stream: str, text: str, *, shown: bool = True) -> None:
+    def output(self, process: str, stream: str, data: bytes, *, shown: bool = True) -> None:
         """Write a piece of a process's output; without `shown`, to the files alone."""
-        if not text:
+        if not data:
             return
-        now, source = self._wall(), (process, stream)
-        told = self._narrations[process].add(stream, text, now)
+        now, source, block = self._wall(), (process, stream), block_of(data)
+        told = self._narrations[process].add(stream, block, now)
         with self._writer.together():
-            self._files[process].write(text)
-            self._write_all(source, names.shown(process), text, now)
+            self._files[process].write(data)
+            self._write_all(source, names.shown(process), block.bare, now)
             self._records.write(told)
         if shown and stream in self._shown[process]:
-            self._sheets.output.write(source, self._colours[process], text)
+            self._sheets.output.write(source, self._prefixes[process], block)
 
     def let_through(self, process: str, data: bytes) -> None:
         """Show raw output of a process that has the user's terminal for itself."""
@@ -103,15 +104,17 @@ class Journal:
         self.note(text)
         sheet = self._sheets.messages
         prefix = f"[{OURSELVES}] "
-        sheet.write(OURSELVES, f"\x1b[1m{prefix}\x1b[0m" if sheet.colour else prefix, f"{text}\n")
+        shown = f"\x1b[1m{prefix}\x1b[0m" if sheet.colour else prefix
+        sheet.write(OURSELVES, shown.encode(), block_of(_bytes(f"{text}\n")))
 
     def note(self, text: str) -> None:
         """Keep something for whoever reads the run afterwards, in whole lines."""
         self._told(text)
         now = self._wall()
-        self._write_all(OURSELVES, OURSELVES, f"{text}\n", now)
+        self._write_all(OURSELVES, OURSELVES, plain(_bytes(f"{text}\n")), now)
         for line in text.split("\n"):
-            self._records.write(dumps(Record(now, None, os.getpid(), OURS, None, None, line)) + "\n")
+            record = Record(now, None, os.getpid(), OURS, None, None, line)
+            self._records.write(dumps(record).encode() + b"\n")
 
     def rest(self, process: str) -> None:
         """Close the file of a process that does not run; its next output opens it again."""
@@ -136,11 +139,16 @@ class Journal:
         """The number of bytes that could not be written to files, or have not been."""
         return self._writer.lost
 
-    def _write_all(self, source: object, name: str, text: str, now: float) -> None:
-        self._all.write(self._all_page.compose(source, f"{now:.6f} [{name}] ", plain(text)))
+    def _write_all(self, source: object, name: str, bare: bytes, now: float) -> None:
+        self._all.write(self._all_page.compose(source, _bytes(f"{now:.6f} [{name}] "), bare))
 
-    def _colour_prefixes(self) -> dict[str, str]:
+    @staticmethod
+    def _colour(prefixes: Mapping[str, str]) -> dict[str, str]:
         return {
             process: coloured(prefix.rstrip(), index) + prefix[len(prefix.rstrip()) :]
-            for index, (process, prefix) in enumerate(self._prefixes.items())
+            for index, (process, prefix) in enumerate(prefixes.items())
         }
+
+
+def _bytes(text: str) -> bytes:
+    return text.encode("utf-8", "surrogateescape")

@@ -1,4 +1,4 @@
-"""Output of one process, line by line, as records: JSON made with as little work for each line as it takes."""
+"""Output of one process as records of its lines: JSON made with as little work for each line as it takes."""
 
 from __future__ import annotations
 
@@ -6,12 +6,15 @@ from functools import lru_cache
 from json.encoder import encode_basestring_ascii as quoted
 from typing import TYPE_CHECKING, Final
 
-from orchestra.logs.heads import heads_of
+from orchestra.logs.heads import DEFAULT, format_of, heads_of
 from orchestra.logs.lines import LONGEST_HELD
-from orchestra.logs.terminal_text import plain
+from orchestra.logs.terminal_text import harmless
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
+
+    from orchestra.logs.block import Block
+    from orchestra.logs.heads import Head
 
 # A line without a head belongs to the message before it only where it comes at once: a message is written in one go.
 _CONTINUES_WITHIN: Final = 0.05
@@ -27,53 +30,56 @@ class Narration:
     def __init__(self, process: str) -> None:
         self._process = quoted(process)
         self._begins: dict[str, str] = {}
-        self._held: dict[str, str] = {}
+        self._held: dict[str, bytes] = {}
         self._last: dict[str, tuple[str, float]] = {}
-        self._heads = heads_of({})
+        self._format = DEFAULT
         self._pid = _NOTHING
 
     def begin(self, pid: int, environment: Mapping[str, str]) -> None:
         """Another run of the process begins, under this pid and with this environment."""
         self._pid = str(pid)
-        self._heads = heads_of(environment)
+        self._format = format_of(environment)
         self._begins.clear()
         self._last.clear()
 
-    def add(self, stream: str, text: str, now: float) -> str:
+    def add(self, stream: str, block: Block, now: float) -> bytes:
         """Return the records of the lines that a piece of output completes, each with its newline."""
-        text = plain(text)
+        lines, clean = block.bare, block.clean
         if stream in self._held:
-            text = self._held.pop(stream) + text
-        end = text.rfind("\n") + 1
-        if len(text) - end > LONGEST_HELD:
-            text, end = text + "\n", len(text) + 1
-        if end < len(text):
-            self._held[stream] = text[end:]
-        return self._records(stream, text[: end - 1], now) if end else ""
+            held = self._held.pop(stream)
+            lines, clean = held + lines, clean and harmless(held)
+        end = lines.rfind(b"\n") + 1
+        if len(lines) - end > LONGEST_HELD:
+            lines, end = lines + b"\n", len(lines) + 1
+        if end < len(lines):
+            self._held[stream] = lines[end:]
+        return self._records(stream, lines[:end], now, clean=clean) if end else b""
 
-    def end(self, now: float) -> str:
+    def end(self, now: float) -> bytes:
         """Return the records of lines that were never finished."""
         held, self._held = self._held, {}
-        return "".join(self._records(stream, rest, now) for stream, rest in held.items())
+        return b"".join(
+            self._records(stream, rest + b"\n", now, clean=harmless(rest)) for stream, rest in held.items()
+        )
 
-    def _records(self, stream: str, text: str, now: float) -> str:
+    def _records(self, stream: str, lines: bytes, now: float, *, clean: bool) -> bytes:
         """Return the records of one line or more."""
         begin = f'{{"time": {now:.6f}, {self._begin(stream)}'
         grave, since = self._last.get(stream, (_UNKNOWN, 0.0))
         if now - since > _CONTINUES_WITHIN:
             grave = _UNKNOWN
-        if "\\" not in text and self._heads.mark not in text:
-            # Nothing but the ends of lines turns into a backslash and an n, and all lines have one begin.
+        heads = heads_of(self._format)
+        if not heads.among(lines):
             self._last[stream] = (grave, now)
-            return begin + grave + quoted(text).replace(r"\n", f'"}}\n{begin}{grave}"') + "}\n"
-        read, records = self._heads.read, []
-        for line in text.split("\n"):
-            found = read(line)
-            if found is not None:
-                grave = _graveness(*found)
-            records.append(f"{begin}{grave}{quoted(line)}}}\n")
+            return _alike(begin + grave, lines, clean=clean)
+        records, start = [], 0
+        for end, head in heads.runs(lines):
+            if head is not None:
+                grave = _graveness(head)
+            records.append(_alike(begin + grave, lines[start:end], clean=clean))
+            start = end
         self._last[stream] = (grave, now)
-        return "".join(records)
+        return b"".join(records)
 
     def _begin(self, stream: str) -> str:
         if stream not in self._begins:
@@ -83,14 +89,29 @@ class Narration:
         return self._begins[stream]
 
 
+def _alike(begin: str, lines: bytes, *, clean: bool) -> bytes:
+    """Return the records of lines, each with its newline, that have one begin. `clean` is that of a `Block`."""
+    if clean and lines.isascii():
+        # Of what JSON cannot have as it stands, they can have these three alone.
+        text = lines.replace(b"\\", rb"\\").replace(b'"', rb"\"").replace(b"\t", rb"\t")
+        first = f'{begin}"'.encode()
+        records = text.replace(b"\n", b'"}\n' + first)
+        # The last end of a line has no line behind it.
+        return b"".join((first, memoryview(records)[: len(records) - len(first)]))
+    texts = lines[:-1].decode("utf-8", "surrogateescape").split("\n")
+    return (begin + f"}}\n{begin}".join(map(quoted, texts)) + "}\n").encode()
+
+
 @lru_cache(maxsize=1024)
-def _graveness(severity: str | None, logger: str | None) -> str:
-    word = severity.lower() if severity else None
-    return f'"severity": {_json(word)}, "logger": {_json(logger)}, "text": '
+def _graveness(head: Head) -> str:
+    severity, logger = head
+    word = severity.decode().lower() if severity else None
+    name = logger.decode("utf-8", "surrogateescape") if logger else None
+    return f'"severity": {_json(word)}, "logger": {_json(name)}, "text": '
 
 
 def _json(text: str | None) -> str:
     return _NOTHING if text is None else quoted(text)
 
 
-_UNKNOWN: Final = _graveness(None, None)
+_UNKNOWN: Final = _graveness((None, None))

@@ -9,22 +9,24 @@ class Page:
     def __init__(self) -> None:
         self._open: object | None = None
 
-    def compose(self, source: object, prefix: str, text: str, *, again: bool = False) -> str:
+    def compose(self, source: object, prefix: bytes, data: bytes, *, again: bool = False) -> bytes:
         """Return what to write for a piece of a source's output.
 
         A piece that continues the source's own unfinished line continues it here, or overwrites it where that begins
         `again`; the unfinished line of another is ended first.
         """
-        if not text:
-            return ""
-        before = "" if self._open is None or self._open == source else "\n"
+        if not data:
+            return b""
+        before = b"" if self._open is None or self._open == source else b"\n"
         first = prefix
         if self.continues(source):
-            first = f"\r{prefix}" if again else ""
-        finished = text.endswith("\n")
-        body = text[:-1] if finished else text
+            first = b"\r" + prefix if again else b""
+        finished = data.endswith(b"\n")
         self._open = None if finished else source
-        return before + first + body.replace("\n", "\n" + prefix) + ("\n" if finished else "")
+        body = data.replace(b"\n", b"\n" + prefix)
+        # The last end of a line has no line behind it.
+        shown = memoryview(body)[: len(body) - len(prefix)] if finished else body
+        return b"".join((before, first, shown))
 
     def continues(self, source: object) -> bool:
         """Tell whether the line at the end is an unfinished one of this source."""
@@ -36,8 +38,8 @@ class Page:
         self._open = None if data.endswith(b"\n") else source
         return before + data
 
-    def end(self) -> str:
+    def end(self) -> bytes:
         """Return what ends the page: a newline where a line is unfinished."""
-        ending = "" if self._open is None else "\n"
+        ending = b"" if self._open is None else b"\n"
         self._open = None
         return ending

@@ -5,8 +5,8 @@ from __future__ import annotations
 import contextlib
 import os
 import threading
-from collections.abc import Callable
-from typing import TYPE_CHECKING, Final
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 from orchestra.dataclass import dataclass
 from orchestra.logs import pieces
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 # Written at a time: after each, whoever waits can see that the disk is alive.
 _SLICE = 1 << 18
+# The kernel takes no more pieces at a time (writev(2)).
+_PIECES = 1024
 
 # Held while a file is opened: whoever lowers the limit of open files for a moment must not do so meanwhile.
 OPENING: Final = threading.RLock()
@@ -43,6 +45,9 @@ class Form:
     whole: bool
 
 
+Bytes: TypeAlias = bytes | memoryview
+
+
 class Appended:
     """The file itself. Every call may block for as long as the disk does.
 
@@ -60,9 +65,23 @@ class Appended:
         self._size = 0
         self._newest: int | None = None
 
-    def append(self, data: bytes) -> OSError | None:
-        """Append data; return what prevented it. What could not be written is lost."""
-        rest, error = memoryview(data), None
+    def append(self, pieces: Sequence[bytes]) -> OSError | None:
+        """Append pieces of data; return what prevented it. What could not be written is lost."""
+        try:
+            self._open()
+        except OSError as failure:
+            self.lose(sum(map(len, pieces)))
+            return failure
+        size, limit = sum(map(len, pieces)), self._rotation.size
+        if limit and self._size + size > limit:
+            return self._append_apart(memoryview(b"".join(pieces)))
+        stays, error = self._put(pieces)
+        self.lose(size - stays)
+        return error
+
+    def _append_apart(self, rest: memoryview) -> OSError | None:
+        """Append what does not belong into one piece of the log."""
+        error = None
         while rest and error is None:
             try:
                 self._open()
@@ -70,7 +89,7 @@ class Appended:
             except OSError as failure:
                 error = failure
             else:
-                stays, error = self._put(rest[:room])
+                stays, error = self._put([rest[:room]])
                 rest = rest[stays:]
         self.lose(len(rest))
         return error
@@ -102,26 +121,30 @@ class Appended:
             return len(data) if self._size else self._room(data)
         return bytes(data).find(b"\n", limit) + 1 or len(data) if self._form.whole else limit
 
-    def _put(self, data: memoryview) -> tuple[int, OSError | None]:
+    def _put(self, pieces: Sequence[Bytes]) -> tuple[int, OSError | None]:
         """Write data, behind a word about the gap before it if there is one; return how much of it stays."""
         gap = self._form.gap(self._missing) if self._missing else b""
         begin = self._size
-        written, error = self._write(memoryview(gap + data) if gap else data)
+        written, error = self._write([gap, *pieces] if gap else pieces)
         stays = written - len(gap)
         if error and stays > 0 and self._form.whole:
-            stays = bytes(data[:stays]).rfind(b"\n") + 1
+            stays = b"".join(pieces).rfind(b"\n", 0, stays) + 1
         if stays < 0 or (error and self._form.whole):
             self._cut(begin + (len(gap) + stays if stays >= 0 else 0))
         if stays >= 0:
             self._missing = 0
         return max(0, stays), error
 
-    def _write(self, data: memoryview) -> tuple[int, OSError | None]:
+    def _write(self, pieces: Sequence[Bytes]) -> tuple[int, OSError | None]:
         written = 0
         try:
-            while written < len(data):
-                written += os.write(self._open(), data[written : written + _SLICE])
-                self._progress()
+            for group in _groups(pieces):
+                rest = group
+                while rest:
+                    size = os.writev(self._open(), rest)
+                    written += size
+                    self._progress()
+                    rest = _behind(rest, size)
         except OSError as error:
             return written, error
         finally:
@@ -160,3 +183,32 @@ class Appended:
                 self._descriptor = os.open(self.path, flags, 0o644)
             self._size = os.fstat(self._descriptor).st_size
         return self._descriptor
+
+
+def _groups(pieces: Sequence[Bytes]) -> Iterator[list[Bytes]]:
+    """Yield pieces that are written with one call."""
+    group: list[Bytes] = []
+    size = 0
+    for piece in pieces:
+        if size + len(piece) > _SLICE or len(group) == _PIECES:
+            if group:
+                yield group
+            group, size = [], 0
+        if len(piece) > _SLICE:
+            view = memoryview(piece)
+            for begin in range(0, len(piece), _SLICE):
+                yield [view[begin : begin + _SLICE]]
+        else:
+            group.append(piece)
+            size += len(piece)
+    if group:
+        yield group
+
+
+def _behind(pieces: list[Bytes], size: int) -> list[Bytes]:
+    """Return what follows the first bytes of some pieces."""
+    for index, piece in enumerate(pieces):
+        if size < len(piece):
+            return [memoryview(piece)[size:], *pieces[index + 1 :]]
+        size -= len(piece)
+    return []

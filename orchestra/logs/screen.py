@@ -12,6 +12,7 @@ import os
 import select
 import stat
 from collections import deque
+from itertools import islice
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
 BACKLOG = 4 * 1024 * 1024
 # A pipe that poll(2) calls writable takes this much without blocking (PIPE_BUF).
 _CAREFUL_PIECE = 512
+# So many pieces are written with one call; the kernel takes no more than 1024 (writev(2)).
+_AT_ONCE = 256
 
 
 class Screen:
@@ -28,7 +31,7 @@ class Screen:
 
     def __init__(self, descriptor: int, watch: Callable[[bool], None]) -> None:
         self._watch = watch
-        self._waiting: deque[bytes] = deque()
+        self._waiting: deque[bytes | memoryview] = deque()
         self._size = 0
         self._dropped = 0
         self.closed = False
@@ -40,13 +43,9 @@ class Screen:
         """The number of bytes that the screen has not taken yet."""
         return self._size
 
-    def write(self, text: str) -> None:
-        """Write now what the screen takes, and keep the rest. The text should consist of whole lines where it can."""
-        self.put(text.encode("utf-8", "replace"))
-
-    def put(self, data: bytes) -> None:
-        """Write bytes as they are."""
-        if self.closed:
+    def write(self, data: bytes) -> None:
+        """Write now what the screen takes, and keep the rest. It should consist of whole lines where it can."""
+        if self.closed or not data:
             return
         if self._size + len(data) > BACKLOG:
             self._dropped += max(1, data.count(b"\n"))
@@ -101,28 +100,30 @@ class Screen:
 
     def _push(self) -> None:
         while self._waiting:
-            data = self._waiting[0]
             try:
-                written = os.write(self.descriptor, self._piece(data))
+                written = os.writev(self.descriptor, self._pieces())
             except BlockingIOError:
                 return
             except OSError:  # hung up: nobody sees it any more, and the log files have it
                 self._give_up()
                 return
             self._size -= written
-            if written == len(data):
-                self._waiting.popleft()
-            else:
-                self._waiting[0] = data[written:]
+            self._forget(written)
 
-    def _piece(self, data: bytes) -> bytes:
+    def _pieces(self) -> list[bytes | memoryview]:
         if not self._careful:
-            return data
+            return [*islice(self._waiting, _AT_ONCE)]
         poll = select.poll()
         poll.register(self.descriptor, select.POLLOUT)
         if not poll.poll(0):
             raise BlockingIOError
-        return data[:_CAREFUL_PIECE]
+        return [self._waiting[0][:_CAREFUL_PIECE]]
+
+    def _forget(self, written: int) -> None:
+        while written and written >= len(self._waiting[0]):
+            written -= len(self._waiting.popleft())
+        if written:
+            self._waiting[0] = memoryview(self._waiting[0])[written:]
 
     def _give_up(self) -> None:
         self.closed = True

@@ -8,6 +8,7 @@ from orchestra.logs.page import Page
 from orchestra.logs.terminal_text import for_screen, overwrites
 
 if TYPE_CHECKING:
+    from orchestra.logs.block import Block
     from orchestra.logs.screen import Screen
 
 
@@ -20,18 +21,19 @@ class Sheet:
         self._returned = False
         self.colour = colour
 
-    def write(self, source: object, prefix: str, text: str) -> None:
+    def write(self, source: object, prefix: bytes, block: Block) -> None:
         """Show a piece of a source's output; what is overwritten with carriage returns is so here."""
-        shown = for_screen(text)
-        again = self._page.continues(source) and (self._returned or overwrites(text))
-        self._returned = text.endswith("\r")
+        shown = for_screen(block.data, clean=block.clean)
+        again = self._page.continues(source) and (self._returned or overwrites(block.data))
+        self._returned = block.data.endswith(b"\r")
         if shown:
-            self._screen.write(self._page.compose(source, prefix, shown, again=again and shown[0] != "\n"))
+            again = again and not shown.startswith(b"\n")
+            self._screen.write(self._page.compose(source, prefix, shown, again=again))
 
     def let_through(self, source: object, data: bytes) -> None:
         """Show output as it is: the program knows that it has a terminal and does with it what it wants."""
         self._returned = False
-        self._screen.put(self._page.let_through(source, data))
+        self._screen.write(self._page.let_through(source, data))
 
     def end(self) -> None:
         """End an unfinished line."""

@@ -13,8 +13,8 @@ from __future__ import annotations
 
 import os
 import signal
+import sys
 import threading
-import time
 from collections import deque
 from typing import TYPE_CHECKING, Final
 
@@ -34,8 +34,11 @@ FEW: Final = 2 * 1024 * 1024
 STUCK_AFTER: Final = 2.0
 
 # What comes within this time after a write is written with the next one, in seconds: waking for each line of a robot
-# that says a thousand in a second costs more than the lines.
+# that says a thousand in a second costs more than the lines. So much is written sooner, in bytes.
 _TOGETHER: Final = 0.01
+_PLENTY: Final = 1024 * 1024
+# From no size on.
+_NEVER: Final = sys.maxsize
 
 _CLOSE: Final = -1
 
@@ -52,10 +55,10 @@ class LogFile:
         """The number of bytes that could not be written."""
         return self._file.lost
 
-    def write(self, text: str) -> None:
-        """Append text; lone surrogates are the bytes that they stand for (PEP 383)."""
-        if text:
-            self._writer.add(self._file, text.encode("utf-8", "surrogateescape"))
+    def write(self, data: bytes) -> None:
+        """Append data."""
+        if data:
+            self._writer.add(self._file, data)
 
     def close(self) -> None:
         """Close the file when everything is written; writing opens it again."""
@@ -82,6 +85,9 @@ class Writer:
         self._wanted = False
         self._stuck = False
         self._over = False
+        self._awaited = False
+        # From so many waiting bytes on, the thread is woken.
+        self._wake_from = _NEVER
         self._resumed: list[Callable[[], None]] = []
         self._thread = threading.Thread(target=self._work, name="orc-writer", daemon=True)
         self._thread.start()
@@ -122,7 +128,9 @@ class Writer:
                     return
                 self._size += len(data)
             waiting.append(data)
-            self._changed.notify()
+            if self._size >= self._wake_from:
+                self._wake_from = _NEVER
+                self._changed.notify_all()
 
     def when_room(self, resume: Callable[[], None]) -> None:
         """Call, once, when more may be produced."""
@@ -154,11 +162,14 @@ class Writer:
         """
         with self._changed:
             rounds = max(1, round(most / patience))
+            self._awaited = True
+            self._changed.notify_all()
             while self._size and rounds:
                 before = self._steps
                 done = self._changed.wait_for(lambda: not self._size, patience)
                 rounds = rounds - 1 if done or self._steps != before else 0
             written = not self._size
+            self._awaited = False
         self._tell()
         return written
 
@@ -166,7 +177,7 @@ class Writer:
         """End the thread when it has nothing to do any more; one that hangs ends with the process."""
         with self._changed:
             self._over = True
-            self._changed.notify()
+            self._changed.notify_all()
         self._thread.join(0 if self._size else None)
         if not self._thread.is_alive():
             os.close(self.descriptor)
@@ -176,12 +187,14 @@ class Writer:
         while batch := self._next():
             for file, data in batch.items():
                 self._write(file, data)
-            if not self._over:
-                time.sleep(_TOGETHER)
 
     def _next(self) -> dict[Appended, list[bytes | int]]:
         with self._changed:
+            self._wake_from = _PLENTY
+            self._changed.wait_for(lambda: self._size >= _PLENTY or self._awaited or self._over, _TOGETHER)
+            self._wake_from = 0
             self._changed.wait_for(lambda: self._waiting or self._over)
+            self._wake_from = _NEVER
             batch, self._waiting = self._waiting, {}
             return batch
 
@@ -193,7 +206,7 @@ class Writer:
                 together.append(item)
                 continue
             if together:
-                self._append(file, b"".join(together))
+                self._append(file, together)
                 together = []
             if item == _CLOSE:
                 file.close()
@@ -202,15 +215,16 @@ class Writer:
                 with self._changed:
                     self._dropped -= item
 
-    def _append(self, file: Appended, data: bytes) -> None:
-        error = file.append(data)
+    def _append(self, file: Appended, pieces: list[bytes]) -> None:
+        error = file.append(pieces)
         with self._changed:
-            self._size -= len(data)
+            self._size -= sum(map(len, pieces))
             if error:
                 self._failures.append((file.path, error))
             if error or (self._wanted and self._size <= FEW):
                 self._call()
-            self._changed.notify_all()
+            if self._awaited:
+                self._changed.notify_all()
 
     def _tell(self) -> None:
         while self._failures:

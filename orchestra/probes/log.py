@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING
 
-from orchestra.logs.terminal_text import plain
+from orchestra.logs.terminal_text import plain_text
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -45,6 +45,6 @@ class LogProbe:
 
     def read(self, stream: str, text: str) -> bool:
         """Take a piece of output; tell whether a line matches."""
-        *lines, rest = (self._unfinished.get(stream, "") + plain(text)).split("\n")
+        *lines, rest = (self._unfinished.get(stream, "") + plain_text(text)).split("\n")
         self._unfinished[stream] = rest[-_LONGEST_LINE:]
         return any(self._pattern.search(line.removesuffix("\r")) for line in (*lines, rest))

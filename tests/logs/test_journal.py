@@ -25,12 +25,12 @@ def test_output_goes_to_its_file_the_merged_files_and_the_screen(tmp_path: Path)
     with writing() as writer:
         journal = Journal(tmp_path, words, Sheets(sheet, sheet), writer, told.append, lambda: 12.5)
         journal.begin("/a", 7, {})
-        journal.output("/a", "stdout", "\x1b[32mone\x1b[0m\nhal")
-        journal.output("/b", "stdout", "hidden\n")
+        journal.output("/a", "stdout", b"\x1b[32mone\x1b[0m\nhal")
+        journal.output("/b", "stdout", b"hidden\n")
         journal.say("two\nlines")
-        journal.output("/a", "stdout", "f\n")
-        journal.output("/a", "stdout", "")
-        journal.output("/a", "stderr", "no end")
+        journal.output("/a", "stdout", b"f\n")
+        journal.output("/a", "stdout", b"")
+        journal.output("/a", "stderr", b"no end")
         journal.close()
         journal.settle()
         assert journal.lost == 0
@@ -63,9 +63,9 @@ def test_the_file_of_a_process_has_its_bytes_and_nothing_else(tmp_path: Path) ->
     sheet = Sheet(Screen(writable, lambda _wanted: None), colour=False)
     with writing() as writer:
         journal = Journal(tmp_path, {"/a": None}, Sheets(sheet, sheet), writer, lambda _text: None)
-        journal.output("/a", "stdout", "10%\r20%")
-        journal.output("/a", "stderr", "\udcff\x00oops\n")
-        journal.output("/a", "stdout", "\r30%\n")
+        journal.output("/a", "stdout", b"10%\r20%")
+        journal.output("/a", "stderr", b"\xff\x00oops\n")
+        journal.output("/a", "stdout", b"\r30%\n")
         journal.close()
     assert (tmp_path / "a.log").read_bytes() == b"10%\r20%\xff\x00oops\n\r30%\n"
     assert os.read(readable, 65536).decode() == "[a] 20%\n[a] ??oops\n[a] 30%\n"
@@ -137,10 +137,10 @@ def test_processes_may_be_added_and_notes_are_not_shown(tmp_path: Path) -> None:
             lambda: 1.0,
             forced="both",
         )
-        journal.output("/a", "stdout", "one\n")
+        journal.output("/a", "stdout", b"one\n")
         journal.add({"a": None, "/longer": "log"})
-        journal.output("a", "stdout", "two\n")
-        journal.output("/a", "stdout", "three\n")
+        journal.output("a", "stdout", b"two\n")
+        journal.output("/a", "stdout", b"three\n")
         journal.note("kept")
         journal.close()
     assert (tmp_path / "a.log").read_text() == "one\nthree\n"

@@ -5,6 +5,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from orchestra.logs import records
+from orchestra.logs.block import Block, block_of
 from orchestra.logs.lines import LONGEST_HELD
 from orchestra.logs.narration import Narration
 from orchestra.logs.records import Record
@@ -12,10 +13,14 @@ from orchestra.logs.records import Record
 HEAD = "[{}] [1700000000.123456789] [robot1.ekf]: "
 
 
+def block(text: str) -> Block:
+    return block_of(text.encode("utf-8", "surrogateescape"))
+
+
 def told(text: str, environment: dict[str, str] | None = None) -> list[tuple[str | None, str | None, str]]:
     narration = Narration("/a")
     narration.begin(7, environment or {})
-    lines = (narration.add("stderr", text, 5.0) + narration.end(5.0)).splitlines()
+    lines = (narration.add("stderr", block(text), 5.0) + narration.end(5.0)).splitlines()
     return [(record.severity, record.logger, record.text) for record in map(records.loads, lines)]
 
 
@@ -34,9 +39,9 @@ def test_lines_of_one_message_are_as_grave_as_its_head() -> None:
 def test_what_comes_later_or_on_another_stream_is_no_part_of_the_message() -> None:
     narration = Narration("/a")
     narration.begin(7, {})
-    narration.add("stderr", HEAD.format("WARN") + "x\n", 5.0)
-    other = records.loads(narration.add("stdout", "out\n", 5.0))
-    late = records.loads(narration.add("stderr", "later\n", 5.2))
+    narration.add("stderr", block(HEAD.format("WARN") + "x\n"), 5.0)
+    other = records.loads(narration.add("stdout", block("out\n"), 5.0))
+    late = records.loads(narration.add("stderr", block("later\n"), 5.2))
     assert (other.severity, late.severity) == (None, None)
 
 
@@ -65,24 +70,25 @@ def test_the_form_of_the_process_counts(
 @given(
     st.lists(
         st.text(
-            alphabet=st.one_of(st.sampled_from('\n\\"[]{}\x00\r\t\udcff é'), st.characters()), max_size=30
+            alphabet=st.one_of(st.sampled_from('\n\\"[]{}\x00\r\t\udcff é'), st.characters(codec="utf-8")),
+            max_size=30,
         )
     )
 )
 def test_every_line_becomes_one_record_whatever_is_in_it(pieces: list[str]) -> None:
     narration = Narration('/a"b')
     narration.begin(7, {})
-    found = "".join(narration.add("stdout", piece, 1.25) for piece in pieces) + narration.end(1.25)
+    found = b"".join(narration.add("stdout", block(piece), 1.25) for piece in pieces) + narration.end(1.25)
     text = "".join(pieces)
     lines = text.removesuffix("\n").split("\n") if text else []
     if "\x1b" not in text:
         expected = [Record(1.25, '/a"b', 7, "stdout", None, None, line) for line in lines]
-        assert [records.loads(line) for line in found.split("\n")[:-1]] == expected
+        assert [records.loads(line) for line in found.split(b"\n")[:-1]] == expected
 
 
 def test_a_line_without_end_comes_in_pieces() -> None:
     narration = Narration("/a")
-    found = "".join(narration.add("stdout", "x" * 5000, 1.0) for _ in range(100))
+    found = b"".join(narration.add("stdout", block("x" * 5000), 1.0) for _ in range(100))
     texts = [records.loads(line).text for line in found.splitlines()]
     assert texts
     assert all(len(text) <= LONGEST_HELD + 5000 for text in texts)
@@ -93,6 +99,6 @@ def test_a_line_without_end_comes_in_pieces() -> None:
 def test_an_unfinished_line_is_told_at_the_end_under_its_own_pid() -> None:
     narration = Narration("/a")
     narration.begin(7, {})
-    assert narration.add("stdout", "no end", 1.0) == ""
+    assert narration.add("stdout", block("no end"), 1.0) == b""
     assert records.loads(narration.end(2.0)) == Record(2.0, "/a", 7, "stdout", None, None, "no end")
-    assert narration.end(2.0) == ""
+    assert narration.end(2.0) == b""

@@ -19,11 +19,12 @@ from orchestra.logs.page import Page
 )
 def test_each_line_has_the_prefix_of_its_source(pieces: list[tuple[str, str]], page: str) -> None:
     composed = Page()
-    assert "".join(composed.compose(source, f"[{source}] ", text) for source, text in pieces) == page
+    written = (composed.compose(source, f"[{source}] ".encode(), text.encode()) for source, text in pieces)
+    assert b"".join(written).decode() == page
 
 
 def test_the_end_of_a_page_ends_its_line() -> None:
     page = Page()
-    page.compose("a", "", "half")
-    assert page.end() == "\n"
-    assert page.end() == ""
+    page.compose("a", b"", b"half")
+    assert page.end() == b"\n"
+    assert page.end() == b""

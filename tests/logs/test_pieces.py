@@ -39,7 +39,7 @@ def test_a_follower_sees_every_line_once_however_often_the_log_is_rotated(
         for _ in range(lines):
             count += 1
             written.append(f"line {count:05d}\n".encode())
-            assert file.append(written[-1]) is None
+            assert file.append([written[-1]]) is None
         for _ in range(reads):
             seen += follower.lines()
     while found := follower.lines():
@@ -51,12 +51,12 @@ def test_a_follower_sees_every_line_once_however_often_the_log_is_rotated(
 
 def test_a_follower_from_now_on_leaves_out_what_was_before(tmp_path: Path) -> None:
     file = rotated(tmp_path / "a")
-    file.append(b"one\n" * 20)
+    file.append([b"one\n"] * 20)
     follower = Follower(tmp_path / "a", from_now=True)
     assert follower.lines() == []
-    file.append(b"tw")
+    file.append([b"tw"])
     assert follower.lines() == []
-    file.append(b"o\n" + b"three\n" * 10)
+    file.append([b"o\n", b"three\n" * 10])
     seen = []
     while found := follower.lines():
         seen += found
@@ -67,10 +67,10 @@ def test_a_follower_from_now_on_leaves_out_what_was_before(tmp_path: Path) -> No
 
 def test_a_follower_goes_on_where_pieces_have_been_removed(tmp_path: Path) -> None:
     file, follower = rotated(tmp_path / "a", keep=1), Follower(tmp_path / "a")
-    file.append(b"first\n")
+    file.append([b"first\n"])
     assert follower.lines() == [b"first\n"]
     for number in range(50):
-        file.append(f"line {number}\n".encode())
+        file.append([f"line {number}\n".encode()])
     seen = []
     while found := follower.lines():
         seen += found

@@ -39,7 +39,7 @@ def test_a_pipe_that_nobody_reads_never_blocks_us() -> None:
     readable, writable = os.pipe()
     watching = Watching()
     screen = Screen(writable, watching)
-    line = "x" * 99 + "\n"
+    line = b"x" * 99 + b"\n"
     for _ in range(BACKLOG // 100 + 2000):
         screen.write(line)
     assert watching.wanted
@@ -49,7 +49,7 @@ def test_a_pipe_that_nobody_reads_never_blocks_us() -> None:
         received += drain(readable)
         screen.writable()
     received += drain(readable)
-    *shown, confession = received.decode().splitlines()
+    *shown, confession = received.splitlines()
     missed = int(confession.split()[1])
     assert set(shown) == {line[:-1]}
     assert len(shown) + missed == BACKLOG // 100 + 2000
@@ -72,14 +72,14 @@ def test_a_socket_is_written_to_with_care() -> None:
     ours, theirs = socket.socketpair()
     watching = Watching()
     screen = Screen(theirs.fileno(), watching)
-    text = "".join(f"{number}\n" for number in range(100_000))
-    screen.write(text)
+    data = b"".join(b"%d\n" % number for number in range(100_000))
+    screen.write(data)
     received = b""
     while watching.wanted:
         received += drain(ours.fileno())
         screen.writable()
     received += drain(ours.fileno())
-    assert received.decode() == text
+    assert received == data
     screen.close()
     ours.close()
     theirs.close()
@@ -91,7 +91,7 @@ def test_a_file_is_written_where_the_shell_left_off(tmp_path: Path) -> None:
     descriptor = os.open(path, os.O_WRONLY)
     os.lseek(descriptor, 0, os.SEEK_END)
     screen = Screen(descriptor, Watching())
-    screen.write("after\n")
+    screen.write(b"after\n")
     screen.close()
     os.close(descriptor)
     assert path.read_text() == "before\nafter\n"
@@ -101,9 +101,9 @@ def test_a_reader_that_is_gone_is_forgotten() -> None:
     readable, writable = os.pipe()
     screen = Screen(writable, Watching())
     os.close(readable)
-    screen.write("nobody reads this\n")
+    screen.write(b"nobody reads this\n")
     assert screen.closed
-    screen.write("nor this\n")
+    screen.write(b"nor this\n")
     assert screen.pending == 0
     screen.close()
     os.close(writable)
@@ -113,7 +113,7 @@ def test_a_reader_that_is_gone_is_forgotten() -> None:
 def test_the_end_waits_only_for_a_screen_that_takes_something(patience: float) -> None:
     readable, writable = os.pipe()
     screen = Screen(writable, Watching())
-    screen.write("x" * 500_000)
+    screen.write(b"x" * 500_000)
     screen.finish(patience)
     assert screen.pending > 0
     screen.close()

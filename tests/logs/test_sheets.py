@@ -4,6 +4,7 @@ import os
 
 import pytest
 
+from orchestra.logs.block import block_of
 from orchestra.logs.screen import Screen
 from orchestra.logs.sheets import Sheet
 
@@ -15,7 +16,7 @@ def shown(pieces: Pieces) -> str:
     screen = Screen(writable, lambda _wanted: None)
     sheet = Sheet(screen, colour=False)
     for source, text in pieces:
-        sheet.write(source, f"[{source}] ", text)
+        sheet.write(source, f"[{source}] ".encode(), block_of(text.encode()))
     sheet.end()
     screen.close()
     os.close(writable)
@@ -47,7 +48,7 @@ def test_output_that_is_let_through_stands_as_it_is_between_lines_of_others() ->
     sheet.let_through("a", b"\x1b[2J\xff> ")
     sheet.let_through("a", b"ls\r\n")
     sheet.let_through("a", b"> ")
-    sheet.write("b", "[b] ", "hello\n")
+    sheet.write("b", b"[b] ", block_of(b"hello\n"))
     sheet.let_through("a", b"x\n")
     screen.close()
     os.close(writable)

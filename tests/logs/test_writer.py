@@ -36,9 +36,9 @@ def called(writer: Writer) -> bool:
 def test_any_text_is_written_as_it_came(tmp_path: Path) -> None:
     with writing() as writer:
         file = writer.file(tmp_path / "a.log", ENDLESS, forms.OUTPUT)
-        file.write("é\udcff\n")
+        file.write("é".encode() + b"\xff\n")
         file.close()
-        file.write("more\n")
+        file.write(b"more\n")
         file.close()
         settled(writer)
         assert (tmp_path / "a.log").read_bytes() == "é".encode() + b"\xff\nmore\n"
@@ -51,9 +51,9 @@ def test_a_full_disk_is_told_and_what_is_lost_is_counted(tmp_path: Path) -> None
         path = tmp_path / "a.log"
         path.symlink_to("/dev/full")
         file = writer.file(path, ENDLESS, forms.OUTPUT)
-        file.write("12345")
+        file.write(b"12345")
         assert called(writer)
-        file.write("678")
+        file.write(b"678")
         settled(writer)
         assert writer.lost == file.lost == 8
         assert (failures[0][0], failures[0][1].strerror) == (path, "No space left on device")
@@ -68,12 +68,12 @@ def test_when_there_is_room_again_a_line_tells_how_much_is_missing(
         path = tmp_path / "a.log"
         path.symlink_to("/dev/full")
         file = writer.file(path, ENDLESS, form)
-        file.write("lost\n")
+        file.write(b"lost\n")
         file.close()
         settled(writer)
         path.unlink()
-        file.write("written\n")
-        file.write("on\n")
+        file.write(b"written\n")
+        file.write(b"on\n")
         settled(writer)
         text = path.read_text()
         assert text.startswith(begin)
@@ -85,7 +85,7 @@ def test_when_there_is_room_again_a_line_tells_how_much_is_missing(
 def test_a_folder_that_is_gone_is_told(tmp_path: Path) -> None:
     failures: Failures = []
     with writing(failures) as writer:
-        writer.file(tmp_path / "missing" / "a.log", ENDLESS, forms.OUTPUT).write("x")
+        writer.file(tmp_path / "missing" / "a.log", ENDLESS, forms.OUTPUT).write(b"x")
         assert called(writer)
         assert [(path.name, type(error)) for path, error in failures] == [("a.log", FileNotFoundError)]
 
@@ -93,7 +93,7 @@ def test_a_folder_that_is_gone_is_told(tmp_path: Path) -> None:
 def test_what_fails_last_is_told_although_nobody_attends_any_more(tmp_path: Path) -> None:
     failures: Failures = []
     with writing(failures) as writer:
-        writer.file(tmp_path / "missing" / "a.log", ENDLESS, forms.OUTPUT).write("x")
+        writer.file(tmp_path / "missing" / "a.log", ENDLESS, forms.OUTPUT).write(b"x")
         settled(writer)
         assert [path.name for path, _ in failures] == ["a.log"]
 
@@ -110,10 +110,10 @@ resource.setrlimit(resource.RLIMIT_FSIZE, (1000, resource.RLIM_INFINITY))
 writer = Writer(lambda *_: None)
 file = writer.file(Path({str(tmp_path / "a")!r}), ENDLESS, forms.RECORDS)
 for number in range(100):
-    file.write('{{"number": %d, "x": "%s"}}' % (number, "x" * 20) + chr(10))
+    file.write(b'{{"number": %d, "x": "%s"}}' % (number, b"x" * 20) + bytes([10]))
     writer.finish(5, 20)
 resource.setrlimit(resource.RLIMIT_FSIZE, (resource.RLIM_INFINITY, resource.RLIM_INFINITY))
-file.write('{{"number": 100}}' + chr(10))
+file.write(b'{{"number": 100}}' + bytes([10]))
 writer.finish(5, 20)
 print(file.lost)
 """
@@ -146,7 +146,7 @@ def read_all(path: Path) -> Iterator[bytes]:
 def test_a_disk_that_hangs_holds_up_nobody_and_bounds_what_waits(hanging: Path) -> None:
     with writing() as writer:
         file = writer.file(hanging, ENDLESS, forms.OUTPUT)
-        line = "x" * 999 + "\n"
+        line = b"x" * 999 + b"\n"
         resumed: list[bool] = []
         while not writer.full:
             file.write(line)
@@ -164,7 +164,7 @@ def test_a_disk_that_hangs_holds_up_nobody_and_bounds_what_waits(hanging: Path) 
         for data in read_all(hanging):
             received += data
             if b"missing" in received[-200:] or len(received) > MOST:
-                file.write("back\n")
+                file.write(b"back\n")
                 file.close()
                 break
         assert called(writer)
@@ -176,7 +176,7 @@ def test_room_is_told_once_most_has_been_written(hanging: Path) -> None:
     with writing() as writer:
         file = writer.file(hanging, ENDLESS, forms.OUTPUT)
         while not writer.full:
-            file.write("x" * 999 + "\n")
+            file.write(b"x" * 999 + b"\n")
         resumed: list[bool] = []
         writer.when_room(lambda: resumed.append(True))
         file.close()
@@ -192,7 +192,7 @@ def test_old_pieces_go_and_what_stays_is_whole(tmp_path: Path, keep: int) -> Non
     with writing() as writer:
         file = writer.file(tmp_path / "a.log", Rotation(100, keep), forms.RECORDS)
         for number in range(100):
-            file.write(f"{number:09d}\n")
+            file.write(b"%09d\n" % number)
         settled(writer)
         names = sorted(path.name for path in tmp_path.iterdir())
         assert names == ["a.log", *(f"a.log.{number}" for number in range(10 - keep, 10))]
@@ -204,7 +204,7 @@ def test_a_line_that_is_longer_than_a_piece(tmp_path: Path) -> None:
     with writing() as writer:
         for name, form in (("whole", forms.RECORDS), ("cut", forms.OUTPUT)):
             file = writer.file(tmp_path / name, Rotation(10, 50), form)
-            file.write("short\n" + "x" * 25 + "\nend\n")
+            file.write(b"short\n" + b"x" * 25 + b"\nend\n")
         settled(writer)
         pieces = {path.name: path.read_text() for path in tmp_path.iterdir()}
         assert pieces == {
@@ -224,7 +224,7 @@ def test_where_a_file_cannot_be_put_away_it_grows(tmp_path: Path) -> None:
     with writing() as writer:
         file = writer.file(tmp_path / "a.log", Rotation(10, 5), forms.OUTPUT)
         file._file._newest = 0
-        file.write("123456789\n" * 3)
+        file.write(b"123456789\n" * 3)
         settled(writer)
         assert (tmp_path / "a.log").read_text() == "123456789\n" * 3
         assert writer.lost == 0

@@ -242,9 +242,9 @@ def test_what_is_typed_to_a_program_that_does_not_read_is_bounded(tmp_path: Path
     child = spawn(
         Spec("a", (sys.executable, "-E", "-c", code), dict(os.environ), str(tmp_path), tty=True, stdin=False)
     )
-    seen: list[str] = []
+    seen: list[bytes] = []
     streams = [Stream(loop, descriptor, seen.append) for descriptor in child.outputs.values()]
-    while "up" not in "".join(seen):
+    while b"up" not in b"".join(seen):
         loop.run_once()
     terminal = Terminal(loop, child.pid, child.outputs.values())
     taken = 0

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from orchestra.supervise.graph import dialogue
 from orchestra.supervise.keeping.kin import send_to_groups
 from orchestra.supervise.output.outbox import Outbox
-from orchestra.supervise.output.stream import Stream
+from orchestra.supervise.output.stream import Stream, as_text
 from orchestra.supervise.process.ending import Ending
 from orchestra.supervise.process.spawn import spawn
 
@@ -63,7 +63,10 @@ class Observer:
         )
         kin.add(self._child.pid, None)
         outputs = self._child.outputs
-        self._streams = [Stream(loop, outputs["stdout"], self._read), Stream(loop, outputs["stderr"], said)]
+        self._streams = [
+            Stream(loop, outputs["stdout"], as_text(self._read)),
+            Stream(loop, outputs["stderr"], as_text(said)),
+        ]
         loop.on_readable(self._child.pidfd, self._ended)
 
     @property

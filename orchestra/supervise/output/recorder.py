@@ -41,7 +41,7 @@ class Recorder:
         """Append an event."""
         event = events.Event(self._wall(), self._monotonic(), kind, process, pid, cause, data)
         line = events.dumps(event)
-        self._file.write(line + "\n")
+        self._file.write((line + "\n").encode("utf-8", "surrogateescape"))
         self.count += 1
         for listener in self._listeners:
             listener(line)

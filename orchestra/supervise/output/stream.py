@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import fcntl
 import os
 from typing import TYPE_CHECKING
@@ -14,7 +15,10 @@ if TYPE_CHECKING:
     from orchestra.supervise.loop import Loop, Timer
     from orchestra.supervise.output.intake import Intake
 
+# Read at a time, in bytes: what a pipe holds. One that was at least half full has more room from then on, since each
+# read and the round that leads to it take as long as writing some hundred lines.
 _READ_SIZE = 65536
+_LARGE = 262144
 # More than a terminal holds: its buffers take 64 KiB and a page.
 _TERMINAL_HOLDS = 131072
 # A line without an end, such as a question or a progress bar, is shown after this time, in seconds.
@@ -22,9 +26,9 @@ _FLUSH_AFTER = 0.1
 
 
 class Stream:
-    """Reads a descriptor, which it owns, and hands on text: whole lines, or what has stood for a while.
+    """Reads a descriptor, which it owns, and hands on what it gets: whole lines, or what has stood for a while.
 
-    `tapped` gets the bytes as they come, after the text that they complete has been delivered. With an `intake` it is
+    `tapped` gets the bytes as they come, after the lines that they complete have been delivered. With an `intake` it is
     read no faster than that allows.
     """
 
@@ -32,7 +36,7 @@ class Stream:
         self,
         loop: Loop,
         descriptor: int,
-        deliver: Callable[[str], None],
+        deliver: Callable[[bytes], None],
         tapped: Callable[[bytes], None] | None = None,
         intake: Intake | None = None,
     ) -> None:
@@ -41,6 +45,7 @@ class Stream:
         self._deliver = deliver
         self._tapped = tapped
         self._intake = intake
+        self._size = _READ_SIZE
         self._lines = Lines()
         self._timer: Timer | None = None
         self._open = True
@@ -90,7 +95,7 @@ class Stream:
     def _read(self) -> int:
         """Read once; return how many bytes there were."""
         try:
-            data = os.read(self._descriptor, _READ_SIZE)
+            data = os.read(self._descriptor, self._size)
         except BlockingIOError:
             return 0
         except OSError:  # a terminal whose other side is closed says EIO where a pipe has an end (pty(7))
@@ -98,13 +103,22 @@ class Stream:
         if not data:
             self._end()
             return 0
-        text = self._lines.feed(data)
-        if text:
-            self._deliver(text)
+        if 2 * len(data) >= self._size:
+            self._enlarge()
+        lines = self._lines.feed(data)
+        if lines:
+            self._deliver(lines)
         if self._tapped:
             self._tapped(data)
         self._see_to_timer()
         return len(data)
+
+    def _enlarge(self) -> None:
+        """Let a busy pipe hold more; a terminal has one size, and a user's pipes have one limit (pipe(7))."""
+        if self._size < _LARGE:
+            self._size = _LARGE
+            with contextlib.suppress(OSError):
+                fcntl.fcntl(self._descriptor, fcntl.F_SETPIPE_SZ, _LARGE)
 
     def _end(self) -> None:
         if not self._open:
@@ -116,9 +130,9 @@ class Stream:
         if self._intake:
             self._intake.forget(self)
         self._cancel_timer()
-        text = self._lines.close()
-        if text:
-            self._deliver(text)
+        rest = self._lines.close()
+        if rest:
+            self._deliver(rest)
 
     def _see_to_timer(self) -> None:
         if not self._lines.unfinished:
@@ -133,6 +147,15 @@ class Stream:
 
     def _flush(self) -> None:
         self._timer = None
-        text = self._lines.flush()
-        if text:
-            self._deliver(text)
+        begun = self._lines.flush()
+        if begun:
+            self._deliver(begun)
+
+
+def as_text(deliver: Callable[[str], None]) -> Callable[[bytes], None]:
+    """Return what a stream may deliver to, for who wants text; bytes that are none are lone surrogates (PEP 383)."""
+
+    def decoded(data: bytes) -> None:
+        deliver(data.decode("utf-8", "surrogateescape"))
+
+    return decoded

@@ -17,8 +17,8 @@ if TYPE_CHECKING:
     from orchestra.supervise.process.child import Child
     from orchestra.supervise.surroundings import Surroundings
 
-    # Of a stream: its name and a piece of text.
-    Heard: TypeAlias = Callable[[str, str], None]
+    # Of a stream: its name and a piece of output.
+    Heard: TypeAlias = Callable[[str, bytes], None]
     # Of a program: its pid, the name of the stream, and the bytes.
     Wrote: TypeAlias = Callable[[int, str, bytes], None]
 
@@ -26,7 +26,7 @@ _STDOUT = 1
 
 
 class Output:
-    """The streams of a process, over all its runs. `heard` gets text in whole lines, `wrote` the bytes as they come."""
+    """The streams of a process, over all its runs. `heard` gets whole lines, `wrote` the bytes as they come."""
 
     def __init__(self, process: str, surroundings: Surroundings, heard: Heard, wrote: Wrote) -> None:
         self._process = process
@@ -76,9 +76,9 @@ class Output:
             self._terminal = None
         self._around.journal.rest(self._process)
 
-    def _deliver(self, stream: str, text: str) -> None:
-        self._around.journal.output(self._process, stream, text, shown=not self._let_through)
-        self._heard(stream, text)
+    def _deliver(self, stream: str, data: bytes) -> None:
+        self._around.journal.output(self._process, stream, data, shown=not self._let_through)
+        self._heard(stream, data)
 
     def _tapped(self, pid: int, stream: str, data: bytes) -> None:
         if self._let_through:

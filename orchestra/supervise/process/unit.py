@@ -246,9 +246,9 @@ class Unit:
         self._child = None
         self._around.confines.release(self.id)
 
-    def _heard(self, stream: str, text: str) -> None:
-        self.tail.feed(text)
-        self._readiness.read(stream, text)
+    def _heard(self, stream: str, data: bytes) -> None:
+        self.tail.feed(data)
+        self._readiness.read(stream, data)
 
     def _watch(self, timeout: float | None) -> None:
         self._readiness.begin(timeout)

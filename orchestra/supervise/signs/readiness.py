@@ -79,10 +79,12 @@ class Readiness:
         for probe in self._missing.values():
             probe.end()
 
-    def read(self, stream: str, text: str) -> None:
+    def read(self, stream: str, data: bytes) -> None:
         """Take a piece of the process's output."""
-        for listener in [*self._listeners]:
-            listener(stream, text)
+        if self._listeners:
+            text = data.decode("utf-8", "surrogateescape")
+            for listener in [*self._listeners]:
+                listener(stream, text)
 
     def _came(self, key: str) -> None:
         probe = self._missing.pop(key, None) if self._waiting else None

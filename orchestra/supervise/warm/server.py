@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.supervise.keeping.kin import send_to_groups
 from orchestra.supervise.keeping.marks import PROCESS
-from orchestra.supervise.output.stream import Stream
+from orchestra.supervise.output.stream import Stream, as_text
 from orchestra.supervise.process.ending import Ending
 from orchestra.supervise.process.spawn import spawn
 from orchestra.supervise.process.spec import Spec
@@ -65,7 +65,7 @@ class Server:
         self._waiting: list[tuple[bytes, Sequence[int], Callable[[], None] | None]] = []
         self._held_up = False
         kin.add(self._child.pid, None)
-        self._streams = [Stream(loop, descriptor, said) for descriptor in self._child.outputs.values()]
+        self._streams = [Stream(loop, descriptor, as_text(said)) for descriptor in self._child.outputs.values()]
         loop.on_readable(ours.fileno(), self._read)
         loop.on_readable(self._child.pidfd, self._ended)
 
