@@ -23,8 +23,7 @@ _CONTROL: Final = (
 _SPECIAL: Final = (*range(0x09), *range(0x0B, 0x20), 0x7F)
 # U+0080 to U+009F in UTF-8.
 _SPECIAL_CHARACTER: Final = rb"\xc2[\x80-\x9f]"
-_STYLED_LINE: Final = rb"(\x1b[^\n]*)"
-_STYLE_ENDED: Final = rb"\1" + RESET.encode()
+_STYLE_ENDED: Final = RESET.encode()
 
 # Easy to tell from each other on dark and light ground; neighbours in a plan get neighbours here.
 _COLOURS = (36, 33, 32, 35, 34, 96, 93, 92, 95, 94)
@@ -66,9 +65,13 @@ def for_screen(data: bytes, *, clean: bool) -> bytes:
     left out, and bytes that are no text become question marks.
     """
     if clean:
-        return re.sub(_STYLED_LINE, _STYLE_ENDED, data) if b"\x1b" in data else data
+        return _with_styles_ended(data) if b"\x1b" in data else data
     lines = data.decode("utf-8", "surrogateescape").split("\n")
     return "\n".join(map(_line_for_screen, lines)).encode()
+
+
+def _with_styles_ended(data: bytes) -> bytes:
+    return b"\n".join([line + _STYLE_ENDED if b"\x1b" in line else line for line in data.split(b"\n")])
 
 
 def overwrites(data: bytes) -> bool:

@@ -45,6 +45,7 @@ class LogProbe:
 
     def read(self, stream: str, text: str) -> bool:
         """Take a piece of output; tell whether a line matches."""
-        *lines, rest = (self._unfinished.get(stream, "") + plain_text(text)).split("\n")
+        written = self._unfinished.get(stream, "") + plain_text(text)
+        *lines, rest = written.replace("\r\n", "\n").split("\n")
         self._unfinished[stream] = rest[-_LONGEST_LINE:]
-        return any(self._pattern.search(line.removesuffix("\r")) for line in (*lines, rest))
+        return any(map(self._pattern.search, lines)) or bool(self._pattern.search(rest.removesuffix("\r")))
