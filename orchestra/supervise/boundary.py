@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 import time
-import traceback
 from typing import TYPE_CHECKING
 
 from orchestra.supervise.conduct import conduct
@@ -49,6 +48,8 @@ def _pause(seconds: float) -> bool:
 
 def _report(error: Exception) -> str:
     """Write what is known to a file and return its path; the text itself where no file can be written."""
+    import traceback  # noqa: PLC0415 - only bugs need it
+
     text = f"python {sys.version}\ncommand {sys.argv}\n\n{''.join(traceback.format_exception(error))}"
     path: Path = state_folder() / "crash" / f"{time.strftime('%Y-%m-%dT%H-%M-%S')}-{os.getpid()}.txt"
     try:

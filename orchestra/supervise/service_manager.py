@@ -8,12 +8,12 @@ Nothing here waits: what the service manager does not take now is told later, th
 
 from __future__ import annotations
 
-import socket
 from typing import TYPE_CHECKING, Protocol
 
 from orchestra.supervise.process.life import FINAL, LIVE, Phase
 
 if TYPE_CHECKING:
+    import socket
     from collections.abc import Callable, Collection
 
     from orchestra.supervise.loop import Loop, Timer
@@ -102,6 +102,8 @@ class ServiceManager:
         if not address.startswith(("/", "@")):
             self._say(f"the service manager is not told anything: NOTIFY_SOCKET={address} is no unix socket")
             return
+        import socket  # noqa: PLC0415 - most runs are started by people
+
         self._address = f"\0{address[1:]}" if address.startswith("@") else address
         self._socket = socket.socket(
             socket.AF_UNIX, socket.SOCK_DGRAM | socket.SOCK_NONBLOCK | socket.SOCK_CLOEXEC

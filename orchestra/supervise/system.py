@@ -16,7 +16,6 @@ from orchestra.supervise.process.stopping import Stopping
 from orchestra.supervise.process.unit import Unit
 from orchestra.supervise.reactions import happening as happenings
 from orchestra.supervise.reactions.actions import Actions
-from orchestra.supervise.reactions.fragment import merged
 from orchestra.supervise.reactions.performance import Performance
 from orchestra.supervise.reactions.triggers import LONGEST_AT_THE_END, Triggers, held
 from orchestra.supervise.runs.furnishing import furnish
@@ -204,6 +203,8 @@ class System:
 
     def revise(self, fragment: Fragment, trigger: Trigger) -> str | None:
         """Take up what a trigger adds to the plan; return why that is impossible, if it is."""
+        from orchestra.supervise.reactions.fragment import merged  # noqa: PLC0415 - few plans are revised
+
         plan, fault = merged(self._plan, fragment)
         if fault:
             return f"what it adds does not fit into the plan: {fault}"
@@ -277,8 +278,7 @@ class System:
             self.end_with(f"required process {unit.name} has ended")
 
     def _show_last_lines(self, unit: Unit) -> None:
-        last = unit.tail.lines[-_LAST_LINES:]
-        if last:
+        if last := unit.tail.lines[-_LAST_LINES:]:
             lines = "\n".join(f"    {line}" for line in last)
             self._around.journal.say(f"last lines of {unit.name}:\n{lines}")
 

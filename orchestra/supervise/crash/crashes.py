@@ -10,31 +10,19 @@ import contextlib
 import errno
 import json
 import os
-import shutil
 import time
-from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from orchestra.logs.names import log_stems, shown
-from orchestra.supervise.crash.dossier import (
-    Dossier,
-    Run,
-    as_document,
-    difference,
-    parameter_files,
-    repetition,
-)
-from orchestra.supervise.crash.dossier_text import text_of
-from orchestra.supervise.crash.evidence import cause_of, core_file, limits_in_force, resources_of
 from orchestra.supervise.process.machine import succeeded
 from orchestra.supervise.process.spec import argv
-from orchestra.supervise.signs.threads import threads
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
     from pathlib import Path
 
     from orchestra.plan.model import Process
+    from orchestra.supervise.crash.dossier import Dossier, Run
     from orchestra.supervise.process.child import Child
     from orchestra.supervise.process.ending import Ending
     from orchestra.supervise.process.life import Rules, State
@@ -77,10 +65,14 @@ class Crashes:
 
     def hung(self, pids: Iterable[int]) -> None:
         """It hangs: keep where its threads are."""
+        from orchestra.supervise.signs.threads import threads  # noqa: PLC0415 - few processes hang
+
         self._threads = tuple(map(str, threads(pids)))
 
     def ended(self, state: State, ending: Ending, child: Child | None, lines: Sequence[str]) -> None:
         """One run of it is over, or did not come about: `child` None. `state` is the one before."""
+        from orchestra.supervise.crash.dossier import Run  # noqa: PLC0415 - nothing has ended when the first begins
+
         uptime = 0.0 if child is None else self._around.loop.clock() - self._began_at
         self._runs.append(Run(self._starts, self._began, uptime, str(ending)))
         del self._runs[:-_KEPT_RUNS]
@@ -95,10 +87,21 @@ class Crashes:
         return not succeeded(self._rules, ending) and not wanted & {ending.signal, ending.code}
 
     def _dossier(self, ending: Ending, child: Child | None, uptime: float, lines: Sequence[str]) -> Dossier:
+        # All of it only here, because most processes never crash.
+        from dataclasses import asdict  # noqa: PLC0415
+
+        from orchestra.supervise.crash import evidence  # noqa: PLC0415
+        from orchestra.supervise.crash.dossier import (  # noqa: PLC0415
+            Dossier,
+            difference,
+            parameter_files,
+            repetition,
+        )
+
         process, confines = self._process, self._around.confines
         command, cwd = argv(process), os.path.abspath(process.cwd or ".")  # noqa: PTH100 - links stay as they are
         changes = difference(os.environ, self._environment)
-        core = core_file(process, ending, child, command[0], cwd)
+        core = evidence.core_file(process, ending, child, command[0], cwd)
         return Dossier(
             process=process.id,
             run=self._around.folder.name,
@@ -107,7 +110,7 @@ class Crashes:
             uptime=uptime,
             start=self._starts,
             pid=child.pid if child else None,
-            cause=cause_of(process, ending, child, lines, self._began_at, confines),
+            cause=evidence.cause_of(process, ending, child, lines, self._began_at, confines),
             lines=tuple(lines),
             log=str(self._around.folder / "logs" / f"{self._stem}.log"),
             history=tuple(self._runs),
@@ -119,13 +122,18 @@ class Crashes:
             environment=changes,
             core=core.path if core else None,
             core_advice=core.advice if core else None,
-            resources=resources_of(process, child, confines),
+            resources=evidence.resources_of(process, child, confines),
             limits=asdict(process.limits) if process.limits else None,
-            rlimits=limits_in_force(process),
+            rlimits=evidence.limits_in_force(process),
             threads=self._threads,
         )
 
     def _keep(self, dossier: Dossier) -> None:
+        # As above.
+        import shutil  # noqa: PLC0415
+
+        from orchestra.supervise.crash.dossier import as_document  # noqa: PLC0415
+
         try:
             folder = self._write(as_document(dossier))
         except OSError as error:
@@ -139,6 +147,10 @@ class Crashes:
 
     def _write(self, document: dict[str, object]) -> Path:
         """Write the files of a dossier, for the owner alone: an environment may hold secrets."""
+        import shutil  # noqa: PLC0415 - as above
+
+        from orchestra.supervise.crash.dossier_text import text_of  # noqa: PLC0415 - as above
+
         base = self._around.folder / FOLDER
         base.mkdir(mode=0o700, exist_ok=True)
         folder = _new_folder(base, f"{self._stem}-{self._starts}")

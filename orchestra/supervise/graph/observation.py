@@ -35,8 +35,6 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from orchestra.supervise.environment import middleware
-from orchestra.supervise.graph.lookout import Lookout, Patience
-from orchestra.supervise.graph.observer import Observer
 from orchestra.supervise.keeping.marks import PROCESS
 from orchestra.supervise.process.spec import Spec
 
@@ -45,13 +43,13 @@ if TYPE_CHECKING:
 
     from orchestra.probes.protocol import Request
     from orchestra.supervise.graph import observer
-    from orchestra.supervise.graph.lookout import Heard
+    from orchestra.supervise.graph.lookout import Heard, Lookout, Patience
+    from orchestra.supervise.graph.observer import Observer
     from orchestra.supervise.keeping.kin import Kin
     from orchestra.supervise.loop import Loop
 
 # By its file and with `-P`: with `-m`, modules in the user's working directory would come before all others.
 COMMAND = (sys.executable, "-P", str(Path(__file__).parents[2] / "ros" / "observer" / "__main__.py"))
-_PATIENCE = Patience()
 
 
 class Observers:
@@ -67,7 +65,7 @@ class Observers:
         said: Callable[[str], None],
         *,
         command: Sequence[str] = COMMAND,
-        patience: Patience = _PATIENCE,
+        patience: Patience | None = None,
     ) -> None:
         self._loop = loop
         self._kin = kin
@@ -127,6 +125,10 @@ class Observers:
     def _lookout(self, environment: Mapping[str, str]) -> Lookout:
         key = json.dumps(middleware(environment), sort_keys=True)
         if key not in self._lookouts:
+            # Here, because few runs need an observer, and none for its first process to begin.
+            from orchestra.supervise.graph.lookout import Lookout, Patience  # noqa: PLC0415
+            from orchestra.supervise.graph.observer import Observer  # noqa: PLC0415
+
             variables = {name: value for name, value in environment.items() if name != PROCESS}
             command = (*self._command, str(os.getpid()))
             spec = Spec("observer", command, variables, None, tty=False, stdin=False)
@@ -134,5 +136,5 @@ class Observers:
             def start(ears: tuple[observer.Heard, observer.Lost]) -> Observer:
                 return Observer(self._loop, self._kin, spec, self._said, ears)
 
-            self._lookouts[key] = Lookout(self._loop, start, self._said, self._patience)
+            self._lookouts[key] = Lookout(self._loop, start, self._said, self._patience or Patience())
         return self._lookouts[key]

@@ -11,10 +11,7 @@ from orchestra.errors import Severity
 from orchestra.logs.names import log_stems
 from orchestra.supervise.keeping import proc
 from orchestra.supervise.limits import caps
-from orchestra.supervise.limits.applied import restriction, settle_session
-from orchestra.supervise.limits.capacity import capacity
 from orchestra.supervise.limits.cgroups import Place, own_hierarchy
-from orchestra.supervise.limits.preflight import exclusive_cores, preflight
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -54,6 +51,10 @@ class Confines:
         """Make room for the limits of a plan; return why this machine does not allow them, if so."""
         if all(process.limits is None for process in plan.processes):
             return None
+        # Here and below: few plans have limits.
+        from orchestra.supervise.limits.capacity import capacity  # noqa: PLC0415
+        from orchestra.supervise.limits.preflight import exclusive_cores, preflight  # noqa: PLC0415
+
         machine = capacity(self._keeper)
         errors = [problem for problem in preflight(plan, machine) if problem.severity is Severity.ERROR]
         if errors:
@@ -74,6 +75,8 @@ class Confines:
         limits = process.limits
         if limits is None:
             return None
+        from orchestra.supervise.limits.applied import restriction  # noqa: PLC0415
+
         group = None if limits.memory is None else self._make_group(process, limits.memory)
         return restriction(limits, group, str(process.location))
 
@@ -119,6 +122,8 @@ class Confines:
         return self._groups[process.id]
 
     def _settle(self, process: str, pid: int, nice: int) -> None:
+        from orchestra.supervise.limits.applied import settle_session  # noqa: PLC0415
+
         if self._pids.get(process) == pid and not settle_session(pid, nice):
             self._loop.call_later(_ASK_AGAIN, lambda: self._settle(process, pid, nice))
 
@@ -127,6 +132,9 @@ def checked(plan: Plan, run: str) -> tuple[Problem, ...]:
     """Return what stands against the limits of a plan on this machine, at which we look only where there are some."""
     if all(process.limits is None for process in plan.processes):
         return ()
+    from orchestra.supervise.limits.capacity import capacity  # noqa: PLC0415
+    from orchestra.supervise.limits.preflight import preflight  # noqa: PLC0415
+
     return preflight(plan, capacity(caps.keeper_of(run)))
 
 

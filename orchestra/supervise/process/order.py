@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from graphlib import TopologicalSorter
 from itertools import accumulate
 from typing import TYPE_CHECKING, NamedTuple
 
@@ -80,6 +79,8 @@ def reached(condition: Condition, life: Life) -> bool | None:
 
 def stop_levels(processes: Iterable[Process]) -> dict[str, int]:
     """Return for each process when it is stopped: 0 for those on which nobody depends, then what they depend on."""
+    from graphlib import TopologicalSorter  # noqa: PLC0415 - nothing is to be stopped yet when all begins
+
     needs = {process.id: [edge.process for edge in process.depends_on] for process in processes}
     levels = dict.fromkeys(needs, 0)
     for dependent in reversed([*TopologicalSorter(needs).static_order()]):

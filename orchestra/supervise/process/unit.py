@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import random
 import signal
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -158,6 +157,8 @@ class Unit:
             case life.Send():
                 self._send(effect)
             case life.Pause(delay, jitter):
+                import random  # noqa: PLC0415 - what never ends by itself needs no pause
+
                 self._pause(delay * (1.0 + jitter * random.random()))  # noqa: S311 - nobody has to guess it
             case life.Watch(timeout):
                 self._watch(timeout)

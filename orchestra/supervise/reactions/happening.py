@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import base64
 from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
@@ -54,6 +53,8 @@ def ended(process: str, pid: int | None, ending: Ending, *, last: bool) -> Happe
 
 def wrote(process: str, pid: int | None, stream: str, data: bytes) -> Happening:
     """Return some bytes of a program's output."""
+    import base64  # noqa: PLC0415 - few triggers hear output
+
     facts = {"pid": pid, "stream": stream, "text": base64.b64encode(data).decode()}
     return Happening("process_output", process, facts)
 

@@ -18,7 +18,6 @@ from orchestra.plan.reactions import (
     Trigger,
     UnregisterAction,
 )
-from orchestra.supervise.reactions.fragment import Failure
 from orchestra.supervise.reactions.happening import question
 
 if TYPE_CHECKING:
@@ -26,7 +25,7 @@ if TYPE_CHECKING:
 
     from orchestra.location import Location
     from orchestra.plan.reactions import TriggeredAction
-    from orchestra.supervise.reactions.fragment import Fragment
+    from orchestra.supervise.reactions.fragment import Failure, Fragment
     from orchestra.supervise.reactions.happening import Happening
     from orchestra.supervise.reactions.questions import Questions
     from orchestra.supervise.surroundings import Surroundings
@@ -125,6 +124,8 @@ class Performance:
             )
 
     def _answered(self, sequence: _Sequence, action: DeferredAction, answer: Fragment | Failure) -> None:
+        from orchestra.supervise.reactions.fragment import Failure  # noqa: PLC0415 - few plans have such triggers
+
         if isinstance(answer, Failure):
             self._fail(answer.location or action.location, answer)
             return

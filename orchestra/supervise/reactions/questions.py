@@ -16,15 +16,13 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 from orchestra.supervise.keeping.kin import send_to_groups
 from orchestra.supervise.output.outbox import Outbox
 from orchestra.supervise.process.ending import Ending
-from orchestra.supervise.reactions import fragment
-from orchestra.supervise.reactions.fragment import Failure
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from orchestra.supervise.keeping.kin import Kin
     from orchestra.supervise.loop import Loop, Timer
-    from orchestra.supervise.reactions.fragment import Fragment
+    from orchestra.supervise.reactions.fragment import Failure, Fragment
     from orchestra.supervise.resolver.process import Resolver
 
 # What may wait here in questions that can be dropped, in bytes.
@@ -99,7 +97,7 @@ class Questions:
         False where the question was dropped.
         """
         if self._gone is not None:
-            answered(Failure(self._gone))
+            answered(_failure(self._gone))
             return True
         line = json.dumps(question).encode() + b"\n"
         if droppable and self._size + len(line) > BACKLOG:
@@ -120,7 +118,7 @@ class Questions:
             self._abandoned = True
             self._set_timer()
         for question in abandoned:
-            question.answered(Failure("the run ended before the answer", abandoned=True))
+            question.answered(_failure("the run ended before the answer", abandoned=True))
 
     def leave(self) -> None:
         """Let the resolver end; it is killed where it does not."""
@@ -161,7 +159,9 @@ class Questions:
         self._current = None
         self._cancel_timer()
         if question and not abandoned:
-            question.answered(fragment.loads(line))
+            from orchestra.supervise.reactions.fragment import loads  # noqa: PLC0415 - as below
+
+            question.answered(loads(line))
         self._next()
 
     def _expired(self) -> None:
@@ -201,7 +201,7 @@ class Questions:
         self._current = None
         self._waiting.clear()
         for question in open_questions:
-            question.answered(Failure(reason))
+            question.answered(_failure(reason))
 
     def _stop_reading(self) -> None:
         if self._reading:
@@ -216,3 +216,9 @@ class Questions:
         if self._timer:
             self._timer.cancel()
             self._timer = None
+
+
+def _failure(reason: str, *, abandoned: bool = False) -> Failure:
+    from orchestra.supervise.reactions.fragment import Failure  # noqa: PLC0415 - few runs have a resolver that stays
+
+    return Failure(reason, abandoned=abandoned)

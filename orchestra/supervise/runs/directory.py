@@ -6,7 +6,6 @@ import fcntl
 import itertools
 import os
 import re
-import shutil
 import time
 from contextlib import contextmanager
 from dataclasses import replace
@@ -75,6 +74,8 @@ class RunDirectory:
             if settled:
                 identity.settle(self.path)
             if files.is_symlink():
+                import shutil  # noqa: PLC0415 - few runs have files of launch files' code
+
                 folder = files.readlink()
                 files.unlink()
                 shutil.move(folder, files)
@@ -110,6 +111,8 @@ def prune(runs: Path, keep: int = KEPT_RUNS) -> None:
     """Remove the oldest runs beyond `keep`; never one that is running or died, nor anything that is not a run."""
     for path in folders(runs)[:-keep]:
         if not (path / RUNNING).exists() and not is_locked(path / LOCK):
+            import shutil  # noqa: PLC0415 - slow, and it is the end of the run
+
             shutil.rmtree(path, ignore_errors=True)
 
 

@@ -7,18 +7,13 @@ while we ourselves were stopped, or when the observer dies: then nobody has look
 
 from __future__ import annotations
 
-from dataclasses import asdict
 from functools import partial
 from typing import TYPE_CHECKING, Protocol
 
 from orchestra.logs.names import shown
 from orchestra.supervise.keeping import proc
 from orchestra.supervise.process import life
-from orchestra.supervise.signs.health import Health
-from orchestra.supervise.signs.message_rate import MessageRate
 from orchestra.supervise.signs.readiness import run_beside
-from orchestra.supervise.signs.threads import threads, trees
-from orchestra.supervise.signs.watchdog import Watchdog
 from orchestra.values import Stop
 
 if TYPE_CHECKING:
@@ -82,11 +77,18 @@ class Liveness:
     def _make(self, notices: Notices, blind: Callable[[str], None]) -> list[_Watch]:
         alive, process, around = self._process.alive, self._process, self._around
         made: list[_Watch] = []
-        if alive and alive.notify is not None:
+        if alive is None:
+            return made
+        # Here, because few processes are to give signs of life.
+        from orchestra.supervise.signs.health import Health  # noqa: PLC0415
+        from orchestra.supervise.signs.message_rate import MessageRate  # noqa: PLC0415
+        from orchestra.supervise.signs.watchdog import Watchdog  # noqa: PLC0415
+
+        if alive.notify is not None:
             stop = process.stop or Stop()
             farewell = stop.timeout + stop.kill_timeout
             made.append(Watchdog(around.loop, notices, alive.notify, farewell, self._silent))
-        if alive and alive.message is not None:
+        if alive.message is not None:
             made.append(
                 MessageRate(
                     around.loop,
@@ -98,7 +100,7 @@ class Liveness:
                     blind,
                 )
             )
-        if alive and alive.command is not None:
+        if alive.command is not None:
             made.append(Health(around.loop, alive, partial(run_beside, process, around), self._silent))
         return made
 
@@ -106,6 +108,8 @@ class Liveness:
         """There was no sign: tell whether the process hangs."""
         if not self._active:
             return False
+        from orchestra.supervise.signs.threads import trees  # noqa: PLC0415 - as above
+
         pids = self._around.kin.members(self._process.id)
         if any((facts := proc.stat(pid)) and facts.state in _STOPPED for pid in trees(pids)):
             if not self._told_of_stop:
@@ -121,6 +125,11 @@ class Liveness:
 
     def _dump(self, reason: str, pids: list[int]) -> None:
         """Keep where the threads are, and show it: once it is ended nobody can tell any more."""
+        # As above.
+        from dataclasses import asdict  # noqa: PLC0415
+
+        from orchestra.supervise.signs.threads import threads  # noqa: PLC0415
+
         found = threads(pids)
         lines = [f"    {thread}" for thread in found[:_SHOWN]]
         if len(found) > _SHOWN:

@@ -14,13 +14,12 @@ it is meant (sd_watchdog_enabled(3)).
 
 from __future__ import annotations
 
-import array
 import os
-import socket
 import struct
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    import socket
     from collections.abc import Callable, Mapping
 
     from orchestra.plan.model import Process
@@ -111,6 +110,8 @@ class Notices:
 
     def _read_one(self, opened: socket.socket, known: dict[int | None, bool]) -> bool:
         """Read a message; tell whether there was one."""
+        import socket  # noqa: PLC0415 - few processes notify
+
         space = socket.CMSG_SPACE(_CREDENTIALS.size) + socket.CMSG_SPACE(_MOST_DESCRIPTORS * 4)
         try:
             data, ancillary, flags, _ = opened.recvmsg(_LONGEST, space, socket.MSG_CMSG_CLOEXEC)
@@ -163,6 +164,8 @@ def seconds(microseconds: str | None) -> float | None:
 
 
 def _bound(name: str) -> socket.socket:
+    import socket  # noqa: PLC0415 - as above
+
     opened = socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM | socket.SOCK_NONBLOCK | socket.SOCK_CLOEXEC)
     try:
         opened.setsockopt(socket.SOL_SOCKET, socket.SO_PASSCRED, 1)
@@ -174,6 +177,8 @@ def _bound(name: str) -> socket.socket:
 
 
 def _sender(ancillary: list[tuple[int, int, bytes]]) -> int | None:
+    import socket  # noqa: PLC0415 - as above
+
     for level, kind, data in ancillary:
         if (level, kind) == (socket.SOL_SOCKET, socket.SCM_CREDENTIALS) and len(data) == _CREDENTIALS.size:
             pid, _, _ = _CREDENTIALS.unpack(data)
@@ -182,6 +187,10 @@ def _sender(ancillary: list[tuple[int, int, bytes]]) -> int | None:
 
 
 def _descriptors(ancillary: list[tuple[int, int, bytes]]) -> list[int]:
+    # As above.
+    import array  # noqa: PLC0415
+    import socket  # noqa: PLC0415
+
     found = array.array("i")
     for level, kind, data in ancillary:
         if (level, kind) == (socket.SOL_SOCKET, socket.SCM_RIGHTS):

@@ -6,17 +6,15 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from orchestra.logs.names import shown
-from orchestra.probes.protocol import Site
-from orchestra.probes.table import probes_for
 from orchestra.supervise.process import life
 from orchestra.supervise.process.spec import Spec
-from orchestra.supervise.signs.notification import seconds
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from orchestra.plan.conditions import Ready
     from orchestra.plan.model import Process
-    from orchestra.probes.protocol import Cancel, Probe, Request, Result
+    from orchestra.probes.protocol import Cancel, Probe, Request, Result, Site
     from orchestra.supervise.loop import Timer
     from orchestra.supervise.signs.notification import Notices
     from orchestra.supervise.surroundings import Surroundings
@@ -38,7 +36,7 @@ class Readiness:
         self._notices = notices
         self._handle = handle
         self._impossible = impossible
-        self._missing: dict[str, Probe] = probes_for(process.ready) if process.ready else {}
+        self._missing: dict[str, Probe] = _probes(process.ready) if process.ready else {}
         self._needs_observer = any(probe.looks_into_graph for probe in self._missing.values())
         self._waiting = False
         self._listeners: list[Callable[[str, str], None]] = []
@@ -63,7 +61,7 @@ class Readiness:
         if self._process.ready is None:
             return
         self._waiting = True
-        self._missing = probes_for(self._process.ready)
+        self._missing = _probes(self._process.ready)
         self._around.journal.say(f"waiting for {shown(self._process.id)}: {self.words}")
         if timeout is not None:
             self._set_timer(timeout)
@@ -101,11 +99,15 @@ class Readiness:
 
     def _extend(self, value: str) -> None:
         """The process wants so many microseconds from now on, at least (sd_notify(3))."""
+        from orchestra.supervise.signs.notification import seconds  # noqa: PLC0415 - few processes notify
+
         wanted = seconds(value)
         if self._waiting and self._timer and wanted and wanted > self._timer.due - self._around.loop.clock():
             self._set_timer(wanted)
 
     def _site(self, key: str) -> Site:
+        from orchestra.probes.protocol import Site  # noqa: PLC0415 - as for the probes
+
         return Site(
             loop=self._around.loop,
             folder=self._process.cwd,
@@ -128,6 +130,12 @@ class Readiness:
                 heard(value)
 
         self._notices.on(variable, listen, owner=key)
+
+
+def _probes(ready: Ready) -> dict[str, Probe]:
+    from orchestra.probes.table import probes_for  # noqa: PLC0415 - most processes are ready when they run
+
+    return probes_for(ready)
 
 
 class _Asking:

@@ -10,7 +10,6 @@ import os
 import signal
 from typing import TYPE_CHECKING
 
-from orchestra.probes.protocol import Result
 from orchestra.supervise.keeping.kin import send_to_groups
 from orchestra.supervise.process.ending import Ending, unstartable
 from orchestra.supervise.process.spawn import spawn
@@ -18,7 +17,7 @@ from orchestra.supervise.process.spawn import spawn
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from orchestra.probes.protocol import Cancel
+    from orchestra.probes.protocol import Cancel, Result
     from orchestra.supervise.keeping.kin import Kin
     from orchestra.supervise.loop import Loop
     from orchestra.supervise.process.spec import Spec
@@ -53,7 +52,7 @@ class Trial:
         for name, descriptor in self._child.outputs.items():
             loop.on_readable(descriptor, lambda name=name: self._read(name))  # type: ignore[misc]
         loop.on_readable(self._child.pidfd, self._ended)
-        late = Result(f"it took longer than {limit:g} s")
+        late = _result(f"it took longer than {limit:g} s")
         self._timer = loop.call_later(limit, lambda: self._tell_and_kill(late))
 
     def cancel(self) -> None:
@@ -106,13 +105,19 @@ class Trial:
         self._child.reap()
         self._reaped = True
         self._gone(self)
-        self._tell(Result(self._fault(Ending(*ended)), self._written["stdout"]))
+        self._tell(_result(self._fault(Ending(*ended)), self._written["stdout"]))
 
     def _fault(self, ending: Ending) -> str | None:
         if ending.code == 0:
             return None
         lines = [line for name in ("stdout", "stderr") for line in _lines(self._written[name])]
         return f"{ending}: {lines[-1]}" if lines else str(ending)
+
+
+def _result(fault: str | None, output: bytes = b"") -> Result:
+    from orchestra.probes.protocol import Result  # noqa: PLC0415 - few runs have such programs
+
+    return Result(fault, output)
 
 
 class Trials:
@@ -133,7 +138,7 @@ class Trials:
         try:
             trial = Trial(self._loop, self._kin, spec, limit, told, self._running.discard)
         except OSError as error:
-            result = Result(str(unstartable(error)))
+            result = _result(str(unstartable(error)))
             return self._loop.call_later(0.0, lambda: told(result))
         self._running.add(trial)
         return trial
