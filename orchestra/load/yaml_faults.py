@@ -103,6 +103,11 @@ def _no_value(failure: Failure) -> Fault | None:
         return failure.fault("there is nothing before this ','", failure.at, failure.at + 1)
     if failure.here == "-":
         return failure.fault("an item in [ ] has no '-'", failure.at, failure.at + 1)
+    if failure.here == ":" and (found := _PLAIN.match(failure.text, failure.at)):
+        message = f"a text in {bracket} {_CLOSERS[bracket]} cannot begin with : unless it is in quotes"
+        alone = ":" not in found[0][1:]
+        end = found.end() if alone else failure.at + 1
+        return failure.fault(message, failure.at, end, _in_quotes(found[0]) if alone else None)
     return None
 
 

@@ -6,6 +6,8 @@ from dataclasses import field
 from typing import Any
 
 from orchestra.dataclass import dataclass
+from orchestra.description.entity import Conditional
+from orchestra.errors import Problems
 from orchestra.location import Location
 from orchestra.resolve.model import ResolvedArgument, ResolvedComponent, ResolvedProcess, ResolvedSkip
 from orchestra.resolve.occasions import Occasion
@@ -20,7 +22,8 @@ class Found:
     ROS time were told to go by simulated time. `carried_out` are the objects of Python launch files that were visited,
     `kept` is the code of theirs that is called during the run. `triggers` have been settled so far, `positions` are
     those of each event handler among them, `timed` those of timers that may still be cancelled. `unmet` wait for
-    processes that are not there. `choices` are those of arguments, of each declaration.
+    processes that are not there. `choices` are those of arguments, of each declaration. `visited` are the identities of
+    the actions with a condition that have been carried out, `doubts` what is wrong with those that were left out.
     """
 
     processes: list[ResolvedProcess] = field(default_factory=list)
@@ -38,6 +41,8 @@ class Found:
     timed: list[tuple[int, Occasion]] = field(default_factory=list)
     unmet: list[Occasion] = field(default_factory=list)
     choices: dict[str, set[tuple[str, ...] | None]] = field(default_factory=dict)
+    visited: set[int] = field(default_factory=set)
+    doubts: list[tuple[Conditional, Problems]] = field(default_factory=list)
 
     @property
     def size(self) -> int:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from orchestra.description.fields import FLAG_WORDS
 from orchestra.errors import Code
+from orchestra.location import is_python
 from orchestra.nearest import nearest
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import Value
@@ -85,6 +86,8 @@ def visit(actions: Sequence[Action], run: Resolution) -> None:
             continue
         conditional = action.if_ is not None or action.unless is not None
         run.conditions += conditional
+        if conditional:
+            run.found.visited.add(id(action))
         outer = run.held
         run.held = (*outer, *_held(action, run))
         if action.origin is None:
@@ -136,6 +139,11 @@ def wanted(action: Conditional, word: str, run: Resolution) -> bool:
     if holds is not None and isinstance(value, Value):
         check_contradiction(template, run, truth=action.if_ is not None)
         _skip(action, word, template, value.text, run)
+        if not run.inputs.launching and not is_python(action.span):
+            # Here, because it is for checks, which have the time.
+            from orchestra.resolve.unvisited import doubts  # noqa: PLC0415
+
+            run.found.doubts.append((action, doubts(action, run)))
         return False
     if isinstance(value, Value):
         message = f"a condition is true or false, this is '{value.text}'"

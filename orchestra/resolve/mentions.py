@@ -37,12 +37,12 @@ if TYPE_CHECKING:
 
 def is_fixed(template: Template) -> bool:
     """Return whether a text comes to the same whatever is set."""
-    return all(isinstance(part, Call) and part.name in _FIXED for part in _performed(template))
+    return all(isinstance(part, Call) and part.name in _FIXED for part in performed_in(template))
 
 
 def glimpse(template: Template, context: Context, variables: Mapping[str, Variable]) -> Value | None:
     """Return what a text comes to, without a word and without running anything; None where that cannot be told."""
-    if any(isinstance(part, Opaque) or part.name == "command" for part in _performed(template)):
+    if any(isinstance(part, Opaque) or part.name == "command" for part in performed_in(template)):
         return None
     value = evaluate(template, replace(context, problems=Problems(), variables=_Glance(variables)))
     return value if isinstance(value, Value) else None
@@ -62,17 +62,17 @@ def files_named(description: Description, environment: Mapping[str, str], packag
 def names_in(actions: Iterable[Conditional]) -> set[str]:
     """Return the arguments that actions declare and the variables that they read, whatever their conditions say."""
     found = set()
-    for entity in _entities(tuple(actions)):
+    for entity in entities_in(tuple(actions)):
         if isinstance(entity, Arg) and entity.name.constant is not None:
             found.add(entity.name.constant)
-        for template in _templates(entity):
+        for template in templates_of(entity):
             found.update(_variables(template))
     return found
 
 
 def variables_in(template: Template) -> set[str] | None:
     """Return the variables that a text reads; None where one has no fixed name, or code may read others."""
-    parts = list(_performed(template))
+    parts = list(performed_in(template))
     if any(isinstance(part, Opaque) or part.name == "command" for part in parts):
         return None
     names = [part.arguments[0].constant for part in parts if isinstance(part, Call) and part.name == "var"]
@@ -84,22 +84,24 @@ def is_of_the_moment(actions: Iterable[Action]) -> bool:
     """Return whether actions say something that only an event knows which is being handled."""
     return any(
         isinstance(part, Opaque) and getattr(part.target, "_of_the_moment", False)
-        for entity in _entities(tuple(actions))
-        for template in _templates(entity)
-        for part in _performed(template)
+        for entity in entities_in(tuple(actions))
+        for template in templates_of(entity)
+        for part in performed_in(template)
     )
 
 
 def words_in(action: Conditional) -> set[str]:
     """Return every constant text of an action and the actions in it."""
-    texts = (template.constant for entity in _entities(action) for template in _templates(entity))
+    texts = (template.constant for entity in entities_in(action) for template in templates_of(entity))
     return {text for text in texts if text is not None}
 
 
-def names_behind(parts: Iterable[Hidden], context: Context, open_file: Open) -> tuple[set[str], bool]:
-    """Return the names that hidden parts and the files they include mention, and whether there may be more."""
+def names_behind(
+    parts: Iterable[Hidden], context: Context, open_file: Open, files: Iterable[str] = ()
+) -> tuple[set[str], bool]:
+    """Return the names that hidden parts, files, and what they include mention, and whether there may be more."""
     names: set[str] = set()
-    waiting: list[str | None] = []
+    waiting: list[str | None] = [*files]
     for part in parts:
         names |= names_in((part.action,))
         waiting += part.files
@@ -155,14 +157,15 @@ def _run_nothing(command: tuple[str, ...], environment: Mapping[str, str]) -> Co
 def _files(
     actions: tuple[Conditional, ...], context: Context, variables: Mapping[str, Variable]
 ) -> tuple[str | None, ...]:
-    found = [entity for entity in _entities(actions) if isinstance(entity, Include | OpaqueAction)]
+    found = [entity for entity in entities_in(actions) if isinstance(entity, Include | OpaqueAction)]
     values = [
         glimpse(entity.file, context, variables) if isinstance(entity, Include) else None for entity in found
     ]
     return tuple(None if value is None else beside(context.file, value.text) for value in values)
 
 
-def _entities(value: object) -> Iterator[Entity]:
+def entities_in(value: object) -> Iterator[Entity]:
+    """Yield an entity, or several, and all that stand in them."""
     kind = type(value)
     if (
         kind is Template or kind is str or value is None
@@ -171,13 +174,14 @@ def _entities(value: object) -> Iterator[Entity]:
     if kind is not tuple and isinstance(value, Entity):
         yield value
         for name in type(value).model_fields:
-            yield from _entities(getattr(value, name))
+            yield from entities_in(getattr(value, name))
     elif isinstance(value, tuple):
         for item in value:
-            yield from _entities(item)
+            yield from entities_in(item)
 
 
-def _templates(entity: Entity) -> Iterator[Template]:
+def templates_of(entity: Entity) -> Iterator[Template]:
+    """Yield the texts of an entity, those of the entities in it left out."""
     for name in type(entity).model_fields:
         value = getattr(entity, name)
         for item in value.values() if isinstance(value, dict) else (value,):
@@ -186,17 +190,17 @@ def _templates(entity: Entity) -> Iterator[Template]:
                     yield template
 
 
-def _performed(template: Template) -> Iterator[Call | Opaque]:
+def performed_in(template: Template) -> Iterator[Call | Opaque]:
     """Yield every substitution of a text, those in the arguments of others included."""
     for part in template.parts:
         if not isinstance(part, Words):
             yield part
             for inner in part.arguments if isinstance(part, Call) else part.inside:
-                yield from _performed(inner)
+                yield from performed_in(inner)
 
 
 def _variables(template: Template) -> Iterator[str]:
-    for part in _performed(template):
+    for part in performed_in(template):
         if isinstance(part, Call) and part.name == "var" and part.arguments:
             name = part.arguments[0].constant
             if name is not None:

@@ -64,6 +64,16 @@ def may_come(value: Value, run: Resolution) -> bool:
     )
 
 
+def settled_path(value: Value, run: Resolution) -> Path | None:
+    """Return the path of a file that is not there and should be: beside the launch file, or in a package."""
+    folder, written = folder_of(run.context.file), _expanded(value.text)
+    prefixes = run.scope.environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    settled = (folder, *(Path(prefix) for prefix in prefixes if prefix))
+    path = Path(os.path.normpath(folder / written))
+    known = any(map(path.is_relative_to, settled))
+    return path if known and not _exists(path) and _found(folder, value.text) is None else None
+
+
 def file_below(
     folder: Path, value: Value, what: str, run: Resolution, written: str | None = None
 ) -> str | None:

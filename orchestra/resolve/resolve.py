@@ -52,7 +52,16 @@ def carry_through(description: Description, run: Resolution) -> Resolved:
             run.report_endless(error)
         names = [Given(item.name, Location(item.span)) for item in run.inputs.arguments]
         settle(names, description, ledger, run)
+    _tell_doubts(run)
     return outcome(description.file, run)
+
+
+def _tell_doubts(run: Resolution) -> None:
+    """Tell what is wrong with actions that were left out, where they always were and nothing is told in that place."""
+    told = {problem.span for problem in run.problems}
+    for action, found in run.found.doubts:
+        if id(action) not in run.found.visited:
+            run.problems.extend(problem for problem in found if problem.span not in told)
 
 
 def outcome(file: str, run: Resolution) -> Resolved:

@@ -1,0 +1,196 @@
+"""What can be told of actions that a condition has left out: what is wrong with them whatever the condition says.
+
+Nobody sees such mistakes before the condition is true for once. Told is what does not depend on the condition: packages
+and their executables, files that should be there, arguments that the file which is included does not know. All of it
+are warnings, of an action that is carried out nowhere in the run; nothing is told where nodes are started.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Final
+
+from orchestra.description.actions.arg import Arg
+from orchestra.description.actions.include import Include
+from orchestra.description.actions.let import Let
+from orchestra.description.actions.node import Node
+from orchestra.description.entity import Conditional
+from orchestra.description.parts import Pair, Param
+from orchestra.description.text import Call
+from orchestra.errors import Code, Problems, Severity
+from orchestra.load.files import PYTHON
+from orchestra.location import displayed
+from orchestra.nearest import is_slip, nearest
+from orchestra.resolve.context import Value
+from orchestra.resolve.mentions import (
+    entities_in,
+    glimpse,
+    is_fixed,
+    names_behind,
+    performed_in,
+    templates_of,
+    variables_in,
+)
+from orchestra.resolve.paths import beside, near_path, settled_path
+from orchestra.resolve.refusals import missing_package
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from orchestra.description.entity import Entity
+    from orchestra.description.launch import Description
+    from orchestra.description.text import Template
+    from orchestra.location import Location
+    from orchestra.resolve.context import Read
+    from orchestra.resolve.resolution import Resolution
+    from orchestra.resolve.scope import Variable
+
+# A condition that asks whether a file is there.
+_ASKS: Final = re.compile(r"exists|is_?file|is_?dir", re.IGNORECASE)
+_FINDS: Final = ("find-pkg-share", "find-pkg-prefix", "exec-in-pkg")
+
+
+def doubts(action: Conditional, run: Resolution) -> Problems:
+    """Return what is wrong with an action that is left out, and with those in it, as warnings."""
+    found = Problems()
+    look = _Look(action, run, found)
+    for entity in entities_in(action):
+        look.at_packages(entity)
+        if isinstance(entity, Node):
+            look.at_program(entity)
+        elif isinstance(entity, Include):
+            look.at_include(entity)
+        elif isinstance(entity, Param) and entity.from_ is not None:
+            look.at_file(entity.from_, "parameter file")
+    return found
+
+
+class _Look:
+    """A look at an action that is left out, with the variables that do not depend on why it is."""
+
+    def __init__(self, action: Conditional, run: Resolution, found: Problems) -> None:
+        self.run = run
+        self.found = found
+        conditions = [item for item in map(_condition, entities_in(action)) if item is not None]
+        self.variables = _independent(action, conditions, run.scope.variables)
+        self.asked = any(_ASKS.search(item.raw) for item in conditions)
+
+    def at_packages(self, entity: Entity) -> None:
+        """Report packages whose names are slips for others, in whatever names them."""
+        named = [part for template in templates_of(entity) for part in performed_in(template)]
+        for part in named:
+            if isinstance(part, Call) and part.name in _FINDS and part.arguments:
+                self._package(part.arguments[-1 if part.name == "exec-in-pkg" else 0])
+
+    def at_program(self, node: Node) -> None:
+        """Report the package and the executable of a node."""
+        package = node.pkg.constant if node.pkg is not None else None
+        executable = node.exec.constant
+        if package is None or node.pkg is None or not self._package(node.pkg) or executable is None:
+            return
+        packages = self.run.context.packages
+        if packages.executable(package, executable) is not None:
+            return
+        known = packages.executables(package)
+        if known:
+            told = f"package '{package}' has no executable '{executable}'"
+            notes = (f"it has {', '.join(sorted(known))}",)
+            self._tell(Code.MISSING_EXECUTABLE, told, node.exec, nearest(executable, known), notes)
+
+    def at_include(self, include: Include) -> None:
+        """Report the file of an include that should be there, and arguments that it does not know."""
+        path = self.at_file(include.file, "launch file")
+        if path is None or include.for_each is not None:
+            return
+        given = {pair.name.constant: pair.name for pair in (*include.arg, *include.let)}
+        description = _opened(path, self.run) if given and None not in given else None
+        if description is None:
+            return
+        declared = {
+            item.name.constant for item in entities_in(description.actions) if isinstance(item, Arg)
+        } - {None}
+        names, more = names_behind((), self.run.context, lambda file: _opened(file, self.run), (path,))
+        for name, written in given.items():
+            if name is None or name in names or name in self.run.found.lost:
+                continue
+            meant = nearest(name, {item for item in declared if item is not None} - given.keys())
+            if (meant is not None and is_slip(name, meant)) or not more:
+                told = f"{description.file} has no argument '{name}'"
+                self._tell(Code.UNREAD_ARGUMENT, told, written, meant)
+
+    def at_file(self, written: Template, what: str) -> str | None:
+        """Return the path of a file; one that is not there and should be is reported."""
+        value = glimpse(written, self.run.context, self.variables)
+        if value is None or not value.text:
+            return None
+        path = beside(self.run.context.file, value.text)
+        if path is not None:
+            return path
+        missing = None if self.asked else settled_path(value, self.run)
+        near = None if missing is None else near_path(missing, written.raw)
+        if missing is not None and (near is not None or is_fixed(written)):
+            told = f"there is no {what} {displayed(str(missing))}"
+            self._tell(Code.MISSING_FILE, told, written, near if near != written.raw else None)
+        return None
+
+    def _package(self, written: Template) -> bool:
+        """Return whether a package is here; one that is not is reported where its name is a slip for another."""
+        name = written.constant
+        if name is None:
+            return False
+        packages = self.run.context.packages
+        if packages.prefix(name) is not None:
+            return True
+        missing = missing_package(name, packages.names(), launching=False)
+        if missing.severity is Severity.ERROR:
+            self._tell(Code.MISSING_PACKAGE, missing.told, written, missing.meant)
+        return False
+
+    def _tell(
+        self, code: Code, told: str, written: Template, meant: str | None, notes: tuple[str, ...] = ()
+    ) -> None:
+        at: Location = self.run.at(written.span)
+        notes = (*notes, "a condition leaves this out here")
+        self.found.warning(code, told, at, suggestion=meant, notes=notes)
+
+
+def _condition(entity: Entity) -> Template | None:
+    if not isinstance(entity, Conditional):
+        return None
+    return entity.if_ if entity.if_ is not None else entity.unless
+
+
+def _independent(
+    action: Conditional, conditions: Sequence[Template], variables: Mapping[str, Variable]
+) -> dict[str, Variable]:
+    """Return the variables that neither a condition of an action depends on nor anything in it sets."""
+    changing = {item.name.constant for item in entities_in(action) if isinstance(item, Arg | Let | Pair)}
+    for condition in conditions:
+        read = variables_in(condition)
+        if read is None:
+            return {}
+        for name in read:
+            changing |= {name, *_behind(variables.get(name))}
+    return {
+        name: variable
+        for name, variable in variables.items()
+        if name not in changing and changing.isdisjoint(_behind(variable))
+    }
+
+
+def _behind(variable: Variable | None) -> Iterator[str]:
+    """Yield the variables that one was made of."""
+    value = None if variable is None else variable.value
+    yield from _names_of(value.through if isinstance(value, Value) else ())
+
+
+def _names_of(reads: Sequence[Read]) -> Iterator[str]:
+    for read in reads:
+        yield read.name
+        yield from _names_of(read.through)
+
+
+def _opened(path: str, run: Resolution) -> Description | None:
+    """Return what a file says that is not part of the run, without a word about its faults; None for one in Python."""
+    known = run.descriptions.get(path)
+    return known if known is not None or path.endswith(PYTHON) else run.load(path, Problems(), ())
