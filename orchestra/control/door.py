@@ -6,17 +6,45 @@ import os
 import socket
 import stat
 import struct
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from orchestra.control.place import ENDING, folders, inside, open_folder
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from orchestra.supervise.surroundings import Surroundings
+
 # The link in the run directory.
 LINK = "control.sock"
 _CREDENTIALS = struct.Struct("3i")  # pid, uid and gid (SO_PEERCRED in unix(7))
 _WAITING = 128
+
+
+class Door(NamedTuple):
+    """A socket that listens for the clients of a run, and its path."""
+
+    listener: socket.socket
+    path: str
+
+
+def opened(around: Surroundings, run: str) -> Door | None:
+    """Return the door of a run, to which a link in its directory leads; where there is none the user is told why."""
+    try:
+        door = Door(*listen(run))
+    except OSError as error:
+        around.journal.say(f"this run cannot be controlled: {told(error)}")
+        return None
+    try:
+        link(around.folder, door.path)
+    except OSError as error:
+        around.journal.say(f"this run cannot be found by those who would control it: {told(error)}")
+    return door
+
+
+def told(error: OSError) -> str:
+    """Return what an error of the system says, for people."""
+    return f"{error.strerror or error}" + (f": {error.filename}" if error.filename else "")
 
 
 def listen(run: str) -> tuple[socket.socket, str]:

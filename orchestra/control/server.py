@@ -126,35 +126,23 @@ def _send_away(connection: socket.socket, why: Refusal) -> None:
 
 
 class Control:
-    """The control socket of a run; without one where none could be made."""
+    """The control socket of a run, where `entrance` stands."""
 
-    def __init__(self, around: Surroundings, desk: Desk, hello: dict[str, Any]) -> None:
+    def __init__(self, around: Surroundings, desk: Desk, hello: dict[str, Any], entrance: door.Door) -> None:
         self._around = around
         self._desk = desk
-        self._server: Server | None = None
-        self._path = ""
-        try:
-            listener, self._path = door.listen(str(hello["run"]))
-        except OSError as error:
-            around.journal.say(f"this run cannot be controlled: {_told(error)}")
-            return
-        self._server = Server(around.loop, listener, hello, self._serve)
+        self._path = entrance.path
+        self._server = Server(around.loop, entrance.listener, hello, self._serve)
         around.recorder.listen(self._happened)
-        try:
-            door.link(around.folder, self._path)
-        except OSError as error:
-            around.journal.say(f"this run cannot be found by those who would control it: {_told(error)}")
 
     def close(self) -> None:
         """Answer what is still open, and remove the socket."""
-        if self._server is None:
-            return
         self._desk.waiting.end()
         self._server.close()
         try:
             door.remove(self._path)
         except OSError as error:
-            self._around.journal.say(f"the control socket cannot be removed: {_told(error)}")
+            self._around.journal.say(f"the control socket cannot be removed: {door.told(error)}")
 
     def _happened(self, line: str) -> None:
         self._desk.subscribers.happened(line)
@@ -173,12 +161,11 @@ class Control:
             guest.send(protocol.refusal(request.id, Refusal("bug", what)))
 
 
-def _told(error: OSError) -> str:
-    return f"{error.strerror or error}" + (f": {error.filename}" if error.filename else "")
-
-
-def attend(around: Surroundings, operation: Operation, run: str, keeper: int) -> Control:
-    """Open the control socket of a run: what `orchestra.supervise.run.run` wants to be handed in."""
+def attend(
+    around: Surroundings, operation: Operation, marks: tuple[str, int], entrance: door.Door
+) -> Control:
+    """See to the clients of a run; `marks` are its own and the keeper's pid."""
+    run, keeper = marks
     hello = {
         "protocol": protocol.VERSION,
         "run": run,
@@ -191,4 +178,4 @@ def attend(around: Surroundings, operation: Operation, run: str, keeper: int) ->
     desk = Desk(
         hello, operation, subscribers, Waiting(around.loop, operation), Attaching(around.loop, operation)
     )
-    return Control(around, desk, hello)
+    return Control(around, desk, hello, entrance)
