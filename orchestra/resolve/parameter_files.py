@@ -12,7 +12,7 @@ from orchestra.errors import Code, Problems, Severity
 from orchestra.location import displayed
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import FileParameters
-from orchestra.resolve.paths import beside, existing_file, folder_of
+from orchestra.resolve.paths import beside, existing_file, folder_of, near_path
 from orchestra.resolve.rcl.files import read_parameter_file, read_plain_file
 from orchestra.resolve.rcl.sections import included
 from orchestra.resolve.rcl.strays import SECTION_KEY
@@ -43,9 +43,10 @@ def file_parameters(
     value = run.evaluate(written)
     if not isinstance(value, Value):
         return None
-    lacking = None if substitute or everywhere or plain else _lacking(value, run)
+    needed = substitute or everywhere or plain
+    lacking = None if needed and (run.context.launching or not value.text) else _lacking(value, run)
     if lacking is not None:
-        run.problems.warning(Code.MISSING_FILE, lacking, value.location)
+        _warn_of_lacking(lacking, value, written, run)
         return FileParameters("", (), value.location)
     path = existing_file(value, written, "parameter file", run)
     if path is None:
@@ -61,12 +62,25 @@ def file_parameters(
     return replace(file, location=value.location, everywhere=everywhere, through=value.through)
 
 
+def _warn_of_lacking(told: str, value: Value, written: Template, run: Resolution) -> None:
+    """Tell that a node is started without a file, but for an argument that is empty because the file is optional.
+
+    Where nothing is started it is only told if another file was probably meant: this may be another machine.
+    """
+    if not value.text and not value.verbatim:
+        return
+    near = near_path(Path.cwd() / value.text, written.raw) if value.text else None
+    if run.context.launching or near is not None or not value.text:
+        meant = near if near is not None and near != written.raw else None
+        run.problems.warning(Code.MISSING_FILE, told, value.location, suggestion=meant)
+
+
 def _lacking(value: Value, run: Resolution) -> str | None:
     """Return what is to be told of a file that the node can do without, None for one that is there or must be.
 
-    Upstream warns of every file that is not there. An empty path is how an argument makes one optional; a file neither
-    beside the launch file nor where packages are is of the machine (`/etc/robot/control.yaml`), and may come later. All
-    others are mistakes.
+    Upstream warns of every file that is not there, and of an empty path, which is how an argument makes one optional. A
+    file neither beside the launch file nor where packages are is of the machine (`/etc/robot/control.yaml`), and may
+    come later. All others are mistakes.
     """
     if not value.text:
         return "the path of the parameter file is empty"

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import pytest
 
+from orchestra.errors import Problems
+from orchestra.pipeline import collect, inputs_from
 from tests.compat.idioms import planned
 
 if TYPE_CHECKING:
@@ -283,7 +286,9 @@ def test_a_parameter_file_is_optional_where_its_path_may_be_empty(tmp_path: Path
     plan = planned(tmp_path, code)
     assert plan.errors == []
     assert plan.parameters == [{"a": 1}]
-    assert plan.warnings == ["the path of the parameter file is empty"]
+    assert plan.warnings == []
+    fixed = '[Node(package="demo", executable="talker", name="n", parameters=[""])]'
+    assert planned(tmp_path, fixed).warnings == ["the path of the parameter file is empty"]
 
 
 def test_a_source_without_a_file_is_told(tmp_path: Path) -> None:
@@ -337,3 +342,24 @@ def test_a_parameter_file_of_the_machine_may_come_later(tmp_path: Path) -> None:
     assert plan.warnings == [
         "there is no parameter file /etc/robot/gone.yaml: the node is started without it"
     ]
+
+
+@pytest.mark.parametrize(
+    "path", ["'/etc/robot/gone.yaml'", "ParameterFile('/etc/robot/gone.yaml', allow_substs=True)"]
+)
+def test_where_nothing_is_started_a_parameter_file_may_be_on_another_machine(
+    tmp_path: Path, path: str
+) -> None:
+    file = tmp_path / "a.launch.py"
+    file.write_text(
+        "from launch import LaunchDescription\n"
+        "from launch_ros.actions import Node\n"
+        "from launch_ros.descriptions import ParameterFile\n"
+        "def generate_launch_description():\n"
+        f"    return LaunchDescription([Node(executable='true', parameters=[{path}])])\n",
+        "utf-8",
+    )
+    problems = Problems()
+    inputs = inputs_from([], environment={"PATH": "/usr/bin:/bin"})
+    collect(str(file), replace(inputs, launching=False), problems)
+    assert list(problems) == []
