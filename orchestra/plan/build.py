@@ -9,12 +9,13 @@ from orchestra.plan.awaited import life, readiness
 from orchestra.plan.checks.table import check_all
 from orchestra.plan.command import command
 from orchestra.plan.components import components
-from orchestra.plan.digest import digest
+from orchestra.plan.digest import digest_of
 from orchestra.plan.edges import Targets, check_cycles, dependencies
 from orchestra.plan.ids import check_names, identities
-from orchestra.plan.model import VERSION, Argument, Plan, Process, Skipped
-from orchestra.plan.parameter_file import file_name
-from orchestra.plan.parameters import Parameters, check_given, parameters_of
+from orchestra.plan.model import VERSION, Argument, ParameterFile, Plan, Process, Skipped
+from orchestra.plan.parameter_file import path_of
+from orchestra.plan.parameters import check_given, parameters_of
+from orchestra.plan.passed_on import Sections
 from orchestra.plan.provenance import environment_of, provenance
 from orchestra.plan.remappings import check_remaps
 from orchestra.plan.terminal import check_stdin
@@ -55,18 +56,17 @@ def build(
     check_cycles(edges, problems)
     check_stdin(targets.process, problems)
     check_given(resolved, problems)
+    sections = Sections(resolved)
     processes = tuple(
-        _process(process, identity, edges[identity], resolved, problems)
+        _process(process, identity, edges[identity], sections, problems, digests=digests)
         for identity, process in targets.process.items()
     )
-    if digests:
-        processes = tuple(replace(process, digest=digest(process)) for process in processes)
     plan = Plan(
         VERSION,
         resolved.file,
         _arguments(resolved),
         processes,
-        components(resolved, ids, loaded, problems),
+        components(resolved, ids, loaded, sections, problems),
         triggers(resolved, ids, loaded, triggers_before),
         tuple(
             Skipped(item.action, item.name, item.condition, item.expression, item.value, item.location)
@@ -97,31 +97,37 @@ def _process(
     process: ResolvedProcess,
     identity: str,
     edges: tuple[Dependency, ...],
-    resolved: Resolved,
+    sections: Sections,
     problems: Problems,
+    *,
+    digests: bool,
 ) -> Process:
-    parameters = parameters_of(process, resolved.given, problems)
+    parameters = parameters_of(process, sections, problems)
     check_remaps(process, problems)
-    planned = Process(
+    path = path_of(identity) if parameters.values or parameters.files else None
+    files = tuple(ParameterFile(path or file.path, file.content) for file in parameters.files)
+    words, environment = command(process, path), environment_of(process)
+    stdin = True if process.stdin is not None else None
+    return Process(
         id=identity,
         kind=process.kind,
         package=process.package,
         executable=process.executable,
         name=process.name.text if process.name is not None else None,
         namespace=process.namespace.text if process.namespace is not None else None,
-        command=(),
+        command=words,
         shell=process.shell,
         prefix=process.prefix,
-        environment=environment_of(process),
+        environment=environment,
         inherit_environment=process.inherit_environment,
         cwd=process.cwd,
         parameters=parameters.values,
-        parameter_files=(),
+        parameter_files=files,
         remappings=tuple((rule.source.text, rule.target.text) for rule in process.remaps),
         arguments=process.arguments,
         output=process.output,
         emulate_tty=process.emulate_tty,
-        stdin=True if process.stdin is not None else None,
+        stdin=stdin,
         restart=process.restart,
         required=process.required,
         success_exit_codes=process.success_exit_codes,
@@ -133,18 +139,19 @@ def _process(
         limits=process.limits,
         warm=None,
         machine=None,
-        digest="",
+        digest=digest_of(
+            words,
+            (environment, process.inherit_environment),
+            process.cwd,
+            parameters.values,
+            files,
+            stdin,
+            process.shell,
+            process.limits,
+        )
+        if digests
+        else "",
         location=process.location,
         provenance=provenance(process, parameters),
         params_schema=None if process.params_schema is None else process.params_schema.text,
     )
-    return _with_files(planned, process, parameters)
-
-
-def _with_files(planned: Process, process: ResolvedProcess, parameters: Parameters) -> Process:
-    """Add what depends on the process as a whole: its parameter file, its command line."""
-    path = None
-    if parameters.values or parameters.files:
-        path = "${run}/params/" + file_name(planned)
-    files = tuple(replace(file, path=path or file.path) for file in parameters.files)
-    return replace(planned, parameter_files=files, command=command(process, path))

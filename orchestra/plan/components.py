@@ -21,16 +21,18 @@ from orchestra.plan.remappings import check_remaps
 from orchestra.resolve.model import InlineParameter
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Iterator, Mapping, Sequence
 
     from orchestra.errors import Problems
     from orchestra.location import Location
+    from orchestra.plan.passed_on import Sections
     from orchestra.resolve.model import ParameterSource, Resolved, ResolvedComponent
+    from orchestra.resolve.rcl.effective import Setting
     from orchestra.values import ParameterValue
 
 
 def components(
-    resolved: Resolved, ids: Sequence[str], own: Sequence[str], problems: Problems
+    resolved: Resolved, ids: Sequence[str], own: Sequence[str], sections: Sections, problems: Problems
 ) -> tuple[Component, ...]:
     """Return the components in order; `ids` are those of the processes, `own` those of the components."""
     containers = _Containers(resolved)
@@ -39,7 +41,9 @@ def components(
         index = containers.index(component)
         if index is None:
             _report_missing(component, containers, resolved, problems)
-        found.append(_component(component, identity, index, resolved, ids, problems))
+        process = ids[index] if index is not None else None
+        container = _container(component, index, resolved)
+        found.append(_component(component, identity, container, process, sections, problems))
     return tuple(found)
 
 
@@ -68,26 +72,28 @@ class _Containers:
 def _component(
     component: ResolvedComponent,
     identity: str,
-    index: int | None,
-    resolved: Resolved,
-    ids: Sequence[str],
+    container: str,
+    process: str | None,
+    sections: Sections,
     problems: Problems,
 ) -> Component:
     full = node_name(component)
     check_remaps(component, problems)
-    written = _candidates(component.parameters, full, resolved)
+    written = _candidates(
+        component.parameters, full, sections, settings_of(sections.given_to(component), full)
+    )
     return Component(
         id=identity,
         name=component.name.text if component.name is not None else None,
         namespace=component.namespace.text if component.namespace is not None else None,
         package=component.package,
         plugin=component.plugin,
-        container=_container(component, index, resolved),
-        process=ids[index] if index is not None else None,
+        container=container,
+        process=process,
         condition="event" if component.delayed else "started",
         parameters=_values(written),
         remappings=tuple((rule.source.text, rule.target.text) for rule in component.remaps),
-        extra_arguments=_values(_candidates(component.extra_arguments, full, None)),
+        extra_arguments=_values(_candidates(component.extra_arguments, full, sections, {})),
         lifecycle="active" if component.autostart else None,
         location=component.location,
         provenance=Provenance(
@@ -129,15 +135,16 @@ def _report_missing(
 
 
 def _candidates(
-    sources: Sequence[ParameterSource], full: str | None, resolved: Resolved | None
+    sources: Sequence[ParameterSource],
+    full: str | None,
+    sections: Sections,
+    overrides: Mapping[str, Setting],
 ) -> dict[str, tuple[Candidate, ...]]:
     """Return all that is written for each parameter; the last one counts, the command line's over all others."""
     found: dict[str, list[tuple[ParameterValue | None, Location, str]]] = {}
     for source in sources:
-        for name, value, location in _entries(source, full):
+        for name, value, location in _entries(source, full, sections):
             found.setdefault(name, []).append((value, location, "the last one counts"))
-    given = resolved.given if resolved is not None else ()
-    overrides = settings_of([section for item in given for section in item.sections], full)
     for name, setting in overrides.items():
         for item in sorted(setting.written, key=lambda item: item.won):
             found.setdefault(name, []).append((item.value, item.location, candidates.FROM_COMMAND_LINE))
@@ -159,7 +166,7 @@ def _candidates(
 
 
 def _entries(
-    source: ParameterSource, full: str | None
+    source: ParameterSource, full: str | None, sections: Sections
 ) -> Iterator[tuple[str, ParameterValue | None, Location]]:
     if isinstance(source, InlineParameter):
         yield source.name, source.value, source.location
@@ -167,7 +174,7 @@ def _entries(
     for entry in source.plain:
         if not entry.opens:
             yield entry.name, entry.value, entry.location
-    for name, setting in settings_of(source.sections, full).items():
+    for name, setting in settings_of(sections.of_file(source, full), full).items():
         for item in sorted(setting.written, key=lambda item: item.won):
             yield name, item.value, item.location
 

@@ -12,19 +12,23 @@ if TYPE_CHECKING:
     from orchestra.plan.model import Process
 
 # Tuples are lists to it.
-_text: Final = json.JSONEncoder(sort_keys=True, ensure_ascii=False).encode
+_text: Final = json.JSONEncoder(sort_keys=True, ensure_ascii=False, default=encode).encode
 
 
 def digest(process: Process) -> str:
     """Return the SHA-256 of command, environment, cwd, parameter content, stdin, shell and limits."""
-    content = (
+    return digest_of(
         process.command,
         (process.environment, process.inherit_environment),
         process.cwd,
         process.parameters,
-        encode(process.parameter_files),
+        process.parameter_files,
         process.stdin,
         process.shell,
-        encode(process.limits),
+        process.limits,
     )
+
+
+def digest_of(*content: object) -> str:
+    """Return the digest of a process that is not made yet, of the same in the same order."""
     return hashlib.sha256(_text(content).encode("utf-8", "surrogatepass")).hexdigest()

@@ -24,6 +24,7 @@ _INTEGERS = range(-(2**63), 2**63)
 _LONGEST_SIMPLE_KEY = 1000  # libyaml looks ahead 1024 characters for the colon
 _PLAIN_PATTERN = re.compile(r"/[A-Za-z0-9_/*]*")
 _PLAIN_NAME = re.compile(r"(?!(?i:y|n|yes|no|on|off|true|false|null)\Z)[A-Za-z_][A-Za-z0-9_./]*")
+_UNFIT = re.compile(r"[^A-Za-z0-9_#-]")
 _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "\r": "\\r"}
 # All that may not or should not stand for itself in double quotes: control characters, line breaks beyond ASCII,
 # byte order marks, noncharacters, and the two characters of the notation.
@@ -67,13 +68,18 @@ def contents(process: Process) -> dict[str, str]:
 
 def file_name(process: Process) -> str:
     """Return the name of the parameter file: `robot1.ekf.yaml` for `/robot1/ekf`; other ids give other names."""
-    parts = process.id.strip("/").split("/")
-    return ".".join(re.sub(r"[^A-Za-z0-9_#-]", _percent, part) for part in parts) + ".yaml"
+    return path(process).rpartition("/")[2]
 
 
 def path(process: Process) -> str:
     """Return where the file lies in a plan, below the symbolic run directory."""
-    return f"{FOLDER}/{file_name(process)}"
+    return path_of(process.id)
+
+
+def path_of(identity: str) -> str:
+    """Return where the parameter file of the process with an id lies in a plan."""
+    parts = identity.strip("/").split("/")
+    return f"{FOLDER}/{'.'.join(_UNFIT.sub(_percent, part) for part in parts)}.yaml"
 
 
 def _percent(found: re.Match[str]) -> str:

@@ -7,32 +7,28 @@ from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
+from orchestra.location import is_python
 from orchestra.nearest import nearest
 from orchestra.plan import candidates
 from orchestra.plan.absent import is_mistake
 from orchestra.plan.ids import node_name
 from orchestra.plan.model import Candidate, ParameterFile
-from orchestra.plan.parameter_file import rendered
+from orchestra.plan.passed_on import EVERY_NODE, Sections
 from orchestra.resolve.model import InlineParameter
 from orchestra.resolve.rcl.effective import effective
 from orchestra.resolve.rcl.patterns import matches
-from orchestra.resolve.rcl.sections import Section, entry
-from orchestra.resolve.rcl.table import tabulated
 from orchestra.values import ParameterValue
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
     from orchestra.resolve.model import (
-        GivenSections,
         Resolved,
         ResolvedComponent,
         ResolvedProcess,
     )
     from orchestra.resolve.rcl.effective import Setting
-
-
-_EVERY_NODE = "/**"
+    from orchestra.resolve.rcl.sections import Section
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,33 +40,47 @@ class Parameters:
     files: tuple[ParameterFile, ...] = ()
 
 
-def parameters_of(process: ResolvedProcess, given: Sequence[GivenSections], problems: Problems) -> Parameters:
+def parameters_of(process: ResolvedProcess, sections: Sections, problems: Problems) -> Parameters:
     """Return the effective parameters of a process; those of the command line win over all others.
 
     A surprise is reported: a value that loses although it stands last.
     """
-    if process.kind == "process":
+    if process.kind == "process" or not (process.parameters or sections.given):
         return Parameters()
     full = node_name(process)
-    own = full if full is not None and process.namespace is not None else _EVERY_NODE
-    sections = _sections(process, own)
-    settings = settings_of(sections, full)
-    overrides = settings_of([section for item in given for section in item.sections], full)
+    own = full if full is not None and process.namespace is not None else EVERY_NODE
+    plain = None if sections.given else _plain(process, own)
+    if plain is not None:
+        return plain
+    settings = settings_of(sections.for_node(process, own, full), full)
+    overrides = settings_of(sections.given_to(process), full)
     _report(settings, overrides, problems)
     known = candidates.origins(process.parameters)
-    every = [*sections, *(section for item in given for section in item.sections)]
+    every = {**settings, **overrides}
     return Parameters(
-        {
-            name: setting.value
-            for name, setting in {**settings, **overrides}.items()
-            if setting.value is not None
-        },
-        {
-            name: candidates.of_parameter(settings.get(name), overrides.get(name), known)
-            for name in {**settings, **overrides}
-        },
-        _passed_on(every, None if own == _EVERY_NODE else own),
+        {name: setting.value for name, setting in every.items() if setting.value is not None},
+        {name: candidates.of_parameter(settings.get(name), overrides.get(name), known) for name in every},
+        sections.passed_on(process, own),
     )
+
+
+def _plain(process: ResolvedProcess, own: str) -> Parameters | None:
+    """Return the parameters of a node where each is written once, for it alone; None where it takes a closer look.
+
+    In Python all of them may have one place, so that what was read for one is taken for what was read for all.
+    """
+    if own == EVERY_NODE or is_python(process.location):
+        return None
+    values: dict[str, ParameterValue] = {}
+    written: dict[str, tuple[Candidate, ...]] = {}
+    rule = f"set for '{own}'"
+    for source in process.parameters:
+        if not isinstance(source, InlineParameter) or source.everywhere or source.name in values:
+            return None
+        values[source.name] = source.value
+        through = candidates.passage(source.through)
+        written[source.name] = (Candidate(source.value, source.location, True, rule, through),)
+    return Parameters(values, written)
 
 
 def check_given(resolved: Resolved, problems: Problems) -> None:
@@ -98,21 +108,10 @@ def _names(resolved: Resolved) -> list[str]:
     return [name for node in _nodes(resolved) if (name := node_name(node)) is not None]
 
 
-def _sections(process: ResolvedProcess, own: str) -> list[Section]:
-    """Return everything on upstream's command line, in its order: for all nodes, then the node's own."""
-    sections: list[Section] = []
-    for source in process.parameters:
-        if isinstance(source, InlineParameter):
-            pattern = _EVERY_NODE if source.everywhere else own
-            item = entry(source.name, source.value, source.location)
-            sections.append(Section(pattern, (item,), source.location))
-        else:
-            sections += source.sections
-    return sections
-
-
 def settings_of(sections: Sequence[Section], full: str | None) -> dict[str, Setting]:
     """Return what counts in a node of this full name; where that is not known, only what is for every node."""
+    if not sections:
+        return {}
     if full is not None:
         return effective(sections, full)
     return effective([section for section in sections if section.pattern.lstrip("/") == "**"], "/_")
@@ -131,22 +130,3 @@ def _report(settings: dict[str, Setting], overrides: dict[str, Setting], problem
                 setting.overruled.location,
                 notes=(f"the value that counts is at {winner.location}",),
             )
-
-
-def _passed_on(sections: Iterable[Section], own: str | None) -> tuple[ParameterFile, ...]:
-    """Return the sections that other nodes in the process may read, merged as rcl merges them, in order.
-
-    For a node whose full name is not known (`own` is None) these are all sections.
-    """
-    texts = []
-    for pattern, slots in tabulated(sections).items():
-        if own is not None and pattern.lstrip("/") == own.lstrip("/"):
-            continue
-        values = {
-            slot.name: slot.entry.value
-            for slot in slots
-            if slot.entry is not None and slot.entry.value is not None
-        }
-        if values:
-            texts.append(rendered(pattern if pattern.startswith("/") else f"/{pattern}", values))
-    return (ParameterFile("", "".join(texts)),) if texts else ()

@@ -1,0 +1,136 @@
+"""What the parameter file of a process passes on: sections that other nodes in it may read.
+
+What is for a node that another process of the plan is, is not among them. A file with a section for each of a thousand
+nodes would be passed on a thousand times else, and a change of one section would concern them all.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.plan.ids import node_name
+from orchestra.plan.model import ParameterFile
+from orchestra.plan.parameter_file import rendered
+from orchestra.resolve.model import InlineParameter
+from orchestra.resolve.rcl.indexed import Indexed, absolute
+from orchestra.resolve.rcl.sections import Section, entry
+from orchestra.resolve.rcl.table import tabulated
+
+if TYPE_CHECKING:
+    from collections.abc import Container, Iterable, Sequence
+
+    from orchestra.resolve.model import FileParameters, Resolved, ResolvedComponent, ResolvedProcess
+
+EVERY_NODE = "/**"
+
+
+class Sections:
+    """The sections that nodes of one plan are given. Files, and what is passed on of them, are gone through once."""
+
+    def __init__(self, resolved: Resolved) -> None:
+        self.given = tuple(section for item in resolved.given for section in item.sections)
+        self._nodes = {node_name(process) for process in resolved.processes}
+        self._files: dict[int, Indexed] = {}
+        self._others: dict[int, _Others] = {}
+        self._passed_on: dict[tuple[object, ...], tuple[ParameterFile, ...]] = {}
+
+    def for_node(self, node: ResolvedProcess, own: str, full: str | None) -> list[Section]:
+        """Return everything on upstream's command line that is for a node: for all nodes, then its own.
+
+        Where its full name is not known, that is only what is for every node.
+        """
+        found: list[Section] = []
+        for source in node.parameters:
+            if isinstance(source, InlineParameter):
+                found.append(_section(source, own))
+            else:
+                found += self.of_file(source, full)
+        return found
+
+    def of_file(self, source: FileParameters, full: str | None) -> list[Section]:
+        """Return the sections of a file that are for a node."""
+        return self._matching(source.sections, full)
+
+    def given_to(self, node: ResolvedProcess | ResolvedComponent) -> list[Section]:
+        """Return the sections of the command line that are for a node."""
+        return self._matching(self.given, node_name(node)) if self.given else []
+
+    def passed_on(self, node: ResolvedProcess, own: str) -> tuple[ParameterFile, ...]:
+        """Return the sections that other nodes in the process may read, merged as rcl merges them, in order.
+
+        Of a node whose full name is not known its own sections are among them, and of one without a name all are.
+        """
+        known = own != EVERY_NODE
+        sources = [item for item in node.parameters if not (known and _is_own(item))]
+        if not (sources or self.given):
+            return ()
+        name = None if node.name is None else node.name.text
+        key = (known or name, *(id(getattr(item, "sections", item)) for item in sources))
+        if key not in self._passed_on:
+            every = [section for item in sources for section in self._of(item, own, name, known=known)]
+            every += self._kept(self.given, name, known=known)
+            self._passed_on[key] = _files(every)
+        return self._passed_on[key]
+
+    def _of(
+        self, source: InlineParameter | FileParameters, own: str, name: str | None, *, known: bool
+    ) -> Sequence[Section]:
+        if isinstance(source, InlineParameter):
+            return (_section(source, own),)
+        return self._kept(source.sections, name, known=known)
+
+    def _kept(self, sections: tuple[Section, ...], name: str | None, *, known: bool) -> Sequence[Section]:
+        """Return the sections that are passed on of a file, or of the command line."""
+        if name is None:
+            return sections
+        if id(sections) not in self._others:
+            self._others[id(sections)] = _Others(sections, self._nodes)
+        others = self._others[id(sections)]
+        return others.sections if known else others.with_those_of(name)
+
+    def _matching(self, sections: tuple[Section, ...], full: str | None) -> list[Section]:
+        if id(sections) not in self._files:
+            self._files[id(sections)] = Indexed(sections)
+        index = self._files[id(sections)]
+        return index.everywhere() if full is None else index.matching(full)
+
+
+class _Others:
+    """The sections of a file that are for nobody's node in particular, and the rest of them by names of nodes."""
+
+    def __init__(self, every: Sequence[Section], nodes: Container[str | None]) -> None:
+        self._every = every
+        self._places: list[int] = []
+        self._named: dict[str, list[int]] = {}
+        for place, section in enumerate(every):
+            full = absolute(section.pattern)
+            places = self._named.setdefault(full.rpartition("/")[2], []) if full in nodes else self._places
+            places.append(place)
+        self.sections = [every[place] for place in self._places]
+
+    def with_those_of(self, name: str) -> Sequence[Section]:
+        """Return also those for nodes of a name, in order: one whose namespace is not known may be any of them."""
+        own = self._named.get(name)
+        return self.sections if own is None else [self._every[place] for place in sorted(self._places + own)]
+
+
+def _is_own(source: InlineParameter | FileParameters) -> bool:
+    return isinstance(source, InlineParameter) and not source.everywhere
+
+
+def _section(source: InlineParameter, own: str) -> Section:
+    item = entry(source.name, source.value, source.location)
+    return Section(EVERY_NODE if source.everywhere else own, (item,), source.location)
+
+
+def _files(sections: Iterable[Section]) -> tuple[ParameterFile, ...]:
+    texts = []
+    for pattern, slots in tabulated(sections).items():
+        values = {
+            slot.name: slot.entry.value
+            for slot in slots
+            if slot.entry is not None and slot.entry.value is not None
+        }
+        if values:
+            texts.append(rendered(absolute(pattern), values))
+    return (ParameterFile("", "".join(texts)),) if texts else ()
