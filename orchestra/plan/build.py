@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from orchestra.errors import Problems
     from orchestra.plan.conditions import Dependency
     from orchestra.resolve.model import Resolved, ResolvedComponent, ResolvedProcess
+    from orchestra.values import ParameterValue
 
 
 def build(
@@ -107,7 +108,6 @@ def _process(
     path = path_of(identity) if parameters.values or parameters.files else None
     files = tuple(ParameterFile(path or file.path, file.content) for file in parameters.files)
     words, environment = command(process, path), environment_of(process)
-    stdin = True if process.stdin is not None else None
     return Process(
         id=identity,
         kind=process.kind,
@@ -127,7 +127,7 @@ def _process(
         arguments=process.arguments,
         output=process.output,
         emulate_tty=process.emulate_tty,
-        stdin=stdin,
+        stdin=_stdin(process),
         restart=process.restart,
         required=process.required,
         success_exit_codes=process.success_exit_codes,
@@ -139,19 +139,24 @@ def _process(
         limits=process.limits,
         warm=None,
         machine=None,
-        digest=digest_of(
-            words,
-            (environment, process.inherit_environment),
-            process.cwd,
-            parameters.values,
-            files,
-            stdin,
-            process.shell,
-            process.limits,
-        )
-        if digests
-        else "",
+        digest=_digest(process, words, environment, parameters.values, files) if digests else "",
         location=process.location,
         provenance=provenance(process, parameters),
         params_schema=None if process.params_schema is None else process.params_schema.text,
     )
+
+
+def _stdin(process: ResolvedProcess) -> bool | None:
+    return True if process.stdin is not None else None
+
+
+def _digest(
+    process: ResolvedProcess,
+    words: tuple[str, ...],
+    environment: dict[str, str | None],
+    values: dict[str, ParameterValue],
+    files: tuple[ParameterFile, ...],
+) -> str:
+    around = (environment, process.inherit_environment)
+    how = (_stdin(process), process.shell, process.limits)
+    return digest_of(words, around, process.cwd, values, files, *how)
