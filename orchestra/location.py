@@ -56,8 +56,8 @@ class Span:
 
 
 _FIELDS: Final = ("file", "line", "column", "end_line", "end_column")
-_new = Span.__new__
-_set_offsets: Callable[[Span, tuple[Whole, int, int]], None] = Span._offsets.__set__  # type: ignore[attr-defined] # noqa: SLF001
+_new = object.__new__
+_set_offsets: Callable[[Span, tuple[Whole, int, int]], None] = vars(Span)["_offsets"].__set__
 
 
 def stretch(whole: Whole, begin: int, end: int) -> Span:
@@ -65,6 +65,12 @@ def stretch(whole: Whole, begin: int, end: int) -> Span:
     span = _new(Span)
     _set_offsets(span, (whole, begin, end))
     return span
+
+
+def inside(span: Span, first: int, last: int) -> Span:
+    """Return a part of a span that was made of offsets, by offsets from its beginning."""
+    whole, begin, _ = span._offsets  # type: ignore[attr-defined] # noqa: SLF001 - its own module
+    return stretch(whole, begin + first, begin + last)
 
 
 @dataclass(frozen=True, slots=True)

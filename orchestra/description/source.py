@@ -7,7 +7,7 @@ from collections.abc import Set as AbstractSet
 from typing import Any
 
 from orchestra.dataclass import dataclass
-from orchestra.location import Span, Whole, stretch
+from orchestra.location import Span, inside
 
 
 @dataclass(slots=True)
@@ -30,28 +30,24 @@ class Written:
 
 
 class Verbatim(Written):
-    """A scalar that stands in the file as it reads, its first character at an offset of the text of the file."""
+    """A scalar that stands in the file as it reads; its span is one of offsets, with the quotes where it has some."""
 
-    __slots__ = ("_begin", "_whole")
+    __slots__ = ()
 
-    def __init__(
-        self, text: str, span: Span, whole: Whole, begin: int, *, quoted: bool = False, null: bool = False
-    ) -> None:
+    def __init__(self, text: str, span: Span, quoted: bool = False, null: bool = False) -> None:
         self.text = text
         self.span = span
         self.quoted = quoted
         self.null = null
-        self._whole = whole
-        self._begin = begin
 
     def spans(self, first: int, last: int) -> Span:
         """Return the place of a part of the text."""
-        return stretch(self._whole, self._begin + first, self._begin + last)
+        return inside(self.span, first + self.quoted, last + self.quoted)
 
     @property
     def inside(self) -> Span:
         """The place of the text without the quotes of the format."""
-        return self.spans(0, len(self.text)) if self.quoted else self.span
+        return inside(self.span, 1, len(self.text) + 1) if self.quoted else self.span
 
 
 class Keyed(dict[str, Any]):
@@ -63,8 +59,8 @@ class Keyed(dict[str, Any]):
 
     __slots__ = ("_keys_at", "_later", "head", "lossy", "meant", "read", "span")
 
-    def __init__(self, span: Span, head: Span) -> None:
-        super().__init__()
+    def __init__(self, span: Span, head: Span, values: dict[str, Any] | tuple[()] = ()) -> None:
+        super().__init__(values)
         self.span = span
         self.head = head
         self._keys_at: dict[str, Span] = {}

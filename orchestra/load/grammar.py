@@ -116,7 +116,7 @@ class _Reader:
             if made is not None:
                 self.faults += len(self.problems) > known
                 return made
-        if name_span and self.known(name, name_span) and self.faults == before:
+        if name_span and self.known(call, name_span) and self.faults == before:
             self.count(call, start, first, last)
         if self.faults == before:
             return (call,)
@@ -209,13 +209,14 @@ class _Reader:
         """Return the template of a stretch of text; `before` is the number of faults found ahead of it."""
         return Template(parts, self.text[start:end], self.spans(start, end), quoted, self.faults > before)
 
-    def known(self, name: str, span: Span) -> bool:
-        """Tell whether a substitution has this name, and report it where none has."""
-        if name in SIGNATURES:
+    def known(self, call: Call, span: Span) -> bool:
+        """Tell whether there is such a substitution, and report its name where there is none."""
+        if call.name in SIGNATURES:
             return True
         self.faults += 1
-        told = f"there is no substitution $({name})"
-        self.problems.error(Code.UNKNOWN_SUBSTITUTION, told, span, suggestion=meant(name))
+        told = f"there is no substitution $({call.name})"
+        near = meant(call.name, alone=not call.arguments)
+        self.problems.error(Code.UNKNOWN_SUBSTITUTION, told, span, suggestion=near)
         return False
 
     def count(self, call: Call, start: int, first: int, last: int) -> None:

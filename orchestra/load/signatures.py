@@ -9,9 +9,9 @@ from orchestra.load.words import snake
 from orchestra.nearest import nearest
 
 
-def meant(name: str) -> str | None:
-    """Return the substitution that an unknown name probably means."""
-    return ELSEWHERE.get(snake(name)) or nearest(name, SIGNATURES)
+def meant(name: str, *, alone: bool = False) -> str | None:
+    """Return the substitution that an unknown name probably means; one `alone` is rather the name of a variable."""
+    return ELSEWHERE.get(snake(name)) or nearest(name, SIGNATURES) or (f"var {name}" if alone else None)
 
 
 @cache

@@ -123,6 +123,8 @@ class _Shaper:
                 continue
             form = self._form(attribute.name, forms) or forms.others
             at = attribute.span(self.whole)
+            if self._misspelt_separator(attribute, element, forms, tagged):
+                continue
             if form.or_text:
                 tagged.put(attribute.name, attribute.written(self.whole), at)
             elif form.kind not in _ATTRIBUTES:
@@ -134,6 +136,23 @@ class _Shaper:
                 tagged.put(attribute.name, listed(attribute, self.whole, alone=one), at)
             else:
                 tagged.put(attribute.name, attribute.written(self.whole), at)
+
+    def _misspelt_separator(
+        self, attribute: Attribute, element: Element, forms: Forms, tagged: Tagged
+    ) -> bool:
+        """Report an attribute that is a slip for the one that separates the items of another; return whether it is."""
+        name = spelled(attribute.name)
+        if not forms.by_key or name in forms.by_key or "_" not in name:
+            return False
+        beside = {spelled(item.name) for item in element.attributes} & forms.by_key.keys()
+        near = nearest(name, {f"{key}{_SEPARATOR}" for key in beside} | forms.by_key.keys())
+        if near is None or not near.endswith(_SEPARATOR) or not is_slip(name, near):
+            return False
+        message = f"unknown attribute '{attribute.name}'"
+        near = near.replace("_", "-") if "-" in attribute.name else near
+        self.reader.error(Code.UNKNOWN_KEY, message, attribute.span(self.whole), suggestion=near)
+        _lose(tagged, near.removesuffix(_SEPARATOR))
+        return True
 
     def _form(self, name: str, forms: Forms, *, actions: bool = False) -> Form | None:
         """Return the form of a key, or of the one that it is a slip of unless it may as well be an action."""

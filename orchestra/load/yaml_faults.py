@@ -138,7 +138,8 @@ def _without_colon(failure: Failure, begin: int) -> Fault:
     end = failure.line_end(begin)
     written = failure.text[begin:end]
     if _is_item(failure, begin):
-        return failure.fault("an item of the list begins with '- '", begin, end, f"- {written}")
+        instead = f"- {written.removeprefix('-')}"
+        return failure.fault("an item of the list begins with '- '", begin, end, instead)
     if ":" in written:
         name, _, value = written.partition(":")
         return failure.fault(f"a blank is missing behind '{name}:'", begin, end, f"{name}: {value}")

@@ -23,7 +23,7 @@ from yaml.events import (
 
 from orchestra.description.source import Keyed, Listed, Verbatim, Written
 from orchestra.load.offsets import spans_of
-from orchestra.location import stretch
+from orchestra.location import inside, stretch
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -37,8 +37,8 @@ DASH: Final = re.compile(r"-[A-Za-z]")
 DEEPEST: Final = 100
 PARSER: Final[type[Any]] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
-_MERGE: Final = "<<"
-_STARTS: Final = (MappingStartEvent, SequenceStartEvent)
+# What the keys of merges and of mistaken items begin with.
+_ODD: Final = frozenset({"<", "-"})
 
 
 class _NotPlainError(Exception):
@@ -57,12 +57,13 @@ def read(whole: Source) -> Any | None:  # noqa: ANN401 - a tree
 class _Events:
     """Reads on from an event; `following` gives the next one."""
 
-    __slots__ = ("following", "text", "whole")
+    __slots__ = ("following", "marked", "text", "whole")
 
     def __init__(self, whole: Source, following: Callable[[], Any]) -> None:
         self.whole = whole
         self.text = whole.text
         self.following = following
+        self.marked = any(map(whole.text.__contains__, "&*!"))  # there may be anchors or tags
 
     def document(self) -> Any:  # noqa: ANN401 - a tree
         """Return the tree of the one document that there is."""
@@ -80,66 +81,77 @@ class _Events:
     def value(self, event: Any, head: Span | None, depth: int) -> Any:  # noqa: ANN401 - an event, a tree
         """Return the tree that begins with an event; `head` is the place of the key before it."""
         kind = type(event)
+        if kind is MappingStartEvent and depth <= DEEPEST:
+            return self.mapping(event, head, depth)
+        if kind is SequenceStartEvent and depth <= DEEPEST:
+            return self.sequence(event, depth)
         if kind is ScalarEvent:
             return self.scalar(event)
-        reads = self.mapping if kind is MappingStartEvent else self.sequence
-        if kind not in _STARTS or event.anchor is not None or event.tag is not None or depth > DEEPEST:
-            raise _NotPlainError
-        return reads(event, head, depth)
+        raise _NotPlainError
 
     def scalar(self, event: Any) -> Written:  # noqa: ANN401 - an event
-        if event.anchor is not None or event.tag is not None:
+        if self.marked and (event.anchor is not None or event.tag is not None):
             raise _NotPlainError
         text, style = event.value, event.style
         begin, end = event.start_mark.index, event.end_mark.index
         span = stretch(self.whole, begin, end)
         if not style:
             if self.text[begin:end] == text:
-                return Verbatim(text, span, self.whole, begin, null=text in NULL)
+                return Verbatim(text, span, False, text in NULL)
         elif self.text[begin + 1 : end - 1] == text:
-            return Verbatim(text, span, self.whole, begin + 1, quoted=True)
+            return Verbatim(text, span, True)
         spans = spans_of(self.whole, begin, end, text, style)
         return Written(text, span, spans, quoted=bool(style), null=not style and text in NULL)
 
-    def sequence(self, start: Any, _head: Span | None, depth: int) -> Listed:  # noqa: ANN401 - an event
-        begin = start.start_mark.index
-        items = Listed(stretch(self.whole, begin, begin))
-        event = self.following()
+    def sequence(self, start: Any, depth: int) -> Listed:  # noqa: ANN401 - an event
+        self.check(start)
+        following = self.following
+        items = []
+        event = following()
         while (kind := type(event)) is not SequenceEndEvent:
             items.append(self.scalar(event) if kind is ScalarEvent else self.value(event, None, depth + 1))
-            event = self.following()
-        items.span = stretch(self.whole, begin, event.end_mark.index)
-        return items
+            event = following()
+        listed = Listed(stretch(self.whole, start.start_mark.index, event.end_mark.index))
+        listed += items
+        return listed
 
     def mapping(self, start: Any, head: Span | None, depth: int) -> Keyed:  # noqa: ANN401 - an event
+        self.check(start)
         whole, following = self.whole, self.following
-        begin = start.start_mark.index
-        first = stretch(whole, begin, begin + 1)
-        mapping = Keyed(first, head or first)
-        keys: list[Any] = []
+        found: dict[str, Any] = {}
+        marks: list[Any] = []
         event = following()
         while (kind := type(event)) is ScalarEvent:
             key: str = event.value
-            if key in mapping or key == _MERGE or DASH.match(key):
+            if key in found or key[:1] in _ODD:
                 raise _NotPlainError
-            if event.anchor is not None or event.tag is not None:
-                raise _NotPlainError
-            keys.append(event)
+            if self.marked:
+                self.check(event)
+            mark = event.start_mark, event.end_mark
+            marks.append(mark)
             value = following()
             if type(value) is ScalarEvent:
-                mapping[key] = self.scalar(value)
+                found[key] = self.scalar(value)
             else:
-                at = _span(whole, event)
-                mapping[key] = self.value(value, at, depth + 1)
+                found[key] = self.value(value, _between(whole, mark), depth + 1)
             event = following()
         if kind is not MappingEndEvent:
             raise _NotPlainError
-        mapping.span = stretch(whole, begin, event.end_mark.index)
-        mapping.place_later(lambda: {key.value: _span(whole, key) for key in keys})
-        if head is None and keys and not start.flow_style:
-            mapping.head = _span(whole, keys[0])
+        span = _between(whole, (start.start_mark, event.end_mark))
+        if head is None:
+            flow = start.flow_style or not marks
+            head = inside(span, 0, 1) if flow else _between(whole, marks[0])
+        mapping = Keyed(span, head, found)
+        mapping.place_later(
+            lambda: {key: _between(whole, mark) for key, mark in zip(found, marks, strict=True)}
+        )
         return mapping
 
+    def check(self, event: Any) -> None:  # noqa: ANN401 - an event
+        """Refuse what has an anchor or a tag."""
+        if event.anchor is not None or event.tag is not None:
+            raise _NotPlainError
 
-def _span(whole: Source, event: Any) -> Span:  # noqa: ANN401 - an event
-    return stretch(whole, event.start_mark.index, event.end_mark.index)
+
+def _between(whole: Source, marks: tuple[Any, Any]) -> Span:
+    return stretch(whole, marks[0].index, marks[1].index)
