@@ -29,8 +29,11 @@ if TYPE_CHECKING:
 class Listener(Protocol):
     """The system, as its processes see it: it hears what concerns more than one of them."""
 
-    def changed(self) -> None:
-        """A process is in another phase."""
+    def changed(self, process: str | None = None) -> None:
+        """A process is in another phase; None: something else has happened that may concern any of them."""
+
+    def again(self) -> None:
+        """Something is left for the next round."""
 
     def started(self, process: str, pid: int) -> None:
         """The program of a process runs."""

@@ -11,7 +11,8 @@ from orchestra.supervise.operation import Operation
 from orchestra.supervise.process import life
 from orchestra.supervise.process.beginning import Beginning
 from orchestra.supervise.process.ending import signal_name
-from orchestra.supervise.process.life import FINAL, LIVE, Phase
+from orchestra.supervise.process.life import FINAL, LIVE
+from orchestra.supervise.process.roll import Roll
 from orchestra.supervise.process.stopping import Stopping
 from orchestra.supervise.process.unit import Unit
 from orchestra.supervise.reactions import happening as happenings
@@ -32,8 +33,6 @@ if TYPE_CHECKING:
     from orchestra.supervise.reactions.fragment import Fragment
     from orchestra.supervise.surroundings import Surroundings
 
-_LIVELY = frozenset({*LIVE, Phase.RESTARTING})
-
 # As many of a process are shown where it ends the run.
 _LAST_LINES = 10
 
@@ -50,6 +49,7 @@ class System:
         self._performance = Performance(self, surroundings.questions, surroundings)
         self._triggers = Triggers(surroundings.loop, self._performance.begin)
         self._nodes = Nodes(surroundings, self._triggers.happened, self.went_wrong, self.changed)
+        self._roll = Roll(self._units, self._beginning.holds, self._nodes.concerns)
         self.stopping = Stopping(self._units, surroundings)
         self._actions = Actions(self._units, self._beginning, self._triggers, self._nodes, self.end_with)
         self.operation = Operation(self._units, self._beginning, self.stopping, surroundings, self.end_with)
@@ -67,11 +67,7 @@ class System:
             return False
         if self._around.questions.pending and not self.stopping.too_late:
             return False
-        return not any(self._keeps_on(unit) for unit in self._units.values())
-
-    def _keeps_on(self, unit: Unit) -> bool:
-        """Tell whether a process keeps the run from being over; one that an operator has ended may come back."""
-        return unit.state.phase in _LIVELY or (unit.state.halted and not self.ending)
+        return not self._roll.keeps_on(ending=self.ending)
 
     @property
     def ending(self) -> bool:
@@ -84,7 +80,7 @@ class System:
         self._beginning.hold(held(self._plan.triggers))
         self._nodes.add(self._plan.processes, self._plan.components, self._plan.triggers)
         self._triggers.add(self._plan.triggers)
-        self._beginning.prepare_tools(self._needs_observer)
+        self._beginning.prepare_tools(self._roll.observed)
         self._triggers.happened(happenings.run_started())
         self.changed()
 
@@ -116,8 +112,16 @@ class System:
 
     # What the processes tell.
 
-    def changed(self) -> None:
-        """A process is in another phase: see, after what is going on, who may begin."""
+    def changed(self, process: str | None = None) -> None:
+        """A process is in another phase, or something else has changed: see, after what is going on, who may begin."""
+        self._roll.changed(process)
+        if process is not None:
+            self._beginning.changed(process)
+            self.stopping.changed(process)
+        self.again()
+
+    def again(self) -> None:
+        """Something is left for the next round."""
         if not self._dirty:
             self._dirty = True
             self._around.loop.call_later(0.0, self._evaluate)
@@ -249,6 +253,7 @@ class System:
         self.changed()
 
     def _add(self, processes: Iterable[Process]) -> None:
+        self._beginning.add(processes)
         for process in processes:
             self._units[process.id] = Unit(process, self._around, self)
             self._around.recorder.record("process_waiting", process.id)
@@ -262,18 +267,12 @@ class System:
         else:
             self._beginning.begin_or_skip()
         self._around.service.changed(self._units.values(), self._beginning.holds, self.stopping.remaining)
-        if self.stopping.begun or not any(map(self._needs_observer, self._units.values())):
+        if self.stopping.begun or not self._roll.needs_observer:
             self._around.observers.relieve()
-
-    def _needs_observer(self, unit: Unit) -> bool:
-        """Tell whether the observer will be needed for a process that is about to start, or is for its readiness."""
-        waits = unit.state.phase in (Phase.WAITING, Phase.STARTING, Phase.RESTARTING)
-        soon = waits and not self._beginning.holds(unit.id)
-        return unit.awaits_message or (soon and self._nodes.concerns(unit.process))
 
     def _judge_ends(self) -> None:
         """A required process that is over for good takes the run with it."""
-        unit = self._verdict.required_end()
+        unit = self._verdict.required_end() if self._roll.required_over else None
         if unit:
             self.end_with(f"required process {unit.name} has ended")
 

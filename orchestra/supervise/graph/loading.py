@@ -58,20 +58,23 @@ class Loading:
         self._went_wrong = went_wrong
         self._components: dict[str, Component] = {}
         self._containers: dict[str, _Container] = {}
+        self._filled: dict[str, _Container] = {}  # those of them into which something was to be loaded
         self._stopped = False
 
     @property
     def busy(self) -> bool:
         """Whether the observer is needed."""
-        return any(item.current for item in self._containers.values())
+        return any(item.current for item in self._filled.values())
 
     def awaits(self, process: str) -> bool:
         """Tell whether something is to be loaded into a process."""
-        return bool(self._container(process).wanted)
+        container = self._containers.get(process)
+        return container is not None and bool(container.wanted)
 
     def loaded_into(self, process: str) -> list[str]:
         """Return the ids of the components that are in a process."""
-        return [*self._container(process).there]
+        container = self._containers.get(process)
+        return [] if container is None else [*container.there]
 
     def add(self, components: Iterable[Component], outside: Mapping[str, str]) -> None:
         """Take up more components; `outside` is the environment that sees containers which are none of the plan."""
@@ -92,6 +95,7 @@ class Loading:
         if name in container.todo or name in container.there or component == container.current:
             self._around.journal.say(f"{shown(name)} is not loaded once more")
             return
+        self._filled[_key(component)] = container
         container.wanted[name] = container.todo[name] = component
         if container.over is not None:
             self._give_up(container, container.over)
@@ -106,7 +110,9 @@ class Loading:
 
     def ended(self, process: str) -> list[Component]:
         """One run of a container is over: return what went with it."""
-        container = self._container(process)
+        container = self._containers.get(process)
+        if container is None:
+            return []
         lost = [*container.there.values()]
         if container.current:
             self._orders.withdraw(_name(container.current))
@@ -131,7 +137,9 @@ class Loading:
                 container.current = None
 
     def _container(self, key: str) -> _Container:
-        return self._containers.setdefault(key, _Container())
+        if key not in self._containers:
+            self._containers[key] = _Container()
+        return self._containers[key]
 
     def _go_on(self, container: _Container) -> None:
         if container.environment is None or container.current or not container.todo:

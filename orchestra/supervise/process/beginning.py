@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import heapq
 from functools import partial
 from typing import TYPE_CHECKING
 
@@ -13,17 +14,21 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Mapping
 
     from orchestra.plan.conditions import Dependency
+    from orchestra.plan.model import Process
     from orchestra.supervise.loop import Timer
     from orchestra.supervise.process.unit import Unit
     from orchestra.supervise.surroundings import Listener, Surroundings
 
-# Starting a program takes some milliseconds.
+# Starting a program takes about a millisecond.
 _MOST_AT_ONCE = 16
 _PARTICIPLES = {"started": "started", "ready": "ready", "completed": "completed", "exited": "over"}
 
 
 class Beginning:
-    """Lets waiting processes begin."""
+    """Lets waiting processes begin.
+
+    A process is looked at when it is new, and when something that it waits for has changed; in plan order.
+    """
 
     def __init__(self, units: Mapping[str, Unit], surroundings: Surroundings, listener: Listener) -> None:
         self._units = units
@@ -32,6 +37,24 @@ class Beginning:
         self._listener = listener
         self._edge_timers: dict[tuple[str, Dependency], Timer] = {}
         self._waived: set[tuple[str, Dependency]] = set()
+        self._names: list[str] = []
+        self._ranks: dict[str, int] = {}
+        self._dependents: dict[str, list[int]] = {}
+        self._due: list[int] = []  # ranks, as a heap; some twice
+
+    def add(self, processes: Iterable[Process]) -> None:
+        """Take up processes, which wait from now on."""
+        for process in processes:
+            rank = self._ranks[process.id] = len(self._names)
+            self._names.append(process.id)
+            heapq.heappush(self._due, rank)
+            for target in {edge.process for edge in process.depends_on}:
+                self._dependents.setdefault(target, []).append(rank)
+
+    def changed(self, process: str) -> None:
+        """A process is in another phase: look at those that wait for it."""
+        for rank in self._dependents.get(process, ()):
+            heapq.heappush(self._due, rank)
 
     def hold(self, processes: Iterable[str]) -> None:
         """Only a trigger starts these."""
@@ -52,39 +75,50 @@ class Beginning:
                     self._listener.failed(f"the observer could not be started: {error}")
 
     def begin_or_skip(self) -> None:
-        """Look at every waiting process: it begins, waits on, or never will begin.
+        """Look at the waiting processes for which something has changed: each begins, waits on, or never will begin.
 
         Of many that begin together some are left for the next round, so that signals and output are seen to in between.
         """
         self._around.starts.relieve(self._units.values())
-        standings = {name: unit.standing for name, unit in self._units.items()}
         begun = 0
-        for unit in [unit for unit in self._units.values() if unit.state.phase is Phase.WAITING]:
+        while self._due:
             if begun == _MOST_AT_ONCE:
-                self._listener.changed()
+                self._listener.again()
                 return
-            fate = order.fate(self._edges(unit), standings)
-            if fate.blocker:
-                self._skip(unit, fate.blocker)
-            elif fate.begin and unit.id not in self._held:
-                begun += 1
-                self._untime_edges(unit)
-                unit.handle(life.Start())
-            elif unit.id not in self._held:
-                self._time_edges(unit, fate.awaited)
+            unit = self._units[self._names[heapq.heappop(self._due)]]
+            if unit.state.phase is Phase.WAITING:
+                begun += self._look_at(unit)
+
+    def _look_at(self, unit: Unit) -> bool:
+        """Tell whether it has begun."""
+        fate = order.fate(self._edges(unit), _Standings(self._units))
+        if fate.blocker:
+            self._skip(unit, fate.blocker)
+        elif unit.id in self._held:
+            return False
+        elif fate.begin:
+            self._untime_edges(unit)
+            unit.handle(life.Start())
+        else:
+            self._time_edges(unit, fate.awaited)
+        return fate.begin
 
     def forget(self, unit: Unit) -> None:
         """Let a process begin without being waited for: somebody starts it by hand."""
-        self._held.discard(unit.id)
+        self._free(unit)
 
     def release(self, unit: Unit) -> None:
         """Let a process begin that only a trigger starts; one that has ended begins again, one that runs does not."""
-        self._held.discard(unit.id)
+        self._free(unit)
         if unit.over:
             unit.handle(life.Start())
         elif unit.state.phase is not Phase.WAITING:
             state = "was skipped" if unit.state.phase is Phase.SKIPPED else "has not ended"
             self._around.journal.say(f"{unit.name} is not started by a trigger: it {state}")
+
+    def _free(self, unit: Unit) -> None:
+        self._held.discard(unit.id)
+        heapq.heappush(self._due, self._ranks[unit.id])
 
     def stop(self) -> None:
         """Nothing begins any more."""
@@ -143,5 +177,16 @@ class Beginning:
             self._listener.failed(reason, target.id)
         else:
             self._waived.add((unit.id, edge))
+            heapq.heappush(self._due, self._ranks[unit.id])
             self._around.journal.say(f"{reason}; it is not required")
             self._listener.changed()
+
+
+class _Standings:
+    """How processes stand when somebody asks."""
+
+    def __init__(self, units: Mapping[str, Unit]) -> None:
+        self._units = units
+
+    def __getitem__(self, process: str, /) -> order.Life:
+        return self._units[process].standing

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from itertools import accumulate
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
 from orchestra.supervise.process.life import FINAL, Phase
 from orchestra.supervise.process.machine import succeeded
@@ -34,6 +34,13 @@ class Life(NamedTuple):
     state: State
 
 
+class Lives(Protocol):
+    """The processes, as the others see them, by id."""
+
+    def __getitem__(self, process: str, /) -> Life:
+        """Return how a process stands."""
+
+
 class Fate(NamedTuple):
     """What becomes of a waiting process: exactly one of `begin` and `blocker` may be set, neither means to wait."""
 
@@ -42,7 +49,7 @@ class Fate(NamedTuple):
     awaited: tuple[Dependency, ...] = ()
 
 
-def fate(dependencies: Iterable[Dependency], lives: Mapping[str, Life]) -> Fate:
+def fate(dependencies: Iterable[Dependency], lives: Lives) -> Fate:
     """Judge a waiting process by what it depends on; what is not required is awaited only as long as it may come."""
     awaited = []
     for dependency in dependencies:

@@ -30,6 +30,8 @@ class Stopping:
         self._units = units
         self._around = surroundings
         self._levels: dict[str, int] = {}
+        self._live: list[set[str]] = []  # by level
+        self._asked = -1
         self._deadline_after = order.DEADLINE
         self._interrupts = 0
         self.begun_at: float | None = None
@@ -66,6 +68,9 @@ class Stopping:
         self._around.recorder.record("run_stopping", cause=cause)
         for unit in self._units.values():
             unit.handle(life.StopAhead() if unit.state.phase in LIVE else life.StopRequested())
+        self._live = [set() for _ in range(1 + max(self._levels.values(), default=0))]
+        for unit in self._units.values():
+            self.changed(unit.id)
         schedule = self._schedule()
         self._deadline_after = schedule.deadline
         for level, delay in enumerate(schedule.asked):
@@ -81,11 +86,21 @@ class Stopping:
             return order.schedule(self._levels, {})
         return schedule
 
+    def changed(self, process: str) -> None:
+        """A process is in another phase; before the end of the run that is of no concern here."""
+        if not self._live:
+            return
+        level = self._live[self._levels[process]]
+        if self._units[process].state.phase in LIVE:
+            level.add(process)
+        else:
+            level.discard(process)
+
     def go_on(self) -> None:
         """Ask the processes on which nothing that runs depends any more."""
-        running = [self._levels[unit.id] for unit in self._units.values() if unit.state.phase in LIVE]
-        if running:
-            self._stop_level(min(running))
+        running = next((level for level, live in enumerate(self._live) if live), None)
+        if running is not None:
+            self._stop_level(running)
 
     def interrupted(self, number: int) -> None:
         """Take note of one more stop signal: Ctrl-C twice means now, three times at once."""
@@ -113,6 +128,9 @@ class Stopping:
             self._around.loop.call_later(order.DEADLINE, self._deadline)
 
     def _stop_level(self, level: int) -> None:
+        if level <= self._asked:
+            return
+        self._asked = level
         for unit in self._units.values():
             if self._levels[unit.id] <= level and unit.state.phase is not Phase.STOPPING:
                 unit.handle(life.StopRequested())

@@ -127,7 +127,7 @@ class Unit:
         if self.state.asked and self.state.phase is Phase.STARTING:
             self._around.starts.withdraw(self.id)
         if self.state.phase is not before.phase:
-            self._listener.changed()
+            self._listener.changed(self.id)
 
     def signal(self, number: int) -> None:
         """Send a signal that the plan wants to be sent, where it runs."""
