@@ -14,11 +14,16 @@ import dataclasses
 from operator import attrgetter, ge, gt, le, lt
 from reprlib import recursive_repr
 
-__all__ = ["dataclass"]
+__all__ = ["dataclass", "maker"]
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from dataclasses import dataclass
+    from typing import Any, ParamSpec, TypeVar
+
+    P = ParamSpec("P")
+    T = TypeVar("T")
 
 else:
 
@@ -37,10 +42,6 @@ else:
 
         return made
 
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-    from typing import Any
 
 _UNWRITTEN = dataclasses.MISSING
 _ORDER = {"lt": lt, "le": le, "gt": gt, "ge": ge}
@@ -190,3 +191,22 @@ def _getstate(self: Any) -> list[Any]:
 def _setstate(self: Any, state: list[Any]) -> None:
     for field, value in zip(dataclasses.fields(self), state, strict=True):
         object.__setattr__(self, field.name, value)
+
+
+def maker(cls: Callable[P, T]) -> Callable[P, T]:
+    """Return what makes objects of a frozen class with slots as calling it does, in a third of the time.
+
+    Fields that nobody may change are slow to set. They are set here in an open object of the same layout, which then
+    becomes one of the class. For classes of which a launch makes thousands; without `__post_init__`.
+    """
+    frozen: Any = cls
+    slots = {"__slots__": frozen.__slots__, "__setattr__": object.__setattr__}
+    known: dict[str, Any] = {"_unwritten": _UNWRITTEN, "_new": object.__new__, "_cls": cls}
+    known["_open"] = type(f"_Open{frozen.__name__}", frozen.__bases__, slots)
+    fields = dataclasses.fields(frozen)
+    lines = ["self = _new(_open)", *(_assignment(field, known, frozen=False) for field in fields)]
+    lines += ["self.__class__ = _cls", "return self"]
+    words = [_parameter(field, known) for field in fields if field.init]
+    exec("\n ".join([f"def make({', '.join(words)}):", *lines]), known)  # noqa: S102 - names of fields, which are identifiers
+    made: Callable[P, T] = known["make"]
+    return made

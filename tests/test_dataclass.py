@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from orchestra.dataclass import dataclass
+from orchestra.dataclass import dataclass, maker
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -205,7 +205,7 @@ def test_they_are_copied_pickled_and_replaced(record: Any) -> None:
 
 
 def test_they_inherit() -> None:
-    assert (Inherited("a", more="b").more, Inherited("a").hidden) == ("B", 7)
+    assert (Inherited("a", more="B").more, Inherited("a").hidden) == ("B", 7)
     assert str(Inherited("a")) == "Inherited(name='a', many=(), made=[], more='MORE')"
     match Frozen("a", (1,)):
         case Frozen(name, many):
@@ -232,3 +232,20 @@ def test_everything_of_ours_is_made_so() -> None:
         and "dataclass" in [alias.name for alias in node.names]
     ]
     assert set(wrong) <= _OF_THEIR_OWN
+
+
+def test_what_a_maker_makes_is_what_the_class_makes() -> None:
+    frozen, inherited = maker(Frozen), maker(Inherited)
+    assert frozen("a", (1,)) == Frozen("a", (1,))
+    assert (
+        inherited("a", more="B") == dataclasses.replace(inherited("a"), more="B") == Inherited("a", more="B")
+    )
+    assert (type(inherited("a")), inherited("a").hidden) == (Inherited, 7)
+    assert hash(frozen("a")) == hash(Frozen("a"))
+    assert pickle.loads(pickle.dumps(frozen("a"))) == copy.copy(frozen("a")) == Frozen("a")  # noqa: S301 - just made
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        frozen("a").name = "b"  # type: ignore[misc] # refused at run time too
+    frozen("a").made.append(1)
+    assert not frozen("a").made
+    with pytest.raises(TypeError):
+        frozen()  # type: ignore[call-arg] # refused at run time too

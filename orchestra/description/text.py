@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Self, TypeAlias
 
-from orchestra.dataclass import dataclass
+from orchestra.dataclass import dataclass, maker
 from orchestra.location import Span
 from orchestra.values import ParameterValue
 
@@ -83,6 +83,12 @@ class Constant:
 
     value: ParameterValue
     span: Span
+
+
+# What the loaders make thousands of.
+new_words = maker(Words)
+new_call = maker(Call)
+new_template = maker(Template)
 
 
 class Items(tuple[Template, ...]):  # noqa: SLOT001 - a tuple has no room for slots

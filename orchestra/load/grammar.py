@@ -12,15 +12,15 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
 from orchestra.description.substitutions import SIGNATURES
-from orchestra.description.text import Call, Template, Words
+from orchestra.description.text import Call, Template
 from orchestra.errors import Code, Problems
 from orchestra.load.exposed import exposed_part
-from orchestra.load.moving import placed
+from orchestra.load.parts import Parts
+from orchestra.load.repeated import known_template, placed
 from orchestra.load.signatures import excess, lack, meant, usage
 from orchestra.location import Span
 
@@ -31,9 +31,6 @@ if TYPE_CHECKING:
 
 # How deep substitutions may nest: far more than anybody writes, far from the interpreter's recursion limit.
 DEEPEST: Final = 50
-
-# Longer texts are not kept to be read once only.
-_SHORT: Final = 300
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 _KEPT_QUOTES = re.compile(r"""(['"])([^'" ()$\\]*)\1(?=[ )])""")
@@ -51,27 +48,16 @@ def parse_template(
 
     Faults go to `problems` and make the template faulty; nothing is raised.
     """
-    known = _sound(text) if len(text) <= _SHORT else None
+    known = known_template(text, _by_itself)
     if known is not None:
         return placed(known, spans, quoted=quoted)
     reader = _Reader(text, spans, problems)
     return Template(reader.parts("", "", 0), text, spans(0, len(text)), quoted, reader.faults > 0)
 
 
-@lru_cache(maxsize=1024)
-def _sound(text: str) -> Template | None:
-    """Return the template of a text, spans as columns; None where something is to be told of it, or others parse it.
-
-    A file of many nodes has the same few texts in it time and again.
-    """
-    found = Problems()
-    reader = _Reader(text, _columns, found)
-    template = Template(reader.parts("", "", 0), text, _columns(0, len(text)))
-    return None if len(found) or reader.foreign else template
-
-
-def _columns(first: int, last: int) -> Span:
-    return Span("", 1, first, 1, last)
+def _by_itself(text: str, spans: Callable[[int, int], Span], problems: Problems) -> Template:
+    """Return the template that a text is to who knows no names but those of the language."""
+    return Template(_Reader(text, spans, problems, others=False).parts("", "", 0), text, spans(0, len(text)))
 
 
 def unescaped(text: str) -> str:
@@ -89,11 +75,11 @@ class _Reader:
     at: int = 0
     faults: int = 0
     lost: bool = False  # an unterminated quote or too deep a nesting took the rest of the text
-    foreign: bool = False  # a name is not of the language: others may know it
+    others: bool = True  # who has added substitutions to the language is asked
 
     def parts(self, stop: str, within: str, depth: int) -> tuple[Part, ...]:
         """Read literal text and substitutions up to the stop character, which stays unread, or to the end."""
-        found = _Parts(self)
+        found = Parts(self)
         while self.at < len(self.text) and self.here != stop:
             if self.opens:
                 found.substitution(within, depth)
@@ -126,8 +112,7 @@ class _Reader:
         call = Call(name, tuple(arguments), self.spans(start, self.at))
         known = len(self.problems)
         if name not in SIGNATURES:
-            self.foreign = True
-            made = exposed_part(call, self.problems) if self.faults == before else None
+            made = exposed_part(call, self.problems) if self.faults == before and self.others else None
             if made is not None:
                 self.faults += len(self.problems) > known
                 return made
@@ -198,7 +183,7 @@ class _Reader:
     def pieces(self, start: int, within: str, depth: int, *, glued: bool) -> tuple[Part, ...]:
         """Read the adjoining pieces of an unquoted argument that began at `start`."""
         wrong = "an argument is quoted as a whole or not at all" if glued else ""
-        found = _Parts(self)
+        found = Parts(self)
         brackets = 0
         while self.here and self.here != within and (brackets or self.here not in " )"):
             if self.opens:
@@ -280,47 +265,3 @@ class _Reader:
     @property
     def opens(self) -> bool:
         return self.text.startswith("$(", self.at)
-
-
-class _Parts:
-    """Gathers parts, adjoining characters into one."""
-
-    __slots__ = ("_begin", "_characters", "_parts", "_reader")
-
-    def __init__(self, reader: _Reader) -> None:
-        self._reader = reader
-        self._parts: list[Part] = []
-        self._characters: list[str] = []
-        self._begin = reader.at
-
-    def text(self, plain: re.Pattern[str]) -> None:
-        """Take a run of plain characters, else the next one, or the one behind a backslash.
-
-        A backslash at the very end is itself.
-        """
-        reader = self._reader
-        if match := plain.match(reader.text, reader.at):
-            self._characters.append(match[0])
-            reader.at = match.end()
-            return
-        if reader.here == "\\" and reader.at + 1 < len(reader.text):
-            reader.at += 1
-        self._characters.append(reader.here)
-        reader.at += 1
-
-    def substitution(self, within: str, depth: int) -> None:
-        """Take the substitution that begins here."""
-        self._flush()
-        self._parts.extend(self._reader.call(within, depth))
-        self._begin = self._reader.at
-
-    def finished(self) -> tuple[Part, ...]:
-        """Return all parts."""
-        self._flush()
-        return tuple(self._parts)
-
-    def _flush(self) -> None:
-        if self._characters:
-            span = self._reader.spans(self._begin, self._reader.at)
-            self._parts.append(Words("".join(self._characters), span))
-            self._characters.clear()

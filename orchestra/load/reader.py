@@ -9,7 +9,7 @@ from orchestra.dataclass import dataclass
 from orchestra.description.entity import REPORTED
 from orchestra.description.fields import STRAY_KEY
 from orchestra.description.source import Keyed, Listed, Written, kind_of
-from orchestra.description.text import Template, Words
+from orchestra.description.text import Template, new_template, new_words
 from orchestra.errors import Code, Problems
 from orchestra.load.braces import warn_of_braces
 from orchestra.load.elements import beginning_of, noun
@@ -65,7 +65,7 @@ class Reader:
         text = written.text
         if text and "$" not in text and "\\" not in text:
             span = written.inside
-            return Template((Words(text, span),), text, span, written.quoted)
+            return new_template((new_words(text, span),), text, span, written.quoted)
         found = Problems()
         if "${" in text or "$[" in text:
             warn_of_braces(text, written.spans, found)
