@@ -113,7 +113,10 @@ class Literal:
             return self.value(step)
         if isinstance(step, Key | ValueOf):
             pair = self._pair(step)
-            return self._inside(pair[isinstance(step, ValueOf)] if pair is not None else None)
+            found = None if pair is None else pair[isinstance(step, ValueOf)]
+            if isinstance(found, ast.keyword):
+                return Literal(self.file, None, node_span(self.file, found), self._tree)
+            return self._inside(found)
         return self.item(step, None)
 
     def _letters(self, letters: Letters) -> Span:
@@ -173,9 +176,11 @@ class Literal:
                 return first, value
         return None, None
 
-    def _pair(self, index: int) -> tuple[ast.expr | None, ast.expr] | None:
+    def _pair(self, index: int) -> tuple[ast.expr | ast.keyword | None, ast.expr] | None:
         """Return name and value of the entry of a number, None where they are not written there."""
         node = self._meaning()
+        if isinstance(node, ast.Call):  # dict(key=value)
+            return (node.keywords[index], node.keywords[index].value) if index < len(node.keywords) else None
         items = self._items() or ()
         if index >= len(items):
             return None
@@ -208,6 +213,8 @@ class Literal:
                 return None if None in node.keys else values
             case ast.List(elts=items) | ast.Tuple(elts=items) | ast.Set(elts=items):
                 return None if any(isinstance(item, ast.Starred) for item in items) else items
+            case ast.Call(func=ast.Name(id="dict"), args=[], keywords=words):
+                return [word.value for word in words] if all(word.arg for word in words) else None
             case ast.BinOp(left=left, op=ast.Add(), right=right):
                 parts = self._inside(left)._items(), self._inside(right)._items()
                 return None if parts[0] is None or parts[1] is None else [*parts[0], *parts[1]]

@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from orchestra.errors import Problem
     from orchestra.location import Span
 
+_QUOTED: Final = re.compile(r"'([^']+)'")
+_SLASHES: Final = re.compile("/+")
 _BETWEEN: Final = re.compile(r"[\s()$]+")
 
 
@@ -64,8 +66,12 @@ def _narrower(problem: Problem, found: Literal) -> Span:
     if problem.code is Code.MISSING_FILE:
         name = problem.message.rpartition("/")[2].rpartition(" ")[2].strip("'")
         return found.texts.get(name, problem.span or found.span)
-    if problem.code is Code.COMMAND_FAILED and isinstance(found.node, ast.Call) and len(found.texts) == 1:
-        return next(iter(found.texts.values()))
+    if problem.code is Code.COMMAND_FAILED and isinstance(found.node, ast.Call):
+        texts, program = found.texts, _QUOTED.search(problem.message)
+        if program is not None and program[1] in texts:
+            return texts[program[1]]
+        if len(texts) == 1:
+            return next(iter(texts.values()))
     return problem.span or found.span
 
 
@@ -80,7 +86,7 @@ def _wrong(found: Literal, meant: str, message: str) -> tuple[Span, str] | None:
         return next(_replaced(_told(quoted_in(found.file, found.span), message), meant), None)
     if isinstance(found.node, ast.Constant):
         text = str(found.node.value)
-        whole = "$(" not in meant and text.count("/") == meant.count("/")
+        whole = "$(" not in meant and _SLASHES.sub("/", text).count("/") == meant.count("/")
         return (found.span, meant) if whole else next(_replaced({text: found.span}, meant), None)
     return next(_replaced(_told(found.texts, message), meant), None)
 

@@ -68,7 +68,8 @@ def no_attribute(error: AttributeError, place: Place) -> Explanation | None:
     kind = "None" if error.obj is None else kind
     message = f"{kind} has no attribute '{error.name}'"
     span = word_in(place.file, place.span, error.name)
-    return Explanation(message, span=span, suggestion=meant if span is not None else None)
+    is_meant = meant is not None and is_slip(error.name, meant)
+    return Explanation(message, span=span, suggestion=meant if is_meant and span is not None else None)
 
 
 def _no_name(name: str, module: ModuleType, place: Place) -> Explanation:

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.text import Sub, normalized, template
 from orchestra.compat.values import optional, written
-from orchestra.compat.wrong import WrongRuntime
+from orchestra.compat.wrong import WrongRuntime, WrongType
 from orchestra.description.actions.arg import Arg
 from orchestra.errors import Code
 from orchestra.nearest import nearest
@@ -46,7 +46,7 @@ class DeclareLaunchArgument(ModelledAction):
         self.__given_description = description
         # Whether a condition decides on the declaration, as `get_launch_arguments` has found.
         self._conditionally_included = False
-        _check(name, default_value, self.__choices)
+        _check(name, default_value, self.__choices, choices)
 
     @property
     def name(self) -> str:
@@ -96,9 +96,13 @@ def _text(default: Any) -> Sub:
     return str(default) if isinstance(default, bool) else written(default)
 
 
-def _check(name: str, default: Any, choices: list[str] | None) -> None:
+def _check(name: str, default: Any, choices: list[str] | None, given: Any) -> None:
     if choices is None:
         return
+    if isinstance(given, str):
+        raise WrongType(
+            f"the choices of a launch argument are a list of texts, this is {given!r}", path=("choices",)
+        )
     if not choices:
         raise WrongRuntime(f"the launch argument '{name}' has no choice at all", path=("choices",))
     if isinstance(default, str) and default not in choices:
