@@ -7,14 +7,14 @@ order that differs from start to start, and with a variable that tells that this
 from __future__ import annotations
 
 import sys
-from pathlib import Path
-from typing import TYPE_CHECKING, Final
 
+TYPE_CHECKING = False  # `typing` costs more than this module, which the supervisor imports before all others
 if TYPE_CHECKING:
     from collections.abc import Mapping
+    from pathlib import Path
 
-DONE: Final = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
-LIBRARY_PATH: Final = "LD_LIBRARY_PATH"
+DONE = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
+LIBRARY_PATH = "LD_LIBRARY_PATH"
 
 
 def library_folders(prefix: Path) -> tuple[str, ...]:
@@ -31,6 +31,8 @@ def as_called(environment: Mapping[str, str]) -> Mapping[str, str]:
     """Return the environment in which this interpreter was called, given the one that it has."""
     if DONE not in environment:
         return environment
+    from pathlib import Path  # noqa: PLC0415 - the wheels have imported it
+
     called = {name: value for name, value in environment.items() if name not in {DONE, LIBRARY_PATH}}
     added = frozenset(library_folders(Path(sys.prefix)))
     before = [entry for entry in environment.get(LIBRARY_PATH, "").split(":") if entry and entry not in added]

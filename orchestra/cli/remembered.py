@@ -4,70 +4,53 @@ A plan is kept with everything that was looked at on the way to it (`orchestra.w
 code that made it. It counts while all of that is as it was, for the same words in the same place. What cannot be
 recorded, time, chance, the network, other programs, what code prints, keeps a plan from being kept at all.
 
-This half is imported by the supervisor before anything is started, so it needs the standard library alone.
+This half is imported by the supervisor before anything is started: by what it needs to find that nothing is kept, it
+holds up every first launch.
 """
 
 from __future__ import annotations
 
-import json
 import os
 import sys
-from typing import TYPE_CHECKING, NamedTuple
 
 from orchestra.wheels import as_called
-from orchestra.witness.programs import unchanged
+from orchestra.witness.place import entry, folder
 from orchestra.witness.standing import standing
-from orchestra.witness.store import Store, folder
-from orchestra.witness.world import World
 
+TYPE_CHECKING = False  # `typing` costs more than this module
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from orchestra.cli.recollection import Remembered
+
 NO_CACHE = "--no-cache"
-_MOST = 32 * 1024 * 1024  # bytes that all plans may take together
 
 
-class Remembered(NamedTuple):
-    """The document of an earlier launch, and what was told on standard error."""
-
-    document: bytes
-    told: str
-
-
-def store() -> Store | None:
-    """Return where plans are kept; None where there is no place for them."""
-    place = folder(os.environ)
-    return None if place is None else Store(os.path.join(place, "plans"), _MOST)  # noqa: PTH118 - pathlib is slow
+def place() -> str | None:
+    """Return the folder in which plans are kept; None where there is no place for them."""
+    where = folder(os.environ)
+    return None if where is None else os.path.join(where, "plans")  # noqa: PTH118 - pathlib is slow
 
 
 def key(words: Sequence[str]) -> str | None:
     """Return what tells one launch from another, besides all that may change: its words and where it stands.
 
-    None where that cannot be told: the working folder is gone.
+    None where nobody wants a plan to be kept, and where it cannot be told: the working folder is gone.
     """
+    if NO_CACHE in words:
+        return None
     terminals = [os.isatty(descriptor) for descriptor in (0, 1, 2)]
     try:
-        where = [*standing(as_called(os.environ))]
+        return repr((list(words), terminals, sys.flags, *standing(as_called(os.environ))))
     except OSError:
         return None
-    return json.dumps([list(words), terminals, str(sys.flags), *where])
 
 
 def remembered(words: Sequence[str]) -> Remembered | None:
     """Return what an earlier launch with the same words has come to, if that is still so."""
-    kept, name = (None, None) if NO_CACHE in words else (store(), key(words))
-    found = None if kept is None or name is None else kept.read(name)
-    if found is None:
+    where, name = place(), key(words)
+    if where is None or name is None or not os.path.exists(entry(where, name)):  # noqa: PTH110 - as above
         return None
-    record, result = found
-    try:
-        known = Remembered(result["document"].encode("utf-8", "surrogatepass"), result["told"])
-        still = unchanged(result["code"]) and World(as_called(os.environ), _nobody_asks).holds(record)
-    except (KeyError, TypeError, ValueError, AttributeError):
-        return None
-    return known if still else None
+    from orchestra.cli.recollection import recollection  # noqa: PLC0415 - of no use where nothing is kept
 
-
-def _nobody_asks(words: str) -> None:
-    """Answer nothing: plans are kept by what is looked at alone."""
-    del words
+    return recollection(where, name)

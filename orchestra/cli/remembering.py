@@ -7,17 +7,19 @@ import sys
 from contextlib import ExitStack, contextmanager
 from typing import TYPE_CHECKING, Any
 
-from orchestra.cli.remembered import NO_CACHE, key, store
+from orchestra.cli.remembered import key, place
 from orchestra.wheels import as_called
 from orchestra.witness.observing import observer
 from orchestra.witness.origins import loaded
 from orchestra.witness.programs import signs
+from orchestra.witness.store import Store
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from typing import TextIO
 
-    from orchestra.witness.store import Store
+
+_MOST = 32 * 1024 * 1024  # bytes that all plans may take together
 
 
 class Memory:
@@ -64,8 +66,8 @@ class Memory:
 
 def memory(words: Sequence[str]) -> Memory | None:
     """Return what a launch is to be remembered by; None where nobody wants that, or there is no place for it."""
-    kept, name = (None, None) if NO_CACHE in words else (store(), key(words))
-    return None if kept is None or name is None else Memory(kept, name)
+    where, name = place(), key(words)
+    return None if where is None or name is None else Memory(Store(where, _MOST), name)
 
 
 class _Noticing:

@@ -6,7 +6,7 @@ import os
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Final
 
-from orchestra.witness.looking import digest_of
+from orchestra.witness.digest import digest_of
 from orchestra.witness.standing import standing
 
 if TYPE_CHECKING:

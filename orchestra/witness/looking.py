@@ -7,16 +7,12 @@ import stat
 import time
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.witness.digest import digest_of
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
-    from hashlib import blake2b
 
     from orchestra.witness.record import Signature
-else:
-    try:
-        from _blake2 import blake2b  # what `hashlib` has, without the library of ciphers that it loads first
-    except ImportError:  # not every interpreter has it by this name
-        from hashlib import blake2b
 
 # Taken before anybody wraps them.
 _stat, _lstat, _readlink, _access, _scandir, _open = (
@@ -30,11 +26,6 @@ _stat, _lstat, _readlink, _access, _scandir, _open = (
 
 # Nanoseconds in which a file may be changed twice without a sign: clocks of file systems tick slowly.
 _TICK: Final = 2_000_000_000
-
-
-def digest_of(content: bytes) -> str:
-    """Return a text that stands for a content."""
-    return blake2b(content, digest_size=16).hexdigest()
 
 
 def signature(path: str) -> Signature | None:

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING, Final
 
+TYPE_CHECKING = False  # `typing` costs more than this module, which the supervisor imports before all others
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
 
 # Variables that libraries in C, or the interpreter, read by themselves.
-_READ_BY_ALL: Final = ("LANG", "LC_ALL", "LC_CTYPE", "LC_MESSAGES", "TZ", "PYTHONHASHSEED", "PYTHONWARNINGS")
+_READ_BY_ALL = ("LANG", "LC_ALL", "LC_CTYPE", "LC_MESSAGES", "TZ", "PYTHONHASHSEED", "PYTHONWARNINGS")
 
 
 def standing(environment: Mapping[str, str]) -> Iterator[str]:
-    """Yield interpreter, working folder, import path, machine, processors, user, and what libraries go by."""
+    """Yield interpreter, working folder, import path, machine, processors, user, and what libraries go by.
+
+    Raises `OSError` where the working folder is gone.
+    """
     yield sys.version
     yield sys.executable
     yield os.getcwd()

@@ -10,13 +10,11 @@ import os
 import stat
 import time
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
-from orchestra.witness.looking import digest_of
+from orchestra.witness.digest import digest_of
+from orchestra.witness.place import entry
 from orchestra.witness.record import Record
-
-if TYPE_CHECKING:
-    from collections.abc import Mapping
 
 _MOST: Final = 64 * 1024 * 1024  # bytes that entries may take together
 _DAY: Final = 86_400
@@ -93,7 +91,7 @@ class Store:
             left -= size
 
     def _path(self, key: str) -> str:
-        return os.path.join(self._folder, digest_of(key.encode("utf-8", "surrogatepass")))
+        return entry(self._folder, key)
 
 
 def _for_us_alone(path: str, flags: int) -> int:
@@ -105,17 +103,3 @@ def _status(entry: os.DirEntry[str]) -> os.stat_result | None:
         return entry.stat(follow_symlinks=False)
     except OSError:
         return None
-
-
-def folder(environment: Mapping[str, str]) -> str | None:
-    """Return the folder of the user's caches for Orchestra (XDG base directories); None where none can be told."""
-    own = environment.get("ORCHESTRA_CACHE")
-    if own:
-        return own
-    shared = environment.get("XDG_CACHE_HOME")
-    if not (shared and os.path.isabs(shared)):
-        home = os.path.expanduser("~")
-        if home == "~":
-            return None
-        shared = os.path.join(home, ".cache")
-    return os.path.join(shared, "orchestra")

@@ -9,7 +9,8 @@ from typing import TYPE_CHECKING
 from orchestra.cli.look.finding import Finding
 from orchestra.cli.look.questions import Questions
 from orchestra.witness.identity import identity
-from orchestra.witness.store import Store, folder
+from orchestra.witness.place import folder
+from orchestra.witness.store import Store
 from orchestra.witness.world import World
 
 if TYPE_CHECKING:

@@ -7,6 +7,7 @@ something more that is nothing to the run.
 
 from __future__ import annotations
 
+import gc
 import io
 import os
 import signal
@@ -73,6 +74,8 @@ def _connection() -> tuple[int, int]:
 
 
 def _prepare(prepare: Prepare, descriptor: int) -> int:
+    # Until the plan is there all that is made stays: to walk through it again and again takes a tenth of the time.
+    gc.disable()
     try:
         # Held back until it is complete: a resolver that fails half-way has handed over nothing.
         document = io.BytesIO()
@@ -88,6 +91,7 @@ def _prepare(prepare: Prepare, descriptor: int) -> int:
                 result.afterwards()
                 result = 0
             elif not isinstance(result, int):
+                gc.enable()
                 result = serve(result, descriptor)
         status = result
     except SystemExit as error:
