@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 from orchestra.dataclass import dataclass
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Mapping
 
 # A head is not longer: some formats take time that grows with the square of the length.
 _LONGEST: Final = 1000
@@ -56,7 +56,7 @@ _ESCAPES: Final = {
 _ESCAPE: Final = r"\\([abfnrtv?\\'\"])"
 
 
-# What a line says of its message: the severity in capitals, the logger; None where it does not say.
+# What a line says of its message: the severity in capitals, the logger; None or nothing where it does not say.
 Head: TypeAlias = tuple[bytes | None, bytes | None]
 # Lines to the end of the last, and their head; None where they have none.
 Run: TypeAlias = tuple[int, Head | None]
@@ -64,20 +64,25 @@ Run: TypeAlias = tuple[int, Head | None]
 
 @dataclass(frozen=True, slots=True)
 class Heads:
-    """How to read the begins of lines: text and names of tokens, in turn. Without a `mark` there are no heads."""
+    """How to read the begins of lines: text and names of tokens, in turn. Without a `mark` there are no heads.
+
+    `rare` is its first byte, `later` the mark of a line that is not the first.
+    """
 
     parts: tuple[str, ...]
     mark: bytes | None
+    rare: bytes = b""
+    later: bytes = b""
 
     def among(self, lines: bytes) -> bool:
         """Tell whether some of the lines may have a head."""
-        mark = self.mark
-        if mark is None or mark[:1] not in lines:  # one byte is found many times faster than two
+        if self.mark is None:
             return False
-        return lines.startswith(mark) or b"\n" + mark in lines
+        # One byte is found many times faster than two.
+        return lines.startswith(self.mark) or (self.rare in lines and self.later in lines)
 
-    def runs(self, lines: bytes) -> Iterator[Run]:
-        """Yield, in their order, where lines end that one head counts for, or those before the first head."""
+    def runs(self, lines: bytes) -> list[Run]:
+        """Return, in their order, where lines end that one head counts for, or those before the first head."""
         return _together(self.parts, lines) if _ends_plainly(self.parts) else _one_by_one(self.parts, lines)
 
 
@@ -90,12 +95,15 @@ def format_of(environment: Mapping[str, str]) -> str:
 def heads_of(written: str) -> Heads:
     """Return how to read lines that are written in a form."""
     parts = _parts(written)
-    told = any(name in parts[1::2] for name in _TOLD)
-    return Heads(parts, parts[0].encode("utf-8", "surrogateescape") if told else None)
+    if not any(name in parts[1::2] for name in _TOLD):
+        return Heads(parts, None)
+    mark = parts[0].encode("utf-8", "surrogateescape")
+    return Heads(parts, mark, mark[:1], b"\n" + mark)
 
 
-def _together(parts: tuple[str, ...], lines: bytes) -> Iterator[Run]:
+def _together(parts: tuple[str, ...], lines: bytes) -> list[Run]:
     run, following = _run(parts)
+    runs: list[Run] = []
     end = 0
     while end < len(lines):
         found = run.match(lines, end)
@@ -104,23 +112,23 @@ def _together(parts: tuple[str, ...], lines: bytes) -> Iterator[Run]:
         else:
             follows = following.search(lines, end)
             end = follows.start() + 1 if follows else len(lines)
-        yield end, _told(found)
+        runs.append((end, _told(found)))
+    return runs
 
 
-def _one_by_one(parts: tuple[str, ...], lines: bytes) -> Iterator[Run]:
+def _one_by_one(parts: tuple[str, ...], lines: bytes) -> list[Run]:
     single = _single(parts)
+    runs: list[Run] = []
     begin = 0
     while begin < len(lines):
         end = lines.index(b"\n", begin) + 1
-        yield end, _told(single.match(lines, begin, min(begin + _LONGEST, end - 1)))
+        runs.append((end, _told(single.match(lines, begin, min(begin + _LONGEST, end - 1)))))
         begin = end
+    return runs
 
 
 def _told(found: re.Match[bytes] | None) -> Head | None:
-    if found is None:
-        return None
-    told = found.groupdict()
-    return told.get("severity"), told.get("name") or None
+    return (found["severity"], found["name"]) if found else None
 
 
 @lru_cache(maxsize=64)
@@ -165,6 +173,9 @@ def _pattern(parts: tuple[str, ...], *, first: bool | None) -> bytes:
     for text, name in zip(parts[::2], (*parts[1::2], ""), strict=True):
         pattern += re.escape(text) + _group(name, first=first, again=name in seen)
         seen.add(name)
+    if first:
+        # Groups that take part in no match, so that both can be asked for.
+        pattern += "".join(f"(?P<{name}>(?!))?" for name in _TOLD if name not in seen)
     return pattern.encode("utf-8", "surrogateescape")
 
 

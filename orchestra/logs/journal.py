@@ -7,12 +7,11 @@ import time
 from typing import TYPE_CHECKING
 
 from orchestra.logs import forms, names, outputs
-from orchestra.logs.block import block_of
 from orchestra.logs.narration import Narration
 from orchestra.logs.page import Page
 from orchestra.logs.records import OURS, Record, dumps
 from orchestra.logs.rotation import Rotation
-from orchestra.logs.terminal_text import coloured, plain
+from orchestra.logs.terminal_text import coloured, harmless, plain
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -85,14 +84,15 @@ class Journal:
         """Write a piece of a process's output; without `shown`, to the files alone."""
         if not data:
             return
-        now, source, block = self._wall(), (process, stream), block_of(data)
-        told = self._narrations[process].add(stream, block, now)
+        now, source, bare = self._wall(), (process, stream), plain(data)
+        clean = harmless(bare)
+        told = self._narrations[process].add(stream, bare, now, clean=clean)
         with self._writer.together():
             self._files[process].write(data)
-            self._write_all(source, names.shown(process), block.bare, now)
+            self._write_all(source, names.shown(process), bare, now)
             self._records.write(told)
         if shown and stream in self._shown[process]:
-            self._sheets.output.write(source, self._prefixes[process], block)
+            self._sheets.output.write(source, self._prefixes[process], data, clean=clean)
 
     def let_through(self, process: str, data: bytes) -> None:
         """Show raw output of a process that has the user's terminal for itself."""
@@ -102,10 +102,10 @@ class Journal:
     def say(self, text: str) -> None:
         """Tell the user something, in whole lines."""
         self.note(text)
-        sheet = self._sheets.messages
+        sheet, data = self._sheets.messages, _bytes(f"{text}\n")
         prefix = f"[{OURSELVES}] "
         shown = f"\x1b[1m{prefix}\x1b[0m" if sheet.colour else prefix
-        sheet.write(OURSELVES, shown.encode(), block_of(_bytes(f"{text}\n")))
+        sheet.write(OURSELVES, shown.encode(), data, clean=harmless(plain(data)))
 
     def note(self, text: str) -> None:
         """Keep something for whoever reads the run afterwards, in whole lines."""

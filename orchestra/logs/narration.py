@@ -13,7 +13,6 @@ from orchestra.logs.terminal_text import harmless
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from orchestra.logs.block import Block
     from orchestra.logs.heads import Head
 
 # A line without a head belongs to the message before it only where it comes at once: a message is written in one go.
@@ -42,9 +41,11 @@ class Narration:
         self._begins.clear()
         self._last.clear()
 
-    def add(self, stream: str, block: Block, now: float) -> bytes:
-        """Return the records of the lines that a piece of output completes, each with its newline."""
-        lines, clean = block.bare, block.clean
+    def add(self, stream: str, lines: bytes, now: float, *, clean: bool) -> bytes:
+        """Return the records of the lines that a piece of output without colours completes, each with its newline.
+
+        `clean` says that it is harmless.
+        """
         if stream in self._held:
             held = self._held.pop(stream)
             lines, clean = held + lines, clean and harmless(held)
@@ -90,7 +91,7 @@ class Narration:
 
 
 def _alike(begin: str, lines: bytes, *, clean: bool) -> bytes:
-    """Return the records of lines, each with its newline, that have one begin. `clean` is that of a `Block`."""
+    """Return the records of lines, each with its newline, that have one begin; `clean` says that they are harmless."""
     if clean and lines.isascii():
         # Of what JSON cannot have as it stands, they can have these three alone.
         text = lines.replace(b"\\", rb"\\").replace(b'"', rb"\"").replace(b"\t", rb"\t")

@@ -101,7 +101,7 @@ class Screen:
     def _push(self) -> None:
         while self._waiting:
             try:
-                written = os.writev(self.descriptor, self._pieces())
+                written = self._write()
             except BlockingIOError:
                 return
             except OSError:  # hung up: nobody sees it any more, and the log files have it
@@ -110,14 +110,17 @@ class Screen:
             self._size -= written
             self._forget(written)
 
-    def _pieces(self) -> list[bytes | memoryview]:
+    def _write(self) -> int:
+        """Write what can be written with one call; return how much that was."""
         if not self._careful:
-            return [*islice(self._waiting, _AT_ONCE)]
+            if len(self._waiting) == 1:
+                return os.write(self.descriptor, self._waiting[0])
+            return os.writev(self.descriptor, [*islice(self._waiting, _AT_ONCE)])
         poll = select.poll()
         poll.register(self.descriptor, select.POLLOUT)
         if not poll.poll(0):
             raise BlockingIOError
-        return [self._waiting[0][:_CAREFUL_PIECE]]
+        return os.write(self.descriptor, self._waiting[0][:_CAREFUL_PIECE])
 
     def _forget(self, written: int) -> None:
         while written and written >= len(self._waiting[0]):

@@ -8,7 +8,6 @@ from orchestra.logs.page import Page
 from orchestra.logs.terminal_text import for_screen, overwrites
 
 if TYPE_CHECKING:
-    from orchestra.logs.block import Block
     from orchestra.logs.screen import Screen
 
 
@@ -21,11 +20,14 @@ class Sheet:
         self._returned = False
         self.colour = colour
 
-    def write(self, source: object, prefix: bytes, block: Block) -> None:
-        """Show a piece of a source's output; what is overwritten with carriage returns is so here."""
-        shown = for_screen(block.data, clean=block.clean)
-        again = self._page.continues(source) and (self._returned or overwrites(block.data))
-        self._returned = block.data.endswith(b"\r")
+    def write(self, source: object, prefix: bytes, data: bytes, *, clean: bool) -> None:
+        """Show a piece of a source's output; what is overwritten with carriage returns is so here.
+
+        `clean` says that it is harmless but for colours.
+        """
+        shown = for_screen(data, clean=clean)
+        again = self._page.continues(source) and (self._returned or overwrites(data))
+        self._returned = data.endswith(b"\r")
         if shown:
             again = again and not shown.startswith(b"\n")
             self._screen.write(self._page.compose(source, prefix, shown, again=again))

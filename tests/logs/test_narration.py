@@ -5,22 +5,23 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from orchestra.logs import records
-from orchestra.logs.block import Block, block_of
 from orchestra.logs.lines import LONGEST_HELD
 from orchestra.logs.narration import Narration
 from orchestra.logs.records import Record
+from orchestra.logs.terminal_text import harmless, plain
 
 HEAD = "[{}] [1700000000.123456789] [robot1.ekf]: "
 
 
-def block(text: str) -> Block:
-    return block_of(text.encode("utf-8", "surrogateescape"))
+def add(narration: Narration, stream: str, text: str, now: float) -> bytes:
+    bare = plain(text.encode("utf-8", "surrogateescape"))
+    return narration.add(stream, bare, now, clean=harmless(bare))
 
 
 def told(text: str, environment: dict[str, str] | None = None) -> list[tuple[str | None, str | None, str]]:
     narration = Narration("/a")
     narration.begin(7, environment or {})
-    lines = (narration.add("stderr", block(text), 5.0) + narration.end(5.0)).splitlines()
+    lines = (add(narration, "stderr", text, 5.0) + narration.end(5.0)).splitlines()
     return [(record.severity, record.logger, record.text) for record in map(records.loads, lines)]
 
 
@@ -39,9 +40,9 @@ def test_lines_of_one_message_are_as_grave_as_its_head() -> None:
 def test_what_comes_later_or_on_another_stream_is_no_part_of_the_message() -> None:
     narration = Narration("/a")
     narration.begin(7, {})
-    narration.add("stderr", block(HEAD.format("WARN") + "x\n"), 5.0)
-    other = records.loads(narration.add("stdout", block("out\n"), 5.0))
-    late = records.loads(narration.add("stderr", block("later\n"), 5.2))
+    add(narration, "stderr", HEAD.format("WARN") + "x\n", 5.0)
+    other = records.loads(add(narration, "stdout", "out\n", 5.0))
+    late = records.loads(add(narration, "stderr", "later\n", 5.2))
     assert (other.severity, late.severity) == (None, None)
 
 
@@ -78,7 +79,7 @@ def test_the_form_of_the_process_counts(
 def test_every_line_becomes_one_record_whatever_is_in_it(pieces: list[str]) -> None:
     narration = Narration('/a"b')
     narration.begin(7, {})
-    found = b"".join(narration.add("stdout", block(piece), 1.25) for piece in pieces) + narration.end(1.25)
+    found = b"".join(add(narration, "stdout", piece, 1.25) for piece in pieces) + narration.end(1.25)
     text = "".join(pieces)
     lines = text.removesuffix("\n").split("\n") if text else []
     if "\x1b" not in text:
@@ -88,7 +89,7 @@ def test_every_line_becomes_one_record_whatever_is_in_it(pieces: list[str]) -> N
 
 def test_a_line_without_end_comes_in_pieces() -> None:
     narration = Narration("/a")
-    found = b"".join(narration.add("stdout", block("x" * 5000), 1.0) for _ in range(100))
+    found = b"".join(add(narration, "stdout", "x" * 5000, 1.0) for _ in range(100))
     texts = [records.loads(line).text for line in found.splitlines()]
     assert texts
     assert all(len(text) <= LONGEST_HELD + 5000 for text in texts)
@@ -99,6 +100,6 @@ def test_a_line_without_end_comes_in_pieces() -> None:
 def test_an_unfinished_line_is_told_at_the_end_under_its_own_pid() -> None:
     narration = Narration("/a")
     narration.begin(7, {})
-    assert narration.add("stdout", block("no end"), 1.0) == b""
+    assert add(narration, "stdout", "no end", 1.0) == b""
     assert records.loads(narration.end(2.0)) == Record(2.0, "/a", 7, "stdout", None, None, "no end")
     assert narration.end(2.0) == b""

@@ -4,9 +4,9 @@ import os
 
 import pytest
 
-from orchestra.logs.block import block_of
 from orchestra.logs.screen import Screen
 from orchestra.logs.sheets import Sheet
+from orchestra.logs.terminal_text import harmless, plain
 
 Pieces = list[tuple[str, str]]
 
@@ -16,7 +16,8 @@ def shown(pieces: Pieces) -> str:
     screen = Screen(writable, lambda _wanted: None)
     sheet = Sheet(screen, colour=False)
     for source, text in pieces:
-        sheet.write(source, f"[{source}] ".encode(), block_of(text.encode()))
+        data = text.encode()
+        sheet.write(source, f"[{source}] ".encode(), data, clean=harmless(plain(data)))
     sheet.end()
     screen.close()
     os.close(writable)
@@ -48,7 +49,7 @@ def test_output_that_is_let_through_stands_as_it_is_between_lines_of_others() ->
     sheet.let_through("a", b"\x1b[2J\xff> ")
     sheet.let_through("a", b"ls\r\n")
     sheet.let_through("a", b"> ")
-    sheet.write("b", b"[b] ", block_of(b"hello\n"))
+    sheet.write("b", b"[b] ", b"hello\n", clean=True)
     sheet.let_through("a", b"x\n")
     screen.close()
     os.close(writable)

@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 # read and the round that leads to it take as long as writing some hundred lines.
 _READ_SIZE = 65536
 _LARGE = 262144
+# More than anything that is made of what is read at a time. The allocator of glibc maps what is larger than 128 KiB
+# anew each time, and the kernel fills it with zeros, which takes as long as all of our own work; once something of this
+# size has been given back it keeps as much (mallopt(3), M_MMAP_THRESHOLD).
+_TO_KEEP = 4 * 1024 * 1024
 # More than a terminal holds: its buffers take 64 KiB and a page.
 _TERMINAL_HOLDS = 131072
 # A line without an end, such as a question or a progress bar, is shown after this time, in seconds.
@@ -117,6 +121,7 @@ class Stream:
         """Let a busy pipe hold more; a terminal has one size, and a user's pipes have one limit (pipe(7))."""
         if self._size < _LARGE:
             self._size = _LARGE
+            bytes(_TO_KEEP)  # its pages are never touched
             with contextlib.suppress(OSError):
                 fcntl.fcntl(self._descriptor, fcntl.F_SETPIPE_SZ, _LARGE)
 
