@@ -7,7 +7,7 @@ from collections.abc import Set as AbstractSet
 from dataclasses import field
 from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias
 
-from orchestra.dataclass import dataclass
+from orchestra.dataclass import dataclass, maker
 from orchestra.description.text import Opaque
 from orchestra.errors import Problems
 from orchestra.location import Location, Span
@@ -63,6 +63,12 @@ class Value:
     through: tuple[Read, ...] = field(default=(), compare=False, repr=False, kw_only=True)
     verbatim: bool = field(default=False, compare=False, repr=False, kw_only=True)
     raw: str | None = field(default=None, compare=False, repr=False, kw_only=True)
+
+
+# What a resolution makes thousands of.
+new_location = maker(Location)
+new_read = maker(Read)
+new_value = maker(Value)
 
 
 class Poison:
@@ -159,4 +165,4 @@ class Context:
 
     def at(self, span: Span) -> Location:
         """Return the location of a span of the current file."""
-        return Location(span, self.included_from)
+        return new_location(span, self.included_from)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.description.text import Opaque, Words
-from orchestra.resolve.context import POISON, Poison, Value
+from orchestra.resolve.context import POISON, Poison, new_location, new_value
 from orchestra.resolve.substitutions.table import SUBSTITUTIONS
 
 if TYPE_CHECKING:
@@ -18,12 +18,15 @@ def evaluate(template: Template, context: Context) -> Evaluated:
 
     Every part is evaluated even where one is faulty, so that all faults are reported and all reads are seen.
     """
+    parts = template.parts
+    if len(parts) == 1 and type(parts[0]) is Words and not template.faulty:
+        return new_value(parts[0].text, new_location(template.span, context.included_from), verbatim=True)
     if template.constant is not None and not template.faulty:
-        return Value(template.constant, context.at(template.span), verbatim=True)
+        return new_value(template.constant, context.at(template.span), verbatim=True)
     texts: list[str] = []
     poisoned = template.faulty
     with context.variables.tracing() as reads:
-        for part in template.parts:
+        for part in parts:
             if isinstance(part, Words):
                 texts.append(part.text)
                 continue
@@ -34,7 +37,7 @@ def evaluate(template: Template, context: Context) -> Evaluated:
                 texts.append(value.text)
     if poisoned:
         return POISON
-    return Value("".join(texts), context.at(template.span), through=tuple(reads), raw=template.raw)
+    return new_value("".join(texts), context.at(template.span), through=tuple(reads), raw=template.raw)
 
 
 def perform(part: Call | Opaque, context: Context) -> Evaluated:

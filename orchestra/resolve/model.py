@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import field
 from typing import Any, Literal, TypeAlias
 
-from orchestra.dataclass import dataclass
+from orchestra.dataclass import dataclass, maker
 from orchestra.location import Location, Span
 from orchestra.resolve.awaited import ResolvedAlive, ResolvedReady
 from orchestra.resolve.context import Read, Value
@@ -77,6 +77,9 @@ class ResolvedRemap:
 
     source: Value
     target: Value
+
+
+new_remap = maker(ResolvedRemap)
 
 
 @dataclass(frozen=True, slots=True)
@@ -162,6 +165,7 @@ class ResolvedProcess:
     through: tuple[Read, ...] = field(default=(), compare=False, repr=False)
     limits: Limits | None = None
     stdin: Location | None = None
+    warm: bool | None = None
     params_schema: NamedSchema | None = None
     share: str | None = None
     origin: Any = field(default=None, compare=False, repr=False)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
-from orchestra.resolve.context import POISON, Evaluated, Poison, Read, Value
+from orchestra.resolve.context import POISON, Evaluated, Poison, Read, Value, new_read, new_value
 from orchestra.resolve.names import joined, mended, namespace_fault
 from orchestra.resolve.refusals import refuse_value
 
@@ -36,12 +36,14 @@ def below(base: Evaluated | None, namespace: Evaluated | None, problems: Problem
         meant = mended(written.text, lambda name: namespace_fault(joined(outer, name) or ""))
         return refuse_value(written, problems, Code.BAD_NAME, message, meant=meant)
     around = () if base is None else (pushed(base),)
-    return Value(text, written.location, through=around + (() if namespace is None else namespace.through))
+    return new_value(
+        text, written.location, through=around + (() if namespace is None else namespace.through)
+    )
 
 
 def pushed(base: Value) -> Read:
     """Return what is noted of the namespace that something stands in."""
-    return Read("namespace", "", base.text, "push", base.location, base.through)
+    return new_read("namespace", "", base.text, "push", base.location, base.through)
 
 
 def namespace_at(written: Template | None, at: Span, run: Resolution) -> Evaluated | None:

@@ -23,7 +23,7 @@ def named(template: Template | None, run: Resolution) -> Evaluated | None:
     value = run.evaluate(template)
     if value is None or isinstance(value, Poison):
         return value
-    name = replace(value, text=value.text.removeprefix("/"))
+    name = replace(value, text=value.text[1:]) if value.text.startswith("/") else value
     fault = node_name_fault(name.text)
     if fault is None:
         return name

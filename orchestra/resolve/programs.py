@@ -76,14 +76,17 @@ def _is_runnable(path: str, location: Location, run: Resolution) -> bool:
     What only this machine lacks, or what is wrong with a file of others, is a warning where nothing is started.
     """
     environment = run.scope.environment
-    key = ("program", path, environment.get("PATH", os.defpath))
-    told, fault = once(key, lambda: _seen(path, environment))
+    search = environment.get("PATH", os.defpath)
+    if (path, search) in run.startable:
+        return True
+    told, fault = once(("program", path, search), lambda: _seen(path, environment))
     if told:
         certain = run.inputs.launching or Path(path).is_relative_to(folder_of(run.context.file))
         report = run.problems.error if certain else run.problems.warning
         report(Code.MISSING_EXECUTABLE, f"{displayed(path)} is {told}", location)
         return not certain
     if fault is None:
+        run.startable.add((path, search))
         return True
     message = f"{displayed(path)} cannot be started: {fault.reason}"
     report = run.problems.warning if fault.here and not run.inputs.launching else run.problems.error

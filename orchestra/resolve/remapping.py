@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from orchestra.errors import Code
 from orchestra.location import is_python
 from orchestra.resolve.context import Value
-from orchestra.resolve.model import ResolvedRemap
+from orchestra.resolve.model import ResolvedRemap, new_remap
 from orchestra.resolve.names import InvalidName, mended, rule_name_fault
 from orchestra.resolve.refusals import refuse_value
 from orchestra.resolve.remaps import read_rule
@@ -33,10 +33,11 @@ def remap(source: Template, target: Template, run: Resolution) -> ResolvedRemap 
         meant = mended(value.text, rule_name_fault)
         refuse_value(value, run.problems, Code.BAD_NAME, message, meant=meant)
         return None
-    if source.constant is not None and source.constant == target.constant and not is_python(source.span):
+    same = left.text == right.text and source.constant is not None and source.constant == target.constant
+    if same and not is_python(source.span):
         message = f"'{left.text}' is remapped to itself"
         run.problems.warning(Code.IDLE_REMAP, message, right.location)
-    return ResolvedRemap(left, right)
+    return new_remap(left, right)
 
 
 def remaps(written: Sequence[Remap], run: Resolution) -> tuple[tuple[ResolvedRemap, ...], bool]:

@@ -65,7 +65,10 @@ class Frame:
 
 @dataclass(slots=True)
 class Resolution:
-    """Where the visit is, and what it may use. `around` are the objects of Python launch files that it is inside of."""
+    """Where the visit is, and what it may use. `around` are the objects of Python launch files that it is inside of.
+
+    `startable` has the programs that have been found to be there and sound, each with the search path.
+    """
 
     inputs: Inputs
     problems: Problems
@@ -82,6 +85,7 @@ class Resolution:
     conditions: int = 0
     repetitions: int = 0
     held: tuple[Held, ...] = ()
+    startable: set[tuple[str, str]] = field(default_factory=set)
     descriptions: dict[str, Description | None] = field(default_factory=dict)
     parameter_files: dict[tuple[str, bool], FileParameters | None] = field(default_factory=dict)
     make_engine: Callable[[Resolution], Any] | None = None
@@ -162,6 +166,8 @@ class Resolution:
 
     def flag(self, template: Template | None, default: bool | None = None) -> bool | Poison | None:
         """Return what a text comes to as true or false; anything else is reported."""
+        if template is None:
+            return default
         value = self.evaluate(template)
         if value is None:
             return default
@@ -176,6 +182,8 @@ class Resolution:
 
     def number(self, template: Template | None) -> float | Poison | None:
         """Return what a text comes to as a number of seconds; anything else is reported."""
+        if template is None:
+            return None
         value = self.evaluate(template)
         if value is None or isinstance(value, Poison):
             return value
@@ -190,6 +198,8 @@ class Resolution:
 
     def integer(self, template: Template | None) -> int | Poison | None:
         """Return what a text comes to as a whole number; anything else is reported."""
+        if template is None:
+            return None
         value = self.evaluate(template)
         if value is None or isinstance(value, Poison):
             return value
@@ -201,6 +211,8 @@ class Resolution:
 
     def word(self, template: Template | None, words: Sequence[str]) -> str | Poison | None:
         """Return what a text comes to, which is one of a few words; anything else is reported."""
+        if template is None:
+            return None
         value = self.evaluate(template)
         if value is None or isinstance(value, Poison):
             return value

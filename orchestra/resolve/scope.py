@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.location import Location, Span
-from orchestra.resolve.context import POISON, Evaluated, Read, Setter, Value
+from orchestra.resolve.context import POISON, Evaluated, Read, Setter, Value, new_read
 from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.model import EnvironmentChange, InlineParameter, ParameterSource, ResolvedRemap
 from orchestra.resolve.scalars import flow
@@ -110,18 +110,9 @@ class Scope:
             read = Read(kind, name, value, "parameter", at, through)
         self._reads.append(read)
 
-    @contextmanager
-    def tracing(self) -> Iterator[list[Read]]:
+    def tracing(self) -> Tracing:
         """Collect what is read meanwhile."""
-        outer = self._reads
-        inner: list[Read] = []
-        self._reads = inner
-        try:
-            yield inner
-        finally:
-            self._reads = outer
-            if outer is not None:
-                outer += inner
+        return Tracing(self)
 
     def names(self) -> tuple[str, ...]:
         """Return the names of the variables that are set."""
@@ -261,10 +252,30 @@ class Scope:
         self._put(self.variables, name, replace(variable, leaked_from=None))
 
 
+class Tracing:
+    """A while in which what is read in a scope is collected; what is around it gets it too."""
+
+    __slots__ = ("_outer", "_reads", "_scope")
+
+    def __init__(self, scope: Scope) -> None:
+        self._scope = scope
+        self._outer: list[Read] | None = None
+        self._reads: list[Read] = []
+
+    def __enter__(self) -> list[Read]:
+        self._outer, self._scope._reads = self._scope._reads, self._reads  # noqa: SLF001 - a part of it
+        return self._reads
+
+    def __exit__(self, *_: object) -> None:
+        self._scope._reads = self._outer  # noqa: SLF001 - as above
+        if self._outer is not None:
+            self._outer += self._reads
+
+
 def read_of(name: str, value: Value, variable: Variable) -> Read:
     """Return what is noted of a variable that is read."""
     written = value.location if value.verbatim else None
-    return Read(
+    return new_read(
         "variable", name, value.text, variable.setter, variable.location, value.through, written, value
     )
 

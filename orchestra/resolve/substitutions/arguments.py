@@ -12,7 +12,7 @@ from typing import TypeAlias
 from orchestra.description.text import Call, Template
 from orchestra.errors import Code
 from orchestra.resolve.booleans import boolean
-from orchestra.resolve.context import Context, Evaluated, Poison, Value
+from orchestra.resolve.context import Context, Evaluated, Poison, Value, new_value
 from orchestra.resolve.refusals import refuse
 
 Evaluate: TypeAlias = Callable[[Template, Context], Evaluated]
@@ -28,7 +28,7 @@ def texts(call: Call, context: Context, evaluate: Evaluate) -> tuple[str, ...] |
 
 def made(call: Call, context: Context, text: str) -> Value:
     """Return the result of a substitution, which points at where the substitution is written."""
-    return Value(text, context.at(call.span))
+    return new_value(text, context.at(call.span))
 
 
 def truth(flag: bool) -> str:

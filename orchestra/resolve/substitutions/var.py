@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from orchestra.description.text import Words
 from orchestra.errors import Code
+from orchestra.resolve.context import Value, new_value
 from orchestra.resolve.substitutions.lookup import looked_up
 
 if TYPE_CHECKING:
@@ -16,6 +18,12 @@ if TYPE_CHECKING:
 def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
     """Return the variable's value, else the default, which is evaluated only then."""
     at = context.at(call.span)
+    written = call.arguments[0]
+    name = written.parts[0] if len(written.parts) == 1 and not written.faulty else None
+    if isinstance(name, Words):
+        value = context.variables.get(name.text, at)
+        if isinstance(value, Value):
+            return new_value(value.text, at)
     return looked_up(
         call,
         context,
