@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from orchestra.cli import boundary, colour, leaving
+from orchestra.cli import boundary, colour, leaving, patience
 from orchestra.cli.parser import CommandParser
 from orchestra.errors import UsageError
 
@@ -42,7 +42,21 @@ def parser() -> CommandParser:
         action="store_true",
         help="write what can be converted, with a comment in place of what cannot",
     )
+    made.add_argument(
+        "--time-limit",
+        type=_seconds,
+        default=120.0,
+        metavar="SECONDS",
+        help="how long code of the file may take (default: 120)",
+    )
     return made
+
+
+def _seconds(word: str) -> float:
+    seconds = float(word)
+    if not 0 < seconds < float("inf"):
+        raise ValueError
+    return seconds
 
 
 def run(options: Namespace) -> int:
@@ -51,7 +65,7 @@ def run(options: Namespace) -> int:
         raise UsageError(f"{options.output} is there already: --force writes over it")
     from orchestra.convert.converting import convert  # noqa: PLC0415 - heavy, and `--help` does not need it
 
-    with leaving.contained():
+    with leaving.contained(), patience.patient(options.time_limit, options.file):
         converted = convert(
             options.file, options.to, os.environ, output=_folder(options), partial=options.partial
         )

@@ -46,12 +46,14 @@ class Formatting:
     changed: int = 0
     unchanged: int = 0
     failed: int = 0
+    in_python: int = 0
 
     def file(self, path: Path, kind: Kind) -> None:
         """Format one file, of a kind that is known."""
-        if path.suffix == PYTHON:
-            return
         shown = displayed(str(path))
+        if path.suffix == PYTHON:
+            self.in_python += 1
+            return
         try:
             content = path.read_bytes()
         except OSError as error:
@@ -96,8 +98,12 @@ class Formatting:
         told = []
         if self.changed:
             told.append(f"{_files(self.changed)} {verb}")
-        if self.unchanged or not self.changed:
+        if self.unchanged or not (self.changed or self.in_python):
             told.append(f"{_files(self.unchanged)} left unchanged")
+        if not told:
+            told.append(
+                f"{_files(self.in_python)} in Python left alone: YAML, XML and parameter files are formatted"
+            )
         return ", ".join(told) + "\n"
 
     def _result(self, content: bytes, shown: str, kind: Callable[[str], Kind]) -> bytes | None:

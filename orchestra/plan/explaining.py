@@ -14,6 +14,11 @@ if TYPE_CHECKING:
     from orchestra.plan.model import Component, Plan, Process
 
 _SIGNS = {".": "parameter", ":": "remapping", "$": "environment"}
+_BEHIND = {
+    ".": "the name of a parameter",
+    ":": "the name of a topic or service",
+    "$": "the name of a variable",
+}
 
 
 class UnknownSubjectError(ValueError):
@@ -31,6 +36,8 @@ def explain(plan: Plan, target: str, inherited: Mapping[str, str]) -> Explanatio
     `UnknownSubjectError`.
     """
     record, sign, name = _found(plan, target)
+    if sign and not name:
+        raise UnknownSubjectError(f"'{target}' is not all: {_BEHIND[sign]} stands behind the '{sign}'", None)
     match _SIGNS.get(sign):
         case "parameter":
             values = list(_parameters(record, name))

@@ -79,3 +79,15 @@ def test_a_question_that_nobody_answers_is_told(folder: Path, home: Path) -> Non
         _, told = process.communicate("", timeout=_PATIENCE)
     assert process.returncode == 2
     assert "a.launch.py:4:43: error: EOFError" in told
+
+
+@pytest.mark.parametrize(
+    "body", ["pass", "try: __import__('time').sleep(600)\n        except BaseException: pass"]
+)
+def test_a_conversion_has_a_time_limit(folder: Path, home: Path, body: str) -> None:
+    (folder / "a.launch.py").write_text(_ENDLESS.format(body=body))
+    words = ("convert", "a.launch.py", "--to", "yaml", "--time-limit", "0.5")
+    with _started(folder, home, *words) as process:
+        out, err = process.communicate(timeout=_PATIENCE)
+    assert (process.returncode, out) == (2, "")
+    assert "error: the code of a.launch.py takes longer than 0.5 s (--time-limit)" in err

@@ -118,3 +118,10 @@ def test_a_command_line_that_makes_no_sense_is_refused(orchestra: Command, words
 def test_the_bringup_is_formatted(orchestra: Command) -> None:
     found = orchestra("format", "--check", str(_ROOT / "bringup"))
     assert (found.returncode, found.stdout) == (0, "")
+
+
+def test_a_launch_file_in_python_is_left_to_others(orchestra: Command, folder: Path) -> None:
+    (folder / "a.launch.py").write_text("x = [1,2]\n")
+    found = orchestra("format", "a.launch.py")
+    assert (found.returncode, found.stdout) == (0, "")
+    assert found.stderr == "1 file in Python left alone: YAML, XML and parameter files are formatted\n"

@@ -270,3 +270,12 @@ def test_parameters_of_the_command_line_are_those_of_both(orchestra: Command, fo
     (change,) = _data(found)["processes"][1]["changes"]
     assert (change["before"], change["after"]) == (3, 9)
     assert change["before_at"]["file"] == "command line"
+
+
+def test_a_revision_that_there_is_not_is_told_as_such(orchestra: Command, repository: Path) -> None:
+    found = orchestra("plan", "outer.yaml", "--diff", "HEAD~999")
+    assert found.returncode == 2
+    told = f"'HEAD~999' is no launch file, no saved plan and no git revision of {repository}"
+    assert found.stderr.startswith(f"error: {told}\n")
+    gone = orchestra("plan", "outer.yaml", "--diff", "gone.launch.yaml")
+    assert "there is no launch file gone.launch.yaml" in gone.stderr

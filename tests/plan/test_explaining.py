@@ -196,6 +196,8 @@ def test_a_variable_that_the_description_leaves_alone_is_the_callers(made: Plan)
         ("/r1/arm/x.speed", "/r1/arm/a"),
         ("nothing like it", None),
         ("/r1/arm/a:sc an", "scan"),
+        ("/r1/arm/a.", None),
+        ("/r1/arm/a$", None),
     ],
 )
 def test_what_is_not_there_is_refused_with_what_is_near(made: Plan, subject: str, meant: str | None) -> None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra import pipeline
 from orchestra.cli.planning import revisions, sources
@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.cli.planning.sources import Made
+
+
+_OF_FILES: Final = (".py", ".xml", ".yaml", ".yml", ".launch", ".json")
 
 
 def other(words: Sequence[str], options: Namespace, first: Made) -> Made:
@@ -35,10 +38,21 @@ def other(words: Sequence[str], options: Namespace, first: Made) -> Made:
         found = revisions.find(names[0], first.file)
         if found is not None:
             return revisions.made(found, own, options)
-    file, _ = pipeline.find_launch_file(names)
+    file = _found(names, first)
     if not arguments and first.file is not None and os.path.realpath(file) == os.path.realpath(first.file):
         own = []
     return sources.from_file(file, own, options)
+
+
+def _found(names: Sequence[str], first: Made) -> str:
+    """Return the launch file that words name. Raises `UsageError`; a word that may mean a revision is told as such."""
+    try:
+        return pipeline.find_launch_file(names)[0]
+    except UsageError:
+        if len(names) > 1 or names[0].endswith(_OF_FILES):
+            raise
+    reason = revisions.why_none(first.file)
+    raise UsageError(f"{names[0]!r} is no launch file, no saved plan and no git revision{reason}")
 
 
 def _launch_file(first: Made) -> str:

@@ -63,6 +63,13 @@ def find(word: str, file: str | None) -> Revision | None:
     return Revision(folder, name, os.path.relpath(Path(file).resolve(), folder))
 
 
+def why_none(file: str | None) -> str:
+    """Return what to say where no revision can be found beside a launch file, nothing where it is the name of it."""
+    beside = Path(file).resolve().parent if file is not None else Path.cwd()
+    root = _git(beside, "rev-parse", "--show-toplevel")
+    return f" of {root}" if root is not None else f": {beside} is in no git repository"
+
+
 def made(revision: Revision, words: Sequence[str], options: Namespace) -> Made:
     """Make the plan of a file in its revision, with these arguments.
 
