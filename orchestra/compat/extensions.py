@@ -27,7 +27,7 @@ if TYPE_CHECKING:
 
 RUNNING: Final = (
     *("depends_on", "ready", "alive", "restart", "required", "stop", "success_exit_codes"),
-    *("stdin", "limits"),
+    *("stdin", "limits", "warm"),
 )
 INCLUDED: Final = ("for_each", "scoped", "label", "depends_on")
 

@@ -66,6 +66,11 @@ class Running(Action):
     stdin: Flag | None = Field(
         default=None, description="Whether it reads what is typed; one process of a run may."
     )
+    warm: Flag | None = Field(
+        default=None,
+        description="Whether it may be forked from a process that has the imports of nodes; where absent, a node in"
+        " Python is, unless that would make a difference.",
+    )
     limits: Limits | None = Field(default=None, description="What it may use, and where it runs.")
 
     def conflict(self) -> Conflict | None:

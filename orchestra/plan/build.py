@@ -20,6 +20,7 @@ from orchestra.plan.provenance import environment_of, provenance
 from orchestra.plan.remappings import check_remaps
 from orchestra.plan.terminal import check_stdin
 from orchestra.plan.triggers import triggers
+from orchestra.plan.warm import wish
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -137,7 +138,7 @@ def _process(
         depends_on=edges,
         stop=process.stop,
         limits=process.limits,
-        warm=None,
+        warm=wish(process.warm),
         machine=None,
         digest=_digest(process, words, environment, parameters.values, files) if digests else "",
         location=process.location,

@@ -47,6 +47,11 @@ class Program(NamedTuple):
     imports: bool
 
 
+def wish(wanted: bool | None) -> Warm | None:
+    """Return what the description says of it, until `warmed` decides."""
+    return None if wanted is None else Warm(wanted, None if wanted else NOT_WANTED)
+
+
 def warmed(plan: Plan, environment: Mapping[str, str]) -> Plan:
     """Return the plan with `warm` in each process; `environment` is the one in which it is started."""
     general = _general(environment)

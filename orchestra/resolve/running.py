@@ -112,6 +112,7 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         labels=run.frame.labels,
         limits=sound(limits(action.limits, run)),
         stdin=sound(_stdin(action, run)),
+        warm=sound(run.flag(action.warm)),
         location=location,
         conditional=_is_conditional(action, run),
         faulty=sound.faulty
