@@ -6,7 +6,7 @@ Bytes that are not UTF-8 are lone surrogates (PEP 383) in `text`, escaped in JSO
 from __future__ import annotations
 
 import json
-from dataclasses import asdict, fields
+from dataclasses import fields
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
@@ -39,12 +39,14 @@ class Record:
     text: str
 
 
-_NAMES = frozenset(field.name for field in fields(Record))
+_IN_ORDER = tuple(field.name for field in fields(Record))
+_NAMES = frozenset(_IN_ORDER)
+_JSON = json.JSONEncoder()
 
 
 def dumps(record: Record) -> str:
     """Return the record as one line of JSON, without its newline."""
-    return json.dumps(asdict(record))
+    return _JSON.encode({name: getattr(record, name) for name in _IN_ORDER})
 
 
 def loads(line: str | bytes) -> Record:

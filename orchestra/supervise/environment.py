@@ -58,11 +58,25 @@ def node_environment(
     inherit: bool = True,
 ) -> dict[str, str]:
     """Return the environment of a process; `marks` are the ids of the run and of the process."""
-    if inherit:
-        caller = {name: value for name, value in caller.items() if name not in PERSONAL}
-        environment = {**caller, **_for_run(caller, log_folder, colour=colour), **_for_wheels(caller, host)}
-    else:
-        environment = {**_for_wheels({"PATH": host.path or ""}, host), "ROS_LOG_DIR": log_folder}
+    common = common_environment(caller, host, log_folder=log_folder, colour=colour, inherit=inherit)
+    return described(common, description, marks)
+
+
+def common_environment(
+    caller: Mapping[str, str], host: Host, *, log_folder: str, colour: bool, inherit: bool
+) -> dict[str, str]:
+    """Return what all processes of a run have, those that inherit or those that do not."""
+    if not inherit:
+        return {**_for_wheels({"PATH": host.path or ""}, host), "ROS_LOG_DIR": log_folder}
+    caller = {name: value for name, value in caller.items() if name not in PERSONAL}
+    return {**caller, **_for_run(caller, log_folder, colour=colour), **_for_wheels(caller, host)}
+
+
+def described(
+    common: dict[str, str], description: Mapping[str, str | None], marks: tuple[str, str]
+) -> dict[str, str]:
+    """Return the environment of one process: with what its description says, and its marks."""
+    environment = common.copy()
     for name, value in description.items():
         if value is None:
             environment.pop(name, None)

@@ -1,10 +1,14 @@
-"""One thread, one selector, one heap of timers: waits until something happens, and for nothing else."""
+"""One thread, one epoll(7), one heap of timers: waits until something happens, and for nothing else.
+
+`selectors` of the standard library makes a record of each descriptor and looks it up through two layers of mappings at
+every event: for a thousand processes, with three descriptors each, that is a tenth of all that their lives cost.
+"""
 
 from __future__ import annotations
 
 import heapq
 import itertools
-import selectors
+import select
 import time
 from collections.abc import Callable
 from typing import TypeAlias
@@ -55,7 +59,8 @@ class Loop:
     def __init__(self, clock: Callable[[], float] = time.monotonic) -> None:
         self.clock = clock
         self.round = 0
-        self._selector = selectors.DefaultSelector()
+        self._epoll = select.epoll()
+        self._watched: dict[int, Callback] = {}
         self._timers: list[tuple[float, int, Timer]] = []
         self._order = itertools.count()
 
@@ -67,15 +72,18 @@ class Loop:
 
     def on_readable(self, descriptor: int, callback: Callback) -> None:
         """Call whenever the descriptor can be read."""
-        self._selector.register(descriptor, selectors.EVENT_READ, callback)
+        self._epoll.register(descriptor, select.EPOLLIN)
+        self._watched[descriptor] = callback
 
     def on_writable(self, descriptor: int, callback: Callback) -> None:
         """Call whenever the descriptor can be written."""
-        self._selector.register(descriptor, selectors.EVENT_WRITE, callback)
+        self._epoll.register(descriptor, select.EPOLLOUT)
+        self._watched[descriptor] = callback
 
     def forget(self, descriptor: int) -> None:
         """Call no more for this descriptor; do it before the descriptor is closed."""
-        self._selector.unregister(descriptor)
+        del self._watched[descriptor]
+        self._epoll.unregister(descriptor)
 
     def pending(self) -> list[tuple[float, str]]:
         """Return in how many seconds each timer is due, and what it calls; for people."""
@@ -86,17 +94,17 @@ class Loop:
     def run_once(self) -> None:
         """Wait for the next thing to happen and make its calls."""
         timeout = self._until_next_timer()
-        ready = self._selector.select(timeout)
+        ready = self._epoll.poll(timeout, len(self._watched) or 1)
         self.round += 1
-        for key, _ in ready:
+        for descriptor, callback in [(number, self._watched[number]) for number, _ in ready]:
             # An earlier call of this round may have forgotten a later descriptor, and opened the number anew.
-            if self._selector.get_map().get(key.fd) is key:
-                key.data()
+            if self._watched.get(descriptor) is callback:
+                callback()
         self._fire(self.clock())
 
     def close(self) -> None:
-        """Give the selector back."""
-        self._selector.close()
+        """Give the epoll back."""
+        self._epoll.close()
 
     def _until_next_timer(self) -> float | None:
         while self._timers and self._timers[0][2].cancelled:

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 from contextlib import ExitStack, contextmanager
+from functools import cache
 from typing import TYPE_CHECKING, NamedTuple
 
 from orchestra.logs.screen import Screen, same_file
 from orchestra.logs.sheets import Sheet, Sheets
 from orchestra.logs.terminal_text import wants_colour
-from orchestra.supervise.environment import node_environment
+from orchestra.supervise.environment import common_environment, described
 from orchestra.supervise.graph.discovery import quick_discovery
 from orchestra.supervise.graph.observation import Observers
 from orchestra.supervise.host import this_host
@@ -94,15 +95,15 @@ def _environment(
     host, ros_logs = this_host(), str(run_directory.logs / "ros")
     caller = {**os.environ, **quick_discovery(os.environ, run_directory.path)}
 
+    @cache
+    def common(*, inherit: bool) -> dict[str, str]:
+        return common_environment(caller, host, log_folder=ros_logs, colour=colour, inherit=inherit)
+
     def environment(process: Process | None) -> dict[str, str]:
-        return node_environment(
-            caller,
-            host,
-            process.environment if process else {},
-            log_folder=ros_logs,
-            colour=colour,
-            marks=(run_id, process.id if process else ""),
-            inherit=process is None or process.inherit_environment,
+        if process is None:
+            return described(common(inherit=True), {}, (run_id, ""))
+        return described(
+            common(inherit=process.inherit_environment), process.environment, (run_id, process.id)
         )
 
     return environment

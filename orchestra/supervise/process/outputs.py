@@ -4,16 +4,17 @@ from __future__ import annotations
 
 import os
 import termios
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, NamedTuple
 
 from orchestra.supervise.output.terminal import our_size, set_size
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Iterator
 
     from orchestra.supervise.process.spec import Spec
 
+_NAMES = ("stdout", "stderr")
 _OUTPUT_FLAGS = 1  # the index of c_oflag in what tcgetattr returns
 
 
@@ -33,16 +34,19 @@ def opened(spec: Spec) -> Iterator[Ends]:
 
     Raises `OSError`.
     """
-    with ExitStack() as ours, ExitStack() as theirs:
-
-        def owned(pair: tuple[int, int]) -> tuple[int, int]:
-            ours.callback(os.close, pair[0])
-            theirs.callback(os.close, pair[1])
-            os.set_blocking(pair[0], False)
-            return pair
-
-        yield _ends(spec, owned)
-        ours.pop_all()
+    pairs: list[tuple[int, int]] = []
+    try:
+        _make(spec, pairs)
+        for outer, _ in pairs:
+            os.set_blocking(outer, False)
+        yield Ends(dict(zip(_NAMES, (pair[0] for pair in pairs), strict=False)), (pairs[0][1], pairs[-1][1]))
+    except BaseException:
+        for outer, _ in pairs:
+            os.close(outer)
+        raise
+    finally:
+        for _, inner in pairs:
+            os.close(inner)
 
 
 def input_of(spec: Spec, ends: Ends) -> int | None:
@@ -54,12 +58,10 @@ def input_of(spec: Spec, ends: Ends) -> int | None:
     return ends.inner[0] if spec.tty else None
 
 
-def _ends(spec: Spec, owned: Callable[[tuple[int, int]], tuple[int, int]]) -> Ends:
-    pairs = [owned(_terminal() if spec.tty or spec.foremost else os.pipe())]
-    if not spec.foremost:
-        pairs.append(owned(_terminal() if spec.tty else os.pipe()))
-    outer = dict(zip(("stdout", "stderr"), (pair[0] for pair in pairs), strict=False))
-    return Ends(outer, (pairs[0][1], pairs[-1][1]))
+def _make(spec: Spec, pairs: list[tuple[int, int]]) -> None:
+    """Add what was made to the pairs, of which each is an outer and an inner end."""
+    for _ in range(1 if spec.foremost else len(_NAMES)):
+        pairs.append(_terminal() if spec.tty or spec.foremost else os.pipe())  # noqa: PERF401 - the first is closed where the second fails
 
 
 def _terminal() -> tuple[int, int]:

@@ -40,15 +40,15 @@ def spawn(spec: Spec, stdin: int | None = None) -> Child:
 
     Raises `OSError` where that is impossible; `filename` then names what is missing, or what asks for it.
     """
-    if any(
-        "\0" in word
-        for word in (*spec.command, *spec.environment, *spec.environment.values(), spec.cwd or "")
-    ):
-        raise OSError(errno.EINVAL, "a word of it has a byte that is 0")  # none can (execve(2))
     with outputs.opened(spec) as ends:
         read = outputs.input_of(spec, ends) if stdin is None else stdin
         open_files.see_to_room(max(ends.outer.values()))
-        pid = _spawned(spec, read, ends) or _forked(spec, read, ends)
+        try:
+            pid = _spawned(spec, read, ends) or _forked(spec, read, ends)
+        except (
+            ValueError
+        ) as error:  # from the interpreter, which hands on no such word; none can be (execve(2))
+            raise OSError(errno.EINVAL, "a word of it has a byte that is 0") from error
         return watched(pid, ends.outer, tty=spec.tty or spec.foremost)
 
 
