@@ -132,6 +132,22 @@ def test_a_process_without_a_field_is_no_process(orchestra: Command, everything:
         assert _faults("plan", {**plan, "processes": [process]}), field
 
 
+def test_differences_and_explanations_fulfil_their_schemas(
+    orchestra: Command, everything: str, folder: Path
+) -> None:
+    (folder / "one.launch.yaml").write_text("launch:\n  - executable: {cmd: 'true', name: one}\n")
+    compared = orchestra("plan", everything, "--format", "json", "--diff", "one.launch.yaml")
+    difference = json.loads(compared.stdout)
+    assert difference["processes"]
+    assert _faults("difference", difference) == []
+    assert _faults("difference", {**difference, "version": 2})
+    plan = json.loads(orchestra("plan", everything, "--format", "json").stdout)
+    subject = plan["processes"][0]["id"]
+    explained = json.loads(orchestra("plan", everything, "--format", "json", "--explain", subject).stdout)
+    assert _faults("explanation", explained) == []
+    assert _faults("explanation", {**explained, "explained": [{"id": subject}]})
+
+
 def test_problems_fulfil_their_schema(orchestra: Command, folder: Path) -> None:
     (folder / "bad.launch.yaml").write_text("launch:\n  - executable: {cmd: x, nmae: y}\n  - nod: {}\n")
     problems = json.loads(orchestra("check", "bad.launch.yaml", "--format", "json").stdout)

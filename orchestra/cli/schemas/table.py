@@ -26,10 +26,44 @@ def _plan() -> dict[str, Any]:
     return {**schema, "properties": {**schema["properties"], "version": {"const": VERSION}}}
 
 
+def _difference() -> dict[str, Any]:
+    from orchestra.cli.planning.comparison import VERSION as FORM  # noqa: PLC0415 - what plans need, which others do not
+    from orchestra.plan.difference.model import Difference  # noqa: PLC0415 - as above
+
+    schema = record_schema(Difference)
+    named = {"version": {"const": FORM}, "before": {"type": "string"}, "after": {"type": "string"}}
+    return {
+        **schema,
+        "properties": {**named, **schema["properties"]},
+        "required": [*named, *schema["required"]],
+    }
+
+
+def _explanation() -> dict[str, Any]:
+    from orchestra.cli.planning.explanation import VERSION as FORM  # noqa: PLC0415 - as above
+    from orchestra.plan.explained import Explanation  # noqa: PLC0415 - as above
+
+    listed = record_schema(tuple[Explanation, ...])
+    return {
+        "$schema": listed.pop("$schema"),
+        "description": "What `orchestra plan FILE --explain SUBJECT --format json` prints.",
+        "type": "object",
+        "properties": {
+            "version": {"const": FORM},
+            "explained": {key: value for key, value in listed.items() if key != "$defs"},
+        },
+        "required": ["version", "explained"],
+        "additionalProperties": False,
+        "$defs": listed["$defs"],
+    }
+
+
 SCHEMAS: Final[dict[str, Callable[[], dict[str, Any]]]] = {
     "launch": _launch,
     "params": parameters_schema,
     "plan": _plan,
+    "difference": _difference,
+    "explanation": _explanation,
     "event": lambda: record_schema(Event),
     "problem": lambda: record_schema(Problem),
 }
