@@ -6,6 +6,7 @@ order that differs from start to start, and with a variable that tells that this
 
 from __future__ import annotations
 
+import os
 import sys
 
 TYPE_CHECKING = False  # `typing` costs more than this module, which the supervisor imports before all others
@@ -17,14 +18,31 @@ DONE = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
 LIBRARY_PATH = "LD_LIBRARY_PATH"
 
 
+_KNOWN: dict[str, tuple[str, ...]] = {}  # nobody installs wheels for a process that runs
+
+
 def library_folders(prefix: Path) -> tuple[str, ...]:
     """Return the folders that it puts on LD_LIBRARY_PATH, in an order that stays; none where it is not installed."""
-    version = f"python{sys.version_info.major}.{sys.version_info.minor}"
-    packages = prefix / "lib" / version / "site-packages"
-    if not (packages / "ros_wheels_bootstrapper").is_dir():
+    where = str(prefix)
+    if where not in _KNOWN:
+        _KNOWN[where] = _library_folders(where)
+    return _KNOWN[where]
+
+
+def _library_folders(prefix: str) -> tuple[str, ...]:
+    """Look for them; without pathlib, which takes several times as long for some fifty folders."""
+    packages = f"{prefix}/lib/python{sys.version_info.major}.{sys.version_info.minor}/site-packages"
+    if not os.path.isdir(f"{packages}/ros_wheels_bootstrapper"):  # noqa: PTH112
         return ()
-    folders = sorted(str(folder.resolve()) for folder in packages.glob("ros_*.libs") if folder.is_dir())
-    return (str(prefix / "lib"), *folders)
+    real = os.path.realpath(packages)
+    with os.scandir(packages) as entries:
+        found = [entry for entry in entries if entry.name.startswith("ros_") and entry.name.endswith(".libs")]
+        folders = [
+            os.path.realpath(entry.path) if entry.is_symlink() else f"{real}/{entry.name}"
+            for entry in found
+            if entry.is_dir()
+        ]
+    return (f"{prefix}/lib", *sorted(folders))
 
 
 def as_called(environment: Mapping[str, str]) -> Mapping[str, str]:
