@@ -15,7 +15,6 @@ import errno
 import fcntl
 import os
 import signal
-import subprocess
 import termios
 from typing import TYPE_CHECKING
 
@@ -23,7 +22,6 @@ from orchestra.supervise.keeping import kernel
 from orchestra.supervise.process import open_files, outputs
 from orchestra.supervise.process.child import Child
 from orchestra.supervise.process.inherited import inherited
-from orchestra.supervise.process.preparing import reported
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -99,6 +97,11 @@ def _program(name: str, path: str) -> str:
 
 def _forked(spec: Spec, read: int | None, ends: Ends) -> int:
     """Start it in a copy of ourselves that prepares itself. Raises `OSError`."""
+    # Few programs are started so.
+    import subprocess  # noqa: PLC0415
+
+    from orchestra.supervise.process.preparing import reported  # noqa: PLC0415
+
     with reported(_before(spec)) as prepare:
         process = subprocess.Popen(  # noqa: S603 - running what the plan says is the purpose
             spec.command,
