@@ -128,8 +128,11 @@ def _is_duration(text: str) -> bool:
 
 
 def _seconds_of(text: str) -> str | None:
-    """Return the number of seconds that a text with a unit stands for."""
-    found = _WITH_UNIT.fullmatch(text.strip())
+    """Return the number of seconds that a text with a unit, or with a comma for a point, stands for."""
+    pointed = text.strip().replace(",", ".", 1)
+    if _is_duration(pointed):
+        return pointed
+    found = _WITH_UNIT.fullmatch(pointed)
     return None if found is None else f"{float(found[1]) * _UNITS[found[2][:2].lower()]:g}"
 
 

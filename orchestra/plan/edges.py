@@ -128,8 +128,16 @@ def _report_unknown(
         Code.UNKNOWN_DEPENDENCY,
         f"there is no {what} '{name}' to wait for",
         written.name.location,
-        suggestion=nearest(name, known),
+        suggestion=_as_written(nearest(name, known), written, process),
     )
+
+
+def _as_written(meant: str | None, written: ResolvedDependency, process: ResolvedProcess) -> str | None:
+    """Return a name in the form in which another one is written: relative, where it is in the namespace of that."""
+    if meant is None or written.kind != "node" or written.name.text.startswith("/"):
+        return meant
+    namespace = _full("_", process).removesuffix("_")
+    return meant.removeprefix(namespace)
 
 
 def _left_out(written: ResolvedDependency, resolved: Resolved) -> ResolvedSkip | None:

@@ -21,6 +21,7 @@ _LONGEST_TOPIC_NAME = 247
 _WORDS = "only letters, digits and '_' are allowed"
 _PATHS = "only letters, digits, '_' and '/' are allowed"
 _DIGITS = frozenset("0123456789")
+_OF_A_SHELL = re.compile(r"\$(?:\{([A-Za-z_][A-Za-z0-9_]*)\}|([A-Za-z_][A-Za-z0-9_]*))")
 _SUBSTITUTION = re.compile(r"\{([^{}]*)\}")
 # What nothing can be wrong with but its length and `__`; anything else is looked at closely.
 _PLAIN_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
@@ -155,14 +156,21 @@ def expanded(name: str, namespace: str, node: str) -> str:
 def mended(name: str, fault: Callable[[str], Fault | None]) -> str | None:
     """Return a name without what ROS does not allow in it, None where that alone does not help.
 
-    Other characters become `_`, slashes that are too many go away.
+    Other characters become `_`, slashes that are too many go away, `${name}` is what it is in a launch file.
     """
     if not name.isascii() or not re.search("[A-Za-z]", name):
         return None
+    if _OF_A_SHELL.search(name):
+        return _OF_A_SHELL.sub(_substitution, name)
     words = re.sub(r"[^A-Za-z0-9_/~{}]+", "_", name.strip())
     found = re.sub("//+", "/", re.sub("^~(?=[A-Za-z0-9_])", "~/", words))
     found = found.rstrip("/") or found
     return None if found == name or fault(found) is not None else found
+
+
+def _substitution(found: re.Match[str]) -> str:
+    name = found[1] or found[2]
+    return f"$({'env' if name.isupper() else 'var'} {name})"
 
 
 def _path_fault(path: str, longest: int) -> Fault | None:

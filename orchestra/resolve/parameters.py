@@ -12,6 +12,7 @@ from orchestra.location import is_python, point
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.model import InlineParameter, ParameterSource
 from orchestra.resolve.parameter_files import file_parameters
+from orchestra.resolve.paths import beside
 from orchestra.resolve.rcl.overrides import override_value
 from orchestra.resolve.rcl.surprises import plainly
 from orchestra.resolve.scalars import checked, coerced, described, differs, unified, upstream_value
@@ -41,7 +42,9 @@ def parameters(
     """
     found: list[ParameterSource | None] = []
     for param in written:
-        if param.from_ is not None:
+        if param.faulty and param.from_ is not None and beside(run.context.file, param.from_.raw) is None:
+            found.append(None)  # it may be no parameter at all: a remap stands where one belongs
+        elif param.from_ is not None:
             substitute = run.flag(param.allow_substs, default=False)
             sound_flag = isinstance(substitute, bool)
             file = file_parameters(param.from_, run, substitute=substitute is True, plain=component)

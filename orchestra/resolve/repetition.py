@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.description.text import Constant, Items, span_of
 from orchestra.errors import Code
+from orchestra.location import is_python
 from orchestra.resolve.context import POISON, Evaluated, Poison, Value
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ def repeated(for_each: Mapping[str, Written | tuple[Written, ...]] | None, run: 
     values = [_values(written, run) for written in for_each.values()]
     spans = [span for written in for_each.values() if (span := span_of(written)) is not None]
     for written in for_each.values():
-        if isinstance(written, Items) and not written:
+        if isinstance(written, Items) and not written and not is_python(written.span):
             message = "the list is empty: there is nothing to repeat this for"
             run.problems.warning(Code.IDLE_KEY, message, run.at(written.span))
     for combination in product(*values):

@@ -97,8 +97,7 @@ class Reader:
         else:
             self.before_key = copy.copy(self.node)
             self.node.grow(name)
-        self.last_key, self.last_key_at = name, self.at(event)
-        self.expects_key = False
+        self.last_key, self.last_key_at, self.expects_key = name, self.at(event), False
 
     def open_section(self, name: str, event: yaml.ScalarEvent, *, told: bool) -> None:
         """Take the key `ros__parameters`: rcl looks only at how it begins."""
@@ -134,6 +133,10 @@ class Reader:
         said = ".".join([*self.keys[self.node_depth + 1 :], name])
         if whole != said:
             self.surprise(f"rcl reads this as the parameter '{whole}', not '{said}'", self.at(event))
+        elif is_section(name):
+            self.surprise(
+                f"'{name}' stands inside itself: it is read as the parameter '{whole}'", self.at(event)
+            )
         self.parameter = OpenParameter(whole, slot, self.at(event))
 
     def value(self, event: yaml.ScalarEvent) -> None:
@@ -144,8 +147,9 @@ class Reader:
         try:
             read = scalar(event)
         except ValueError:
-            at = self.at(event) if self.lists else self.parameter.key
-            self.error(f"the parameter '{self.parameter.name}' has no value", at)
+            tag = event.tag if event.tag is not None and event.tag.startswith("!") else None
+            at = self.at(event) if self.lists or tag else self.parameter.key
+            self.error(f"the parameter '{self.parameter.name}' has no value", at, tag and f"'{tag}'")
             self.drop()
             return
         if self.lists:
@@ -157,8 +161,7 @@ class Reader:
     def item(self, read: Scalar, event: yaml.ScalarEvent) -> None:
         """Take an item of a list."""
         current = self.lists[-1]
-        if current.items is None:
-            current.items = []
+        current.items = [] if current.items is None else current.items
         current.items.append(read)
         current.written.append(event)
 
