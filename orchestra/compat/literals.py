@@ -14,7 +14,7 @@ from orchestra.location import Span
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from orchestra.compat.place import Place, Step
+    from orchestra.compat.place import Place, Way
 
 _LISTS = ("list", "tuple", "sorted", "set")
 _Parameter = inspect.Parameter
@@ -25,7 +25,7 @@ def keyword(place: Place, name: str) -> Literal:
     return argument(place, (name,))
 
 
-def argument(place: Place, path: Sequence[Step]) -> Literal:
+def argument(place: Place, path: Sequence[Way]) -> Literal:
     """Return where an argument of the call at a place stands, or what it holds; else what is around that."""
     tree, call = tree_of(place.file), call_at(place)
     node = None if call is None or tree is None else _argument(call, str(path[0]), place, tree)
@@ -105,7 +105,7 @@ class Literal:
                     found.setdefault(str(text.value), span)
         return found
 
-    def step(self, step: Step) -> Literal:
+    def step(self, step: Way) -> Literal:
         """Return where the value of a key stands, or an item, or a key."""
         if isinstance(step, Letters):
             return Literal(self.file, None, self._letters(step), self._tree)

@@ -7,14 +7,17 @@ import os
 import sys
 from dataclasses import dataclass, field
 from functools import lru_cache
-from itertools import islice
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
-from orchestra.location import Span, displayed
+from orchestra.location import FIELDS, Span, displayed
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from types import CodeType, FrameType
 
+# Codes with the positions of all their instructions; a code that is kept keeps its id.
+_unpacked: dict[int, tuple[CodeType, list[_Positions]]] = {}
+_MOST_CODES: Final = 32
 _OWN = os.path.join(os.path.dirname(os.path.dirname(__file__)), "")  # noqa: PTH118, PTH120 - compared with file names of code
 _Positions: TypeAlias = tuple[int | None, int | None, int | None, int | None]
 
@@ -36,7 +39,8 @@ class Letters:
     end: int
 
 
-Step: TypeAlias = str | int | Letters
+Step: TypeAlias = str | int
+Way: TypeAlias = Step | Letters  # what may end a path
 
 
 class Place:
@@ -65,28 +69,45 @@ class Place:
             self._span = span_of(self._code, self._instruction)
         return self._span
 
-    def at(self, *path: Step) -> Argument:
+    def at(self, *path: Way) -> Argument:
         """Return the place of an argument of the call, or of what it holds: a keyword, then keys and indexes."""
-        span = self.span
-        return Argument(span.file, span.line, span.column, span.end_line, span.end_column, path, self)
+        made = object.__new__(Argument)
+        _set_path(made, path)
+        _set_place(made, self)
+        return made
 
 
 @dataclass(frozen=True, slots=True)
 class Argument(Span):
     """The range of a call, and which of its arguments is meant: `orchestra.compat.literals` finds it in the source.
 
-    That takes a syntax tree, so that it is done for what people are told of, not for every value.
+    That takes a syntax tree, so that it is done for what people are told of, not for every value. The range itself is
+    asked for when somebody reads it.
     """
 
-    path: tuple[Step, ...]
+    path: tuple[Way, ...]
     place: Place = field(compare=False, repr=False)
 
-    def inside(self, *steps: Step) -> Argument:
+    if not TYPE_CHECKING:  # as in a span
+
+        def __getattr__(self, name: str) -> str | int:
+            if name not in FIELDS:
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+            span = self.place.span
+            for known in FIELDS:
+                object.__setattr__(self, known, getattr(span, known))
+            return getattr(span, name)
+
+    def inside(self, *steps: Way) -> Argument:
         """Return the place of something that the argument holds."""
         return self.place.at(*self.path, *steps)
 
 
-def within(span: Span, *steps: Step) -> Span:
+_set_path: Callable[[Argument, tuple[Step, ...]], None] = vars(Argument)["path"].__set__
+_set_place: Callable[[Argument, Place], None] = vars(Argument)["place"].__set__
+
+
+def within(span: Span, *steps: Way) -> Span:
     """Return the place of something inside of what is at a place, where it is known which argument that is."""
     return span.inside(*steps) if isinstance(span, Argument) else span
 
@@ -140,7 +161,13 @@ def _shown(file: str, _working_directory: str) -> str:
 
 
 def _positions(code: CodeType, index: int) -> _Positions:
-    return next(islice(code.co_positions(), index, None), (None, None, None, None))
+    """Return the positions of an instruction; those of a code are unpacked once, for there is no way to one of them."""
+    known = _unpacked.get(id(code))
+    if known is None:
+        if len(_unpacked) >= _MOST_CODES:
+            _unpacked.clear()
+        known = _unpacked[id(code)] = code, list(code.co_positions())
+    return known[1][index] if index < len(known[1]) else (None, None, None, None)
 
 
 def code_points(file: str, line: int, offset: int) -> int:

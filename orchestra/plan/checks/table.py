@@ -8,6 +8,7 @@ from orchestra.plan.checks.cores import check_cores
 from orchestra.plan.checks.declared import check_declared
 from orchestra.plan.checks.doubled import check_doubled
 from orchestra.plan.checks.interfaces import check_interfaces
+from orchestra.plan.checks.nameless import check_nameless
 from orchestra.plan.checks.sections import check_sections
 from orchestra.plan.checks.topics import check_topics
 from orchestra.plan.checks.waits import check_waits
@@ -33,6 +34,7 @@ CHECKS: Final[tuple[Check, ...]] = (
     check_doubled,
     check_topics,
     check_cores,
+    check_nameless,
 )
 
 

@@ -17,6 +17,10 @@ def _to(target: str) -> str:
     return f"[{{from: x, to: {target}}}]"
 
 
+def _container(*components: str) -> str:
+    return f"- node_container: {{exec: sleep, name: box, namespace: '', composable_node: [{', '.join(components)}]}}\n"
+
+
 WRONG: dict[str, tuple[str, list[Told]]] = {
     # Waits.
     "the end of what is always started again": (
@@ -42,6 +46,11 @@ WRONG: dict[str, tuple[str, list[Told]]] = {
     "a parameter of a misspelt node": (
         node("talker") + node("b", ready="{parameter: {node: talkr, name: x}}"),
         [(Code.UNKNOWN_DEPENDENCY, "talkr", "/talker")],
+    ),
+    # Components.
+    "two components of one plugin without a name": (
+        _container("{pkg: p, plugin: A}", "{pkg: p, plugin: B}", "{pkg: p, plugin: A}"),
+        [(Code.DUPLICATE_NODE, "{", None)],
     ),
     # Parameters that are set twice.
     "a parameter twice in one list": (
@@ -89,6 +98,12 @@ def test_what_can_never_work_is_told_once(case: str, tmp_path: Path) -> None:
 
 
 RIGHT: dict[str, str] = {
+    "components without a name in namespaces, or renamed": _container(
+        "{pkg: p, plugin: A}",
+        "{pkg: p, plugin: A, namespace: x}",
+        "{pkg: p, plugin: A, remap: [{from: __node, to: b}]}",
+        "{pkg: p, plugin: A, name: c}",
+    ),
     "the end of what has a budget": node("a", restart="{policy: always, budget: 2}")
     + node("b", depends_on="[{node: a, condition: completed}]"),
     "the end of what starts again after a failure": node("a", restart="on-failure")
