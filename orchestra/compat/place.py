@@ -103,7 +103,7 @@ class Argument(Span):
         return self.place.at(*self.path, *steps)
 
 
-_set_path: Callable[[Argument, tuple[Step, ...]], None] = vars(Argument)["path"].__set__
+_set_path: Callable[[Argument, tuple[Way, ...]], None] = vars(Argument)["path"].__set__
 _set_place: Callable[[Argument, Place], None] = vars(Argument)["place"].__set__
 
 
