@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 
 _PLAIN = re.compile(r"[^\s,\]}#](?:[^\n,\]}#]*[^\s,\]}#])?")
+_COLON = re.compile(r":(?:\s|$)|\s#", re.MULTILINE)
 _ANCHOR = re.compile(r"&([^\s,\[\]{}]+)")
 _ALIAS = re.compile(r"\*([^\s,\[\]{}]*)")
 _CONTROL = re.compile("[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
@@ -56,7 +57,14 @@ def _stray(failure: Failure) -> Fault | None:
     if found is None:
         return None
     message = f"a text cannot begin with {failure.here} unless it is in quotes"
-    return failure.fault(message, *found.span(), _in_quotes(found[0]))
+    end = _without_its_colon(failure, failure.at, found.end())
+    return failure.fault(message, failure.at, end, _in_quotes(failure.text[failure.at : end]))
+
+
+def _without_its_colon(failure: Failure, begin: int, end: int) -> int:
+    """Return where a plain text ends that may be a key: before its colon."""
+    found = _COLON.search(failure.text, begin, end)
+    return found.start() if found is not None and found.start() > begin else end
 
 
 def _tab(failure: Failure) -> Fault:
@@ -202,7 +210,7 @@ def _undefined_alias(failure: Failure) -> Fault:
 def _no_anchor(failure: Failure) -> Fault:
     """Explain a text that begins like an alias, an anchor or a block."""
     found = _PLAIN.match(failure.text, failure.context)
-    end = found.end() if found else failure.context + 1
+    end = _without_its_colon(failure, failure.context, found.end()) if found else failure.context + 1
     first = failure.text[failure.context]
     written = failure.text[failure.context : end]
     message = f"a text cannot begin with {first} unless it is in quotes"

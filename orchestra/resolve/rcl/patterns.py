@@ -10,7 +10,7 @@ import re
 from functools import cache
 from typing import TYPE_CHECKING
 
-from orchestra.resolve.names import Fault, rmw_namespace_fault, rmw_node_name_fault
+from orchestra.resolve.names import Fault, mended, rmw_namespace_fault, rmw_node_name_fault
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -41,9 +41,17 @@ def pattern_fault(pattern: str) -> Fault | None:
 
 
 def instead(keys: Sequence[str]) -> str | None:
-    """Return what to write for a key with a wildcard in a part of a name, where it is the only key of a section."""
-    only = not any(keys[:-1])
-    return "/**" if only and "*" in keys[-1] else None
+    """Return what to write for the last key of a section that is no pattern, None where that is not in it alone.
+
+    A wildcard cannot be a part of a name: it stands for all nodes.
+    """
+    only, key = not any(keys[:-1]), keys[-1]
+    if "*" in key:
+        return "/**" if only else None
+    if not only and key.startswith("/"):
+        bare = key.strip("/")
+        return bare if pattern_fault(bare) is None else None
+    return mended(key, pattern_fault)
 
 
 @cache
