@@ -45,17 +45,17 @@ class Span:
     if not TYPE_CHECKING:  # for type checkers there are the fields above and no others
 
         def __getattr__(self, name: str) -> str | int:
-            if name not in _FIELDS:
+            if name not in FIELDS:
                 raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
             whole, begin, end = self._offsets
             for known, value in zip(
-                _FIELDS, (whole.file, *whole.place(begin), *whole.place(end)), strict=True
+                FIELDS, (whole.file, *whole.place(begin), *whole.place(end)), strict=True
             ):
                 object.__setattr__(self, known, value)
             return object.__getattribute__(self, name)
 
 
-_FIELDS: Final = ("file", "line", "column", "end_line", "end_column")
+FIELDS: Final = ("file", "line", "column", "end_line", "end_column")
 _new = object.__new__
 _set_offsets: Callable[[Span, tuple[Whole, int, int]], None] = vars(Span)["_offsets"].__set__
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.place import here
 from orchestra.compat.text import template
-from orchestra.description.text import Call, Opaque, Template
+from orchestra.description.text import Opaque, Template, new_call
 from orchestra.description.written import called
 
 if TYPE_CHECKING:
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 
     from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.place import Step
-    from orchestra.description.text import Part
+    from orchestra.description.text import Call, Part
     from orchestra.location import Span
 
 
@@ -45,7 +45,7 @@ class CallSubstitution(Substitution):
             template(argument, place.at(*paths[index]) if index < len(paths) else place.span)
             for index, argument in given
         )
-        return Call(self._name, tuple(arguments), place.span)
+        return new_call(self._name, tuple(arguments), place.span)
 
     def _paths(self) -> Sequence[tuple[Step, ...]]:
         """Return where the arguments of the call stand among those of the constructor."""

@@ -11,9 +11,11 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.wrong import WrongType
-from orchestra.description.text import Template
+from orchestra.description.text import new_template, new_words
+from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
+    from orchestra.description.text import Template
     from orchestra.location import Span
 
 Sub: TypeAlias = str | Substitution | Iterable[str | Substitution]
@@ -25,22 +27,26 @@ def normalized(subs: Sub) -> list[Substitution]:
         return [TextSubstitution(text=subs)]
     if isinstance(subs, Substitution):
         return [subs]
-    if not isinstance(subs, Iterable):
+    if type(subs) is not list and not isinstance(subs, Iterable):
         raise WrongType(_wrong(subs), subs)
     return [_one(item) for item in subs]
 
 
 def template(subs: Sub, span: Span, *, quoted: bool = False) -> Template:
     """Return the template of some substitutions; those without a place of their own are at `span`."""
+    if type(subs) is str:
+        return new_template((new_words(subs, span),) if subs else (), escaped(subs), span, quoted)
     try:
         items = normalized(subs)
     except WrongType as error:
         raise WrongType(str(error), error.value, at=span) from None
-    parts = tuple(part for item in items for part in item._parts(span))
+    parts, raw = items[0]._parts(span) if items else (), items[0]._raw() if items else ""
+    for item in items[1:]:
+        parts += item._parts(span)
+        raw += item._raw()
     if len(parts) == 1:
         span = parts[0].span
-    raw = "".join(item._raw() for item in items)
-    return Template(parts, raw, span, quoted=quoted)
+    return new_template(parts, raw, span, quoted)
 
 
 def _one(item: Any) -> Substitution:

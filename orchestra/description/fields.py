@@ -55,10 +55,11 @@ class TextReader(Protocol):
 def _text(value: object, info: ValidationInfo) -> Template:
     if isinstance(value, Template):
         return value
-    reader = _reader(info)
+    reader = info.context or _reader(info)
     if not isinstance(value, Written) or value.null:
         raise _no_scalar(value, "text")
-    return reader.template(value)
+    template: Template = reader.template(value)
+    return template
 
 
 def _literal(value: object, info: ValidationInfo) -> Template:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -15,11 +16,16 @@ _IN_ARGUMENT = frozenset("'\"()")
 
 def escaped(text: str) -> str:
     """Return how a text is written so that it is read back unchanged, alone or beside other text."""
-    return _SPECIAL.sub(r"\\\1", text)
+    return _SPECIAL.sub(r"\\\1", text) if "$" in text or "\\" in text else text
 
 
 def called(name: str, arguments: Iterable[str]) -> str:
     """Return a substitution as written, from the texts of its arguments as written alone."""
+    return _called(name, tuple(arguments))
+
+
+@lru_cache(maxsize=1024)
+def _called(name: str, arguments: tuple[str, ...]) -> str:
     return f"$({' '.join((name, *map(_argument, arguments)))})"
 
 

@@ -6,8 +6,8 @@ import re
 from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
-from orchestra.dataclass import dataclass
-from orchestra.description.source import Keyed, Listed, Written
+from orchestra.dataclass import dataclass, maker
+from orchestra.description.source import Keyed, Listed, Verbatim, Written
 from orchestra.location import Span
 
 if TYPE_CHECKING:
@@ -35,13 +35,14 @@ class Attribute:
 
     def written(self, whole: Source) -> Written:
         """Return the value with its place in the file."""
-        return Written(self.value, whole.span(self.begin, self.end), self._spans(whole))
+        span = whole.span(self.begin, self.end)
+        if whole.text[self.begin : self.end] == self.value:
+            return Verbatim(self.value, span)
+        return Written(self.value, span, self._spans(whole))
 
     def _spans(self, whole: Source) -> Callable[[int, int], Span]:
         begin, end = self.begin, self.end
         source = whole.text[begin:end]
-        if source == self.value:
-            return lambda first, last: whole.span(begin + first, begin + last)
         offsets: list[int] = []
 
         def spans(first: int, last: int) -> Span:
@@ -51,6 +52,9 @@ class Attribute:
             return whole.span(offsets[first], offsets[last])
 
         return spans
+
+
+new_attribute = maker(Attribute)  # a file has thousands
 
 
 @dataclass(slots=True)

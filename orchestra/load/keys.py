@@ -39,7 +39,7 @@ class Report(Protocol):
 
 def spelled(key: str) -> str:
     """Return how a word of the launch language is spelled in the models."""
-    return key.replace("-", "_")
+    return key.replace("-", "_") if "-" in key else key
 
 
 def meant(word: str, known: Iterable[str], elsewhere: Mapping[str, str]) -> tuple[str | None, bool]:

@@ -119,6 +119,10 @@ class _Shaper:
     def _attributes(self, element: Element, forms: Forms, tagged: Tagged) -> None:
         separators = _separators(element)
         for attribute in element.attributes:
+            known = None if separators else forms.by_key.get(attribute.name)
+            if known is not None and known.kind is Kind.TEXT:  # as nearly all
+                tagged.put(attribute.name, attribute.written(self.whole), attribute.span(self.whole))
+                continue
             if attribute in separators.values() or attribute.name.split(":")[0] == "xmlns":
                 continue
             form = self._form(attribute.name, forms) or forms.others

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from xml.parsers import expat
 
 from orchestra.errors import Code
-from orchestra.load.elements import Attribute, Element
+from orchestra.load.elements import Element, new_attribute
 from orchestra.load.faults import Fault
 from orchestra.load.xml_faults import Opened, explained
 
@@ -128,7 +128,7 @@ def _element(text: str, name: str, at: int, pairs: list[str]) -> Element:
         found = _ATTRIBUTE.match(text, end)
         assert found is not None  # noqa: S101 - the parser has read the same
         attributes.append(
-            Attribute(pairs[index], pairs[index + 1], found.start(1), found.start(3), found.end(3))
+            new_attribute(pairs[index], pairs[index + 1], found.start(1), found.start(3), found.end(3))
         )
         end = found.end()
     closed = _END_OF_TAG.match(text, end)

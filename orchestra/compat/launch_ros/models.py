@@ -25,7 +25,7 @@ def params(parameters: Iterable[Any], span: Span) -> tuple[Param, ...]:
     """Return the parts for normalised parameters; what has no place of its own is at `span`."""
     found: list[Param] = []
     for index, item in enumerate(parameters):
-        if isinstance(item, Mapping):
+        if type(item) is dict or isinstance(item, Mapping):
             found += params_of(item, within(span, index))
         elif isinstance(item, Parameter):
             found.append(_override(item))
@@ -63,6 +63,8 @@ def remaps(rules: Iterable[tuple[Any, Any]], span: Span) -> tuple[Remap, ...]:
 
 def _step(name: Any) -> tuple[str, ...]:
     """Return where the value of a normalised name stands in the dictionary, as far as the name is a text."""
+    if len(name) == 1 and isinstance(name[0], TextSubstitution):
+        return (name[0].text,)
     texts = [item.text if isinstance(item, TextSubstitution) else None for item in name]
     known = [text for text in texts if text is not None]
     return ("".join(known),) if len(known) == len(texts) else ()

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.wrong import WrongType
-from orchestra.description.text import Words
+from orchestra.description.text import new_words
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
@@ -40,7 +40,7 @@ class TextSubstitution(Substitution):
     def _parts(self, span: Span) -> tuple[Part, ...]:
         if type(self).perform is not TextSubstitution.perform:
             return super()._parts(span)
-        return (Words(self.text, span),) if self.text else ()
+        return (new_words(self.__text, span),) if self.__text else ()
 
     def _raw(self) -> str:
-        return escaped(self.text)
+        return escaped(self.__text)
