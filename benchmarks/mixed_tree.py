@@ -1,20 +1,11 @@
-"""`orchestra check` on a tree of launch files, against the time that loading them takes.
-
-    python benchmarks/checked_tree.py [FILES] [FOLDER]
-
-Prints the seconds of loading every file once in one process (`orchestra.load.files.load`), of reading the YAML files
-with plain PyYAML, of an interpreter that imports and does nothing, and of `orchestra check` with an empty cache, with
-a full one, and without one.
-"""
+"""A tree of launch files of every language, as a workspace has them, for `orchestra check`."""
 
 from __future__ import annotations
 
-import os
-import subprocess
-import sys
-import tempfile
-import time
-from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 _YAML = """\
 launch:
@@ -116,7 +107,9 @@ _DRIVING = """\
   ros__parameters:
     max_linear_vel: 0.2{n}
 """
+# So many packages are included by all others, where there are others enough.
 _SHARED = 20
+_INCLUDING = 7
 
 
 def write_tree(folder: Path, files: int) -> list[Path]:
@@ -124,7 +117,8 @@ def write_tree(folder: Path, files: int) -> list[Path]:
     written = []
     shared = folder / "shared"
     shared.mkdir(parents=True, exist_ok=True)
-    for n in range(_SHARED):
+    packages = max(1, min(_SHARED, files // _INCLUDING))
+    for n in range(packages):
         (shared / f"params{n}.yaml").write_text(_PARAMETERS.format(n=n + 1))
         (shared / f"driving{n}.yaml").write_text(_DRIVING.format(n=n))
         for name, text in ((f"driver{n}.launch.xml", _DRIVER), (f"tools{n}.launch.yaml", _TOOLS)):
@@ -135,68 +129,6 @@ def write_tree(folder: Path, files: int) -> list[Path]:
         ending, text = kinds[n % len(kinds)]
         path = folder / f"part{n % 25}" / f"robot{n}.launch{ending}"
         path.parent.mkdir(exist_ok=True)
-        path.write_text(text.format(n=n, shared=n // 5 % _SHARED))
+        path.write_text(text.format(n=n, shared=n // 5 % packages))
         written.append(path)
     return written
-
-
-_LOAD = """
-import sys, time, os
-from orchestra.compat.seam import connected
-from orchestra.errors import Problems
-from orchestra.load.files import load
-from orchestra import pipeline
-inputs = pipeline.inputs_from((), environment=os.environ)
-from orchestra.resolve.packages import InstalledPackages
-packages = InstalledPackages(os.environ)
-paths = sys.argv[1:]
-started = time.perf_counter()
-problems = Problems()
-with pipeline._loading(paths[0], inputs, load, packages, problems):
-    for path in paths:
-        load(path, problems)
-print(time.perf_counter() - started)
-assert not problems.errors, problems.errors[0]
-"""
-_COMPOSE = """
-import sys, time, yaml
-started = time.perf_counter()
-for path in sys.argv[1:]:
-    if path.endswith(".yaml"):
-        with open(path) as file:
-            yaml.compose(file, Loader=yaml.CSafeLoader)
-print(time.perf_counter() - started)
-"""
-
-
-def _printed(program: str, paths: list[Path]) -> float:
-    done = subprocess.run([sys.executable, "-c", program, *map(str, paths)], check=True, capture_output=True)
-    return float(done.stdout)
-
-
-def _wall(*words: str, env: dict[str, str] | None = None) -> float:
-    started = time.perf_counter()
-    done = subprocess.run([sys.executable, *words], check=False, capture_output=True, env=env, text=True)
-    seconds = time.perf_counter() - started
-    print(f"    {done.returncode} {(done.stdout + done.stderr).strip()[-200:]}")
-    return seconds
-
-
-def main() -> None:
-    """Measure."""
-    files = int(sys.argv[1]) if len(sys.argv) > 1 else 1000
-    with tempfile.TemporaryDirectory() as scratch:
-        folder = Path(sys.argv[2] if len(sys.argv) > 2 else scratch, "tree")  # noqa: PLR2004
-        paths = write_tree(folder, files)
-        env = {**os.environ, "XDG_CACHE_HOME": f"{scratch}/cache"}
-        load, plain = _printed(_LOAD, paths), _printed(_COMPOSE, paths)
-        start = _wall("-c", "import orchestra.pipeline")
-        check = ("-m", "orchestra", "check", str(folder))
-        alone, first, again = _wall(*check, "--no-cache"), _wall(*check, env=env), _wall(*check, env=env)
-    print(f"loading {load:.2f} s, plain PyYAML {plain:.2f} s, start {start:.2f} s")
-    print(f"check without a cache {alone:.2f} s, with an empty one {first:.2f} s, a full one {again:.2f} s")
-    print(f"bar: {2 * load + start:.2f} s for {len(paths)} files on {os.cpu_count()} processors")
-
-
-if __name__ == "__main__":
-    main()

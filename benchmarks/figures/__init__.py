@@ -1,0 +1,1 @@
+"""One module for each set of figures that are measured together."""

@@ -1,0 +1,75 @@
+"""The plan of many nodes in files that include each other: seconds on a processor, by language, and as it grows."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from benchmarks import launching, node_tree
+from benchmarks.figure import Figure, Sample
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+    from pathlib import Path
+
+    from benchmarks.figure import Site
+
+_SIZES = (100, 300, 1000)
+_COMPOSE = "composing the same bytes with PyYAML's C parser"
+_YAML = "the same nodes in YAML"
+FIGURES = (
+    Figure("plan-yaml", "plan of 1,000 nodes in YAML", _COMPOSE, "ratio", 3.0, "s", 1000, _SIZES, 20),
+    Figure("plan-xml", "the same in XML", _YAML, "ratio", 1.0, "s", 1000, _SIZES, 20),
+    Figure("plan-python", "the same in Python", _YAML, "ratio", 1.0, "s", 1000, _SIZES, 20),
+    Figure(
+        "plan-growth", "plan of 10,000 nodes in YAML", "plan of 1,000 nodes",
+        "exponent", 1.1, "s", 1000, (100, 300, 1000), 20,
+    ),
+)  # fmt: skip
+
+# What is imported for the first node is not counted: a plan of one is made before.
+_PLAN = """
+import os, sys, time
+from orchestra import pipeline
+from orchestra.errors import Problems
+inputs = pipeline.inputs_from((), environment=os.environ)
+pipeline.collect(sys.argv[3], inputs, Problems())
+problems = Problems()
+began = time.process_time()
+plan = pipeline.collect(sys.argv[1], inputs, problems)
+seconds = time.process_time() - began
+assert not list(problems), list(problems)[0]
+assert len(plan.processes) == int(sys.argv[2]), len(plan.processes)
+print(seconds)
+"""
+_COMPOSING = """
+import sys, time, yaml
+from pathlib import Path
+texts = [path.read_bytes() for path in Path(sys.argv[1]).iterdir()]
+began = time.process_time()
+for text in texts:
+    yaml.compose(text, Loader=yaml.CSafeLoader)
+print(time.process_time() - began)
+"""
+
+
+def measure(site: Site, size: int) -> Mapping[str, Sample]:
+    """Measure it with so many nodes, and with ten times as many."""
+    files = {language: node_tree.write(site.folder, language, size) for language in ("yaml", "xml", "py")}
+    composed = launching.printed(_COMPOSING, [files["yaml"].parent], site)
+    yaml, xml, python = (_planned(site, language, file, size) for language, file in files.items())
+    many = _planned(site, "yaml", node_tree.write(site.folder, "yaml", 10 * size), 10 * size)
+    return {
+        "plan-yaml": Sample(yaml, composed),
+        "plan-xml": Sample(xml, yaml),
+        "plan-python": Sample(python, yaml),
+        "plan-growth": Sample(many, yaml),
+    }
+
+
+def _planned(site: Site, language: str, file: Path, size: int) -> float:
+    folder = site.folder / "one"
+    folder.mkdir(exist_ok=True)
+    one = folder / f"{language}1" / f"part1_0.launch.{language}"
+    return launching.printed(
+        _PLAN, [file, str(size), one if one.exists() else node_tree.write(folder, language, 1)], site
+    )

@@ -1,0 +1,157 @@
+"""Starts what is measured, and what it is measured against."""
+
+from __future__ import annotations
+
+import importlib.util
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Mapping, Sequence
+
+    from benchmarks.figure import Site
+
+# Whoever has not got so far by then never will, in seconds.
+PATIENCE: Final = 300.0
+
+_UPSTREAM: Final = """
+import sys
+from launch import LaunchDescription, LaunchService
+from launch.actions import IncludeLaunchDescription
+from launch.launch_description_sources import AnyLaunchDescriptionSource
+service = LaunchService(noninteractive=True)
+service.include_launch_description(
+    LaunchDescription([IncludeLaunchDescription(AnyLaunchDescriptionSource(sys.argv[1]))])
+)
+sys.exit(service.run())
+"""
+
+
+def orchestra(*words: str | Path) -> list[str]:
+    """Return a command line of Orchestra's."""
+    return [sys.executable, "-m", "orchestra", *map(str, words)]
+
+
+def upstream(file: Path) -> list[str] | None:
+    """Return the command line by which ROS 2's own launch launches a file; None where it is not installed."""
+    packages = ("launch", "launch_ros", "launch_xml", "launch_yaml")
+    if any(importlib.util.find_spec(package) is None for package in packages):
+        return None
+    return [sys.executable, "-c", _UPSTREAM, str(file)]
+
+
+def environment(folder: Path) -> dict[str, str]:
+    """Return the environment of what is started: no run, cache or setting of the user's own."""
+    return {
+        **os.environ,
+        "PYTHONPATH": os.pathsep.join((str(Path(__file__).parent.parent), str(folder))),
+        "ORCHESTRA_HOME": str(folder / "home"),
+        "ORCHESTRA_CACHE": str(folder / "cache"),
+        "XDG_CACHE_HOME": str(folder / "caches"),
+        "XDG_RUNTIME_DIR": str(folder),
+        "ROS_LOG_DIR": str(folder / "ros"),
+        "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+    }
+
+
+@contextmanager
+def started(
+    command: Sequence[str], site: Site, stdout: int | None = subprocess.DEVNULL
+) -> Iterator[subprocess.Popen[bytes]]:
+    """Run a command in a session of its own; all of it is ended where it has not ended by itself.
+
+    Raises `RuntimeError` where it then has failed.
+    """
+    errors = site.folder / "errors"
+    with (
+        errors.open("ab") as stderr,
+        subprocess.Popen(
+            command,
+            cwd=site.folder,
+            env=dict(site.environment),
+            stdin=subprocess.DEVNULL,
+            stdout=stdout,
+            stderr=stderr,
+            start_new_session=True,
+        ) as popen,
+    ):
+        try:
+            yield popen
+        except BaseException:
+            popen.send_signal(signal.SIGTERM)
+            print(errors.read_text()[-2000:], file=sys.stderr)
+            raise
+        finally:
+            status = finished(popen)
+    if status not in (0, 128 + signal.SIGINT, 128 + signal.SIGTERM, -signal.SIGINT, -signal.SIGTERM):
+        raise RuntimeError(f"{command} ended with {status}: {errors.read_text()[-2000:]}")
+
+
+def finished(popen: subprocess.Popen[bytes]) -> int:
+    """Wait for the end of a command, which is due; return its status."""
+    try:
+        return popen.wait(PATIENCE)
+    except subprocess.TimeoutExpired:
+        os.killpg(popen.pid, signal.SIGKILL)
+        raise
+
+
+def wall(command: Sequence[str], site: Site, stdout: int | None = subprocess.DEVNULL) -> float:
+    """Return the seconds from the start of a command to its end."""
+    began = time.perf_counter()
+    with started(command, site, stdout) as popen:
+        finished(popen)
+        return time.perf_counter() - began
+
+
+def printed(program: str, arguments: Sequence[str | Path], site: Site) -> float:
+    """Return the number that a program in Python prints last."""
+    done = subprocess.run(
+        [sys.executable, "-c", program, *map(str, arguments)],
+        cwd=site.folder,
+        env=dict(site.environment),
+        check=False,
+        capture_output=True,
+        text=True,
+        timeout=PATIENCE,
+    )
+    if done.returncode:
+        raise RuntimeError(done.stderr[-2000:])
+    return float(done.stdout.split()[-1])
+
+
+def run_directory(site: Site) -> Path:
+    """Return the directory of the latest run."""
+    return max((site.folder / "home" / "runs").iterdir(), key=lambda path: path.stat().st_mtime_ns)
+
+
+def events(site: Site) -> list[dict[str, Any]]:
+    """Return what happened in the latest run."""
+    return [json.loads(line) for line in (run_directory(site) / "events.jsonl").read_text().splitlines()]
+
+
+def moments(site: Site, kind: str) -> list[float]:
+    """Return when something happened in the latest run, in seconds of the monotonic clock."""
+    return [event["monotonic"] for event in events(site) if event["kind"] == kind]
+
+
+def until(there: Callable[[], bool], pause: float = 0.0005) -> float:
+    """Wait until something is so, looking every `pause` seconds; return when it was seen."""
+    deadline = time.perf_counter() + PATIENCE
+    while not there():
+        if time.perf_counter() > deadline:
+            raise TimeoutError(there)
+        time.sleep(pause)
+    return time.perf_counter()
+
+
+def with_variables(site_environment: Mapping[str, str], **variables: str | Path) -> dict[str, str]:
+    """Return an environment with some more variables."""
+    return {**site_environment, **{name: str(value) for name, value in variables.items()}}
