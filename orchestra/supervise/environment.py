@@ -16,6 +16,7 @@ rcl refuses to start. All else, PATH, ROS_DOMAIN_ID and the reach of discovery i
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
@@ -24,7 +25,7 @@ from orchestra.supervise.summons import PERSONAL
 from orchestra.wheels import DONE, LIBRARY_PATH
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, ItemsView, Iterator
 
 # Whoever sets one of these has said where discovery is to reach.
 _DISCOVERY = ("ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_LOCALHOST_ONLY", "ROS_DISCOVERY_SERVER")
@@ -87,6 +88,28 @@ def described(
         environment.pop(DONE, None)
     environment[RUN], environment[PROCESS] = marks
     return environment
+
+
+class Later(Mapping[str, str]):
+    """An environment that is made when somebody looks at it: it has a few kilobytes, and few are looked at."""
+
+    __slots__ = ("_make",)
+
+    def __init__(self, make: Callable[[], Mapping[str, str]]) -> None:
+        self._make = make
+
+    def __getitem__(self, name: str) -> str:
+        return self._make()[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._make())
+
+    def __len__(self) -> int:
+        return len(self._make())
+
+    def items(self) -> ItemsView[str, str]:
+        """Make it once for all of them."""
+        return self._make().items()
 
 
 def middleware(environment: Mapping[str, str]) -> dict[str, str]:

@@ -18,6 +18,9 @@ Callback: TypeAlias = Callable[[], object]
 # The kernel takes no longer time than 2**31 ms (epoll_wait(2)): whoever waits longer looks at the clock once a day.
 _LONGEST_WAIT = 86400.0
 
+# With more timers than this, and than twice what was left the last time, those that were taken back are dropped.
+_FEW_TIMERS = 256
+
 
 class Timer:
     """A call that is due at a time; `cancel` takes it back."""
@@ -63,11 +66,14 @@ class Loop:
         self._watched: dict[int, Callback] = {}
         self._timers: list[tuple[float, int, Timer]] = []
         self._order = itertools.count()
+        self._most_timers = _FEW_TIMERS
 
     def call_later(self, delay: float, callback: Callback) -> Timer:
         """Call once after `delay` seconds; with 0 in the next round, after what is ready now."""
         timer = Timer(self.clock() + delay, callback)
         heapq.heappush(self._timers, (timer.due, next(self._order), timer))
+        if len(self._timers) > self._most_timers:
+            self._drop_cancelled()
         return timer
 
     def on_readable(self, descriptor: int, callback: Callback) -> None:
@@ -105,6 +111,12 @@ class Loop:
     def close(self) -> None:
         """Give the epoll back."""
         self._epoll.close()
+
+    def _drop_cancelled(self) -> None:
+        """Keep what is still to come: a process that restarts all day takes back a timer of a minute each time."""
+        self._timers = [entry for entry in self._timers if not entry[2].cancelled]
+        heapq.heapify(self._timers)
+        self._most_timers = max(_FEW_TIMERS, 2 * len(self._timers))
 
     def _until_next_timer(self) -> float | None:
         while self._timers and self._timers[0][2].cancelled:

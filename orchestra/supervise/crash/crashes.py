@@ -42,7 +42,7 @@ class Crashes:
         self._stem = log_stems([process.id])[process.id]
         self._rules = rules
         self._around = surroundings
-        self._environment: Mapping[str, str] = {}
+        self._own: Mapping[str, str] = {}
         self._began, self._began_at = time.time(), surroundings.loop.clock()
         self._starts = 0
         self._runs: list[Run] = []
@@ -51,9 +51,9 @@ class Crashes:
         self._folders: list[Path] = []
         self._told = False
 
-    def begins(self, environment: Mapping[str, str]) -> None:
-        """It is about to be started, with this environment."""
-        self._environment = environment
+    def begins(self, own: Mapping[str, str]) -> None:
+        """It is about to be started; `own` is what this run's environment has beyond that of the process."""
+        self._own = own
         self._began, self._began_at = time.time(), self._around.loop.clock()
         self._starts += 1
         self._signals = set()
@@ -100,7 +100,7 @@ class Crashes:
 
         process, confines = self._process, self._around.confines
         command, cwd = argv(process), os.path.abspath(process.cwd or ".")  # noqa: PTH100 - links stay as they are
-        changes = difference(os.environ, self._environment)
+        changes = difference(os.environ, {**self._around.environment(process), **self._own})
         core = evidence.core_file(process, ending, child, command[0], cwd)
         return Dossier(
             process=process.id,

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from orchestra.logs.names import shown
+from orchestra.supervise.environment import Later
 from orchestra.supervise.graph.deactivation import Deactivation
 from orchestra.supervise.graph.lifecycle import TO_ACTIVE, LifecycleNodes, Node
 from orchestra.supervise.graph.loading import Loading
@@ -74,7 +76,7 @@ class Nodes:
         """A process runs."""
         process = self._processes[name]
         self._pids[name] = pid
-        environment = self._around.environment(process)
+        environment = Later(partial(self._around.environment, process))
         node = Node(name, full_name(process), environment, pid)
         self._lifecycle.appeared(node, watched=self._is_watched(name, process.kind))
         if process.lifecycle == "active":

@@ -9,6 +9,7 @@ from __future__ import annotations
 import os
 import resource
 from contextlib import contextmanager
+from functools import cache
 from typing import TYPE_CHECKING
 
 from orchestra.supervise.keeping.kernel import LOCKS
@@ -49,9 +50,15 @@ def _numbered(mark: int | None) -> Iterator[None]:
     if mark is None:
         yield
         return
-    soft, hard = resource.getrlimit(LOCKS)
+    soft, hard = _own()
     resource.setrlimit(LOCKS, (mark if hard == resource.RLIM_INFINITY else min(mark, hard), hard))
     try:
         yield
     finally:
         resource.setrlimit(LOCKS, (soft, hard))
+
+
+@cache
+def _own() -> tuple[int, int]:
+    """Return the number that all of a run's own processes have, and how high one may be."""
+    return resource.getrlimit(LOCKS)

@@ -45,12 +45,8 @@ def keep_to_ourselves() -> None:
 def see_to_room(highest: int) -> None:
     """Take more where the highest descriptor in use says that it will be needed, as far as that is allowed."""
     soft, hard = _given()
-    if soft == resource.RLIM_INFINITY or highest * _SHARE < soft or _taken():
-        return
-    most = _ENOUGH if hard == resource.RLIM_INFINITY else min(hard, _ENOUGH)
-    if soft < most:
-        with contextlib.suppress(OSError, ValueError):  # it goes on with what it has
-            resource.setrlimit(resource.RLIMIT_NOFILE, (most, hard))
+    if soft != resource.RLIM_INFINITY and highest * _SHARE >= soft:
+        _taken(soft, hard)
 
 
 @contextlib.contextmanager
@@ -59,17 +55,16 @@ def as_given() -> Iterator[None]:
 
     Raises `BusyError` where somebody else could come to want the higher ones meanwhile.
     """
-    if not _taken():
+    if not _taken.cache_info().currsize:
         yield
         return
     if not OPENING.acquire(blocking=False):
         raise BusyError
-    more = resource.getrlimit(resource.RLIMIT_NOFILE)
     try:
         give_back()
         yield
     finally:
-        resource.setrlimit(resource.RLIMIT_NOFILE, more)
+        resource.setrlimit(resource.RLIMIT_NOFILE, _taken(*_given()))
         OPENING.release()
 
 
@@ -78,5 +73,12 @@ def give_back() -> None:
     resource.setrlimit(resource.RLIMIT_NOFILE, _given())
 
 
-def _taken() -> bool:
-    return resource.getrlimit(resource.RLIMIT_NOFILE) != _given()
+@cache
+def _taken(soft: int, hard: int) -> tuple[int, int]:
+    """Take more, once; return what we have then."""
+    most = _ENOUGH if hard == resource.RLIM_INFINITY else min(hard, _ENOUGH)
+    if soft < most:
+        with contextlib.suppress(OSError, ValueError):  # it goes on with what it has
+            resource.setrlimit(resource.RLIMIT_NOFILE, (most, hard))
+            return most, hard
+    return soft, hard

@@ -182,8 +182,9 @@ class Unit:
         tty, stdin = bool(process.emulate_tty), bool(process.stdin)
         foremost = stdin and self._around.console.interactive
         try:
-            environment.update(self._notices.begin())
-            self._crashes.begins(environment)
+            own = self._notices.begin()
+            environment.update(own)
+            self._crashes.begins(own)
             self.tail = Tail(_LAST_LINES)
             before, mark = self._around.confines.prepare(process), self._around.kin.number(self.id)
         except OSError as error:
