@@ -2,8 +2,8 @@
 
 That one writes the text of six methods for each class and compiles them, which took half of the time until the first
 process of a run was started: there are some hundred classes on the way, and few of them are ever made there. Here
-`__init__` is compiled when it is first wanted, and the other methods are the same code for all classes. Fields are
-those of the standard library, so `fields`, `replace`, `asdict` and `is_dataclass` do what they always do.
+`__init__` is compiled when more than a few objects are made, and the other methods are the same code for all classes.
+Fields are those of the standard library, so `fields`, `replace`, `asdict` and `is_dataclass` do what they always do.
 
 `InitVar` is not known here.
 """
@@ -44,6 +44,7 @@ else:
 
 
 _UNWRITTEN = dataclasses.MISSING
+_FEW = 3  # objects take less time to be made one by one than `__init__` takes to be compiled
 _ORDER = {"lt": lt, "le": le, "gt": gt, "ge": ge}
 
 
@@ -79,18 +80,57 @@ def _made(cls: type, *, frozen: bool, eq: bool, order: bool, slots: bool, kw_onl
 
 
 class _Late:
-    """The `__init__` of a class: the first who asks for it compiles it."""
+    """The `__init__` of a class, which is compiled for those who make more than a few objects of it."""
 
-    __slots__ = ("_cls", "_frozen")
+    __slots__ = ("_cls", "_frozen", "_made")
 
     def __init__(self, cls: type, *, frozen: bool) -> None:
         self._cls = cls
         self._frozen = frozen
+        self._made = 0
 
     def __get__(self, instance: object, owner: type | None = None) -> Any:
+        self._made += 1
+        if instance is None or self._made > _FEW:
+            return self._compiled(instance, owner)
+        return lambda *args, **named: self._fill(instance, args, named)
+
+    def _fill(self, instance: Any, args: tuple[Any, ...], named: dict[str, Any]) -> None:
+        """Set the fields one by one; arguments that do not fit are left to the compiled one, which says why."""
+        values = _matched(dataclasses.fields(self._cls), args, named)
+        if values is None:
+            self._compiled(instance, None)(*args, **named)
+            return
+        for name, value in values.items():
+            object.__setattr__(instance, name, value)
+        if hasattr(self._cls, "__post_init__"):
+            instance.__post_init__()
+
+    def _compiled(self, instance: object, owner: type | None) -> Any:
         method = _init(self._cls, frozen=self._frozen)
         setattr(self._cls, "__init__", method)  # noqa: B010 - mypy takes the other way for a mistake
         return method.__get__(instance, owner)
+
+
+def _matched(
+    fields: tuple[dataclasses.Field[Any], ...], args: tuple[Any, ...], named: dict[str, Any]
+) -> dict[str, Any] | None:
+    """Return the value of each field; None where the arguments do not fit."""
+    plain = [field.name for field in fields if field.init and not field.kw_only]
+    given = {**dict(zip(plain, args, strict=False)), **named}
+    if len(args) > len(plain) or len(given) < len(args) + len(named):
+        return None
+    values = {}
+    for field in fields:
+        if field.init and field.name in given:
+            values[field.name] = given.pop(field.name)
+        elif field.default is not _UNWRITTEN:
+            values[field.name] = field.default
+        elif field.default_factory is not _UNWRITTEN:
+            values[field.name] = field.default_factory()
+        elif field.init:
+            return None
+    return None if given else values
 
 
 def _init(cls: Any, *, frozen: bool) -> Any:

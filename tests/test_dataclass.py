@@ -212,14 +212,40 @@ def test_they_inherit() -> None:
             assert (name, many) == ("a", (1,))
 
 
-def test_nothing_is_compiled_before_one_is_made() -> None:
+def test_nothing_is_compiled_before_some_are_made() -> None:
     @dataclass(frozen=True, slots=True)
     class Fresh:
         value: int
 
+    first = [Fresh(number) for number in range(3)]
     assert type(vars(Fresh)["__init__"]).__name__ == "_Late"
-    assert Fresh(1).value == 1
+    more = [Fresh(number) for number in range(3)]
     assert inspect.isfunction(vars(Fresh)["__init__"])
+    assert first == more
+
+
+@pytest.mark.parametrize(("cls", "words", "named"), _CALLS)
+def test_the_first_are_made_as_the_later_ones(
+    cls: type[Any], words: tuple[Any, ...], named: dict[str, Any]
+) -> None:
+    """Each class is made anew, so that nothing is compiled yet."""
+    written = [
+        (item.name, item.type, dataclasses.field(default=item.default, default_factory=item.default_factory))
+        for item in dataclasses.fields(cls)
+        if item.init
+    ]
+    namespace = {"__annotations__": {name: kind for name, kind, _ in written}, "__module__": __name__}
+    fresh = dataclass(**_OPTIONS[cls])(
+        type(
+            cls.__name__, (), {**namespace, **{name: item for name, _, item in written if _has_default(item)}}
+        )
+    )
+    told = [_told(lambda: fresh(*words, **named)) for _ in range(6)]
+    assert len(set(told)) == 1
+
+
+def _has_default(item: Any) -> bool:
+    return item.default is not dataclasses.MISSING or item.default_factory is not dataclasses.MISSING
 
 
 def test_everything_of_ours_is_made_so() -> None:

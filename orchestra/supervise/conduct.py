@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 from contextlib import ExitStack
 from dataclasses import replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 from orchestra.plan import codec
@@ -159,10 +161,18 @@ def _run(
             attendant = beginnings.attend(around, system.operation, beginnings.run_id, beginnings.keeper)
             attended.callback(attendant.close)
         system.begin()
+        # In the second round: in the first one begins what waits for nothing.
+        around.loop.call_later(0.0, partial(around.loop.call_later, 0.0, _collect_garbage))
         while not system.over:
             around.loop.run_once()
         system.finish()
         return _conclude(system, around, beginnings)
+
+
+def _collect_garbage() -> None:
+    """Tidy up memory from now on, without what has come with the begin, which stays."""
+    gc.freeze()
+    gc.enable()
 
 
 def _conclude(system: System, around: Surroundings, beginnings: Beginnings) -> Outcome:

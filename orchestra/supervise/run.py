@@ -9,6 +9,7 @@ Call it early: what is imported before is imported in all three.
 
 from __future__ import annotations
 
+import gc
 import os
 import sys
 import time
@@ -105,6 +106,8 @@ def _supervise(
     kernel.set_lock_limit(number_of(kept.run_id) or 0)
     summons = taken(os.environ, kept.keeper)
     # The keeper's mask is still in force: no signal can reach the resolver with our handlers, nor us without them.
+    # Until the first processes begin all that is made stays: to walk through it takes time.
+    gc.disable()
     document, prepare = recalled(recall, prepare)
     given = document or fork_resolver(prepare, kept.stacks)
     reset_signals(unblock=False)
