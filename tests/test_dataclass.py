@@ -235,7 +235,7 @@ def test_the_first_are_made_as_the_later_ones(
         if item.init
     ]
     namespace = {"__annotations__": {name: kind for name, kind, _ in written}, "__module__": __name__}
-    fresh = dataclass(**_OPTIONS[cls])(
+    fresh: Any = dataclass(**_OPTIONS[cls])(
         type(
             cls.__name__, (), {**namespace, **{name: item for name, _, item in written if _has_default(item)}}
         )
