@@ -126,6 +126,11 @@ def opened(
                 plan = build(resolved, problems, digests=digests)
                 plan = warmed(plan, inputs.environment) if digests else plan
                 launch = Launch(plan, run, isolation.files)
+                if not inputs.launching:
+                    # Here, because a run looks at its machine itself.
+                    from orchestra.plan.checks.memory import check_memory  # noqa: PLC0415
+
+                    check_memory(launch.plan, problems)
             _point_into_code(problems)
             settle(problems, path, inputs.severity, bare=_is_bare(path))
             if launch is not None:
