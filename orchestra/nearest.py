@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from difflib import SequenceMatcher
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
@@ -17,12 +18,18 @@ _LETTERS_OF_A_SHORT_WORD = 4
 
 def nearest(word: str, candidates: Iterable[str]) -> str | None:
     """Return the candidate most like the word, None where none is near. Case, `-` and `_` weigh nothing."""
+    return _nearest(word, tuple(sorted(set(candidates))))
+
+
+@lru_cache(maxsize=32)  # the same slip is made in each of a thousand nodes
+def _nearest(word: str, candidates: tuple[str, ...]) -> str | None:
     folded = _folded(word)
+    letters = {letter: folded.count(letter) for letter in folded}
     best, best_likeness = None, _LEAST_LIKENESS
-    for candidate in sorted(set(candidates)):
+    for candidate in candidates:
         if candidate == word:
             continue
-        likeness = _likeness(folded, _folded(candidate))
+        likeness = _likeness(folded, _folded(candidate), letters)
         if likeness > best_likeness or (
             best and likeness == best_likeness and _same_case(word, candidate, best)
         ):
@@ -69,16 +76,19 @@ def _folded(word: str) -> str:
     return word.lower().replace("-", "_")
 
 
-def _likeness(word: str, candidate: str) -> float:
-    """Return how much alike two words are; between short ones a single slip counts, and nothing that is less alike."""
+def _likeness(word: str, candidate: str, letters: dict[str, int]) -> float:
+    """Return how much alike two words are; between short ones a single slip counts, and nothing that is less alike.
+
+    `letters` are those of the word, with how often each stands in it.
+    """
     if 2 * min(len(word), len(candidate)) <= _LEAST_LIKENESS * (len(word) + len(candidate)):
         return 0.0  # what `real_quick_ratio` would say, without looking at the letters
     short = min(len(word), len(candidate)) <= _LETTERS_OF_A_SHORT_WORD
     if short and _is_swapped(word, candidate):
         return _LIKENESS_OF_A_SWAP
-    matcher = SequenceMatcher(None, word, candidate, autojunk=False)
-    if matcher.quick_ratio() <= _LEAST_LIKENESS:
-        return 0.0
-    ratio = matcher.ratio()
+    common = sum([min(count, candidate.count(letter)) for letter, count in letters.items()])
+    if 2.0 * common / (len(word) + len(candidate)) <= _LEAST_LIKENESS:
+        return 0.0  # what `quick_ratio` would say, in a tenth of the time
+    ratio = SequenceMatcher(None, word, candidate, autojunk=False).ratio()
     near = ratio >= _LIKENESS_OF_A_SLIP or _one_slip(word, candidate) or word.startswith(candidate)
     return ratio if near or not short else 0.0
