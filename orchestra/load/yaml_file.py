@@ -13,10 +13,12 @@ from typing import TYPE_CHECKING, Any
 import yaml
 
 from orchestra.dataclass import dataclass
+from orchestra.description.actions import model_of
 from orchestra.description.source import Keyed, Listed, Written, kind_of
 from orchestra.errors import Code
 from orchestra.load import yaml_plain
 from orchestra.load.faults import Fault
+from orchestra.load.keys import spelled
 from orchestra.load.offsets import Source, source, spans_of
 from orchestra.load.reader import Reader
 from orchestra.load.yaml_plain import DASH, DEEPEST, NULL, PARSER
@@ -37,11 +39,14 @@ def read(text: str, file: str, reader: Reader) -> Any | None:  # noqa: ANN401 - 
     """Return the tree of a YAML text, None where it is no YAML (which has been reported)."""
     whole = source(file, text)
     tree = yaml_plain.read(whole)
-    if tree is not None:
-        return tree
+    return read_closely(whole, reader) if tree is None else tree
+
+
+def read_closely(whole: Source, reader: Reader) -> Any | None:  # noqa: ANN401 - a tree
+    """Return the tree of a YAML text, whatever is in it; None where it is no YAML (which has been reported)."""
     try:
         _check_depth(whole)
-        node = yaml.compose(text, Loader=PARSER)
+        node = yaml.compose(whole.text, Loader=PARSER)
     except _RefusedError as error:
         _refuse(error.fault, reader)
         return None
@@ -142,13 +147,7 @@ class _Tree:
             if key.value == "<<" and not key.style:
                 merged.extend(self._merged(tree, at))
             elif key.value in mapping:
-                first = mapping.keys_at[key.value]
-                self.reader.error(
-                    Code.DUPLICATE_KEY,
-                    f"the key '{key.value}' stands twice",
-                    at,
-                    notes=(f"first at {first}",),
-                )
+                self._twice(key.value, tree, at, mapping)
             else:
                 mapping.put(key.value, tree, at)
         for other in merged:
@@ -156,6 +155,19 @@ class _Tree:
                 if name not in mapping:
                     mapping.put(name, tree, other.keys_at[name])
         return mapping
+
+    def _twice(self, key: str, tree: Any, at: Span, mapping: Keyed) -> None:  # noqa: ANN401 - a tree
+        """Report a key that stands twice; of an action it is rather one that lacks its dash."""
+        first = mapping.keys_at[key]
+        if all(model_of(spelled(name)) is not None for name in mapping) and isinstance(tree, Keyed):
+            message = f"'{key}' is an action: a '- ' is missing before it"
+            self.reader.error(Code.WRONG_TYPE, message, at, suggestion=f"- {key}")
+            mapping.again = (*mapping.again, (key, tree, at))
+            return
+        message = f"the key '{key}' stands twice"
+        self.reader.error(Code.DUPLICATE_KEY, message, at, notes=(f"first at {first}",))
+        if isinstance(mapping[key], Written) and mapping[key].null:
+            mapping[key] = tree  # the first is an empty beginning of the other
 
     def _beginning(self, node: yaml.MappingNode) -> Span:
         """Return the place of what a mapping without a key begins with: its brace, or its first key."""
