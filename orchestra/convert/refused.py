@@ -20,6 +20,8 @@ _ACTIONS: Final = {
     "UnregisterEventHandler": "UnregisterEventHandler",
     "UnsetLet": "UnsetLaunchConfiguration",
 }
+# What lets one process wait for another, where a handler starts it.
+_ALIKE: Final = {"OnExecutionComplete": "completed", "OnProcessExit": "exited", "OnProcessStart": "started"}
 
 
 def why(action: Action) -> str:
@@ -31,7 +33,11 @@ def why(action: Action) -> str:
         return f"only Python code knows what this {name}{called} does"
     if isinstance(action, RegisterEventHandler):
         names = {type(handler.origin).__name__ for handler in action.handlers}
-        return f"only Python has event handlers ({', '.join(sorted(names))})"
+        alike = {_ALIKE[name] for name in names if name in _ALIKE}
+        hint = (
+            f"; near to it is `depends_on` with `condition: {alike.pop()}` on what follows" if alike else ""
+        )
+        return f"only Python has event handlers ({', '.join(sorted(names))}){hint}"
     if isinstance(action, EmitEvent):
         return f"only Python can emit events ({type(action.event).__name__})"
     return f"only Python has {_ACTIONS.get(type(action).__name__, type(action).__name__)}"
