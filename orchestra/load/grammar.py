@@ -50,7 +50,7 @@ def parse_template(
     """
     known = known_template(text, _by_itself)
     if known is not None:
-        return placed(known, spans, quoted=quoted)
+        return placed(known, spans, quoted)
     reader = _Reader(text, spans, problems)
     return Template(reader.parts("", "", 0), text, spans(0, len(text)), quoted, reader.faults > 0)
 
@@ -62,7 +62,7 @@ def _by_itself(text: str, spans: Callable[[int, int], Span], problems: Problems)
 
 def unescaped(text: str) -> str:
     """Return the text of a value that takes no substitutions: a backslash before a character goes away."""
-    return _ESCAPE.sub(r"\1", text)
+    return _ESCAPE.sub(r"\1", text) if "\\" in text else text
 
 
 @dataclass(slots=True)

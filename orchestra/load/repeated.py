@@ -6,7 +6,7 @@ A file of many nodes has the same few texts in it time and again.
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING, Final, TypeAlias
+from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
 
 from orchestra.description.text import Call, Words, new_call, new_template, new_words
 from orchestra.errors import Problems
@@ -17,40 +17,70 @@ if TYPE_CHECKING:
 
     from orchestra.description.text import Part, Template
 
+    # Reads a text by itself.
     Parse: TypeAlias = Callable[[str, Callable[[int, int], Span], Problems], Template]
 
 # Longer texts are not kept.
 _SHORT: Final = 300
 
 
-def known_template(text: str, parse: Parse) -> Template | None:
-    """Return the template of a text, spans as columns; None where there is something to tell of it."""
+class Shape(NamedTuple):
+    """A template without a place: offsets in the text stand for spans."""
+
+    parts: tuple[_Part, ...]
+    raw: str
+    begin: int
+    end: int
+    quoted: bool
+
+
+class _Part(NamedTuple):
+    """Words, or a call: its name, and its arguments."""
+
+    text: str
+    arguments: tuple[Shape, ...] | None
+    begin: int
+    end: int
+
+
+def known_template(text: str, parse: Parse) -> Shape | None:
+    """Return what the template of a text looks like; None where there is something to tell of it."""
     return _known(text, parse) if len(text) <= _SHORT else None
 
 
 @lru_cache(maxsize=1024)
-def _known(text: str, parse: Parse) -> Template | None:
+def _known(text: str, parse: Parse) -> Shape | None:
     found = Problems()
     template = parse(text, _columns, found)
-    return None if len(found) else template
+    return None if len(found) else _shape(template)
 
 
 def _columns(first: int, last: int) -> Span:
     return Span("", 1, first, 1, last)
 
 
-def placed(template: Template, spans: Callable[[int, int], Span], *, quoted: bool) -> Template:
-    """Return a template with its spans in a file; it has offsets in the text for columns, and no opaque parts."""
+def _shape(template: Template) -> Shape:
     at = template.span
-    parts = tuple([_placed(part, spans) for part in template.parts])
-    return new_template(parts, template.raw, spans(at.column, at.end_column), quoted)
+    return Shape(tuple(map(_part, template.parts)), template.raw, at.column, at.end_column, template.quoted)
 
 
-def _placed(part: Part, spans: Callable[[int, int], Span]) -> Part:
+def _part(part: Part) -> _Part:
     at = part.span
-    span = spans(at.column, at.end_column)
     if isinstance(part, Words):
-        return new_words(part.text, span)
+        return _Part(part.text, None, at.column, at.end_column)
     assert isinstance(part, Call)  # noqa: S101 - the third kind is made by code of others
-    arguments = tuple([placed(item, spans, quoted=item.quoted) for item in part.arguments])
-    return new_call(part.name, arguments, span)
+    return _Part(part.name, tuple(map(_shape, part.arguments)), at.column, at.end_column)
+
+
+def placed(shape: Shape, spans: Callable[[int, int], Span], quoted: bool) -> Template:
+    """Return the template of such a shape with its spans in a file."""
+    parts, raw, begin, end, _ = shape
+    made: list[Part] = []
+    for text, arguments, first, last in parts:
+        at = spans(first, last)
+        if arguments is None:
+            made.append(new_words(text, at))
+        else:
+            inner = [placed(argument, spans, argument.quoted) for argument in arguments]
+            made.append(new_call(text, tuple(inner), at))
+    return new_template(tuple(made), raw, spans(begin, end), quoted)
