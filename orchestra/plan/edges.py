@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from graphlib import CycleError, TopologicalSorter
 from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code, Problems
 from orchestra.nearest import nearest
 from orchestra.plan.absent import is_mistake
+from orchestra.plan.circles import circles
 from orchestra.plan.conditions import Dependency
 from orchestra.plan.ids import node_name
 from orchestra.resolve.names import InvalidName, expanded
@@ -71,23 +71,11 @@ def dependencies(
 
 def check_cycles(edges: Mapping[str, tuple[Dependency, ...]], problems: Problems) -> None:
     """Report processes that wait for each other, each in one circle at the most."""
-    graph = {identity: {edge.process for edge in waits} for identity, waits in edges.items()}
-    while (circle := _circle(graph)) is not None:
+    graph = {identity: dict.fromkeys(edge.process for edge in waits) for identity, waits in edges.items()}
+    for circle in circles(graph):
         way = " waits for ".join(reversed(circle))
         edge = next(edge for edge in edges[circle[1]] if edge.process == circle[0])
         problems.error(Code.DEPENDENCY_CYCLE, f"these wait for each other: {way}", edge.location)
-        for identity in circle:
-            graph.pop(identity, None)
-
-
-def _circle(graph: Mapping[str, set[str]]) -> list[str] | None:
-    """Return processes of which each waits for the one before it, the first once more at the end."""
-    try:
-        TopologicalSorter(graph).prepare()
-    except CycleError as error:
-        circle: list[str] = error.args[1]
-        return circle
-    return None
 
 
 def _found(written: ResolvedDependency, process: ResolvedProcess, targets: Targets) -> list[str]:

@@ -16,6 +16,7 @@ from orchestra.plan.model import Candidate, ParameterFile
 from orchestra.plan.passed_on import EVERY_NODE, Sections
 from orchestra.resolve.model import InlineParameter
 from orchestra.resolve.rcl.effective import effective
+from orchestra.resolve.rcl.indexed import absolute
 from orchestra.resolve.rcl.patterns import matches
 from orchestra.values import ParameterValue
 
@@ -86,10 +87,13 @@ def _plain(process: ResolvedProcess, own: str) -> Parameters | None:
 def check_given(resolved: Resolved, problems: Problems) -> None:
     """Report parameters of the command line that are for no node of the description."""
     names = _names(resolved)
+    exact = frozenset(names)
     anonymous = any(process.kind != "process" and process.name is None for process in resolved.processes)
     for given in resolved.given:
         for section in given.sections:
-            if any(matches(section.pattern, name) for name in names) or (anonymous and not given.strict):
+            if anonymous and not given.strict:
+                continue
+            if absolute(section.pattern) in exact or any(matches(section.pattern, name) for name in names):
                 continue
             if not is_mistake(section.pattern, names, resolved):
                 continue
