@@ -54,10 +54,10 @@ class Keyed(dict[str, Any]):
     """A mapping, its keys as written; `head` is the place of what introduces the mapping.
 
     `lossy` tells that a key has been reported and left out; `meant` are the keys that such ones probably mean. `read`
-    is what a model has made of the mapping.
+    is what a model has made of the mapping. `again` are keys that stand here once more, with what is behind them.
     """
 
-    __slots__ = ("_keys_at", "_later", "head", "lossy", "meant", "read", "span")
+    __slots__ = ("_keys_at", "_later", "again", "head", "lossy", "meant", "read", "span")
 
     def __init__(self, span: Span, head: Span, values: dict[str, Any] | tuple[()] = ()) -> None:
         super().__init__(values)
@@ -68,6 +68,7 @@ class Keyed(dict[str, Any]):
         self.lossy = False
         self.meant: AbstractSet[str] = frozenset()
         self.read: Any = None
+        self.again: tuple[tuple[str, Any, Span], ...] = ()
 
     @property
     def keys_at(self) -> dict[str, Span]:

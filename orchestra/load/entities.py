@@ -120,6 +120,8 @@ class _Builder:
     def _apart(self, items: Listed) -> Iterator[Any]:
         """Yield the items of a list; of several actions in one item, for want of a '- ', each by itself."""
         for item in items:
+            for name, content, at in item.again if isinstance(item, Keyed) else ():
+                yield _alone(name, content, at)
             if not isinstance(item, Keyed) or len(item) <= 1 or not all(map(_is_action, item)):
                 yield item
                 continue

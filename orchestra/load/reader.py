@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
@@ -32,6 +33,8 @@ _WANTED = {
     "list_type": "a list",
     "tuple_type": "a list",
 }
+_QUOTES = ("'", '"')
+_HALF_QUOTED = re.compile(r"""[^\s"']*[^\s"'0-9]["']""")
 _LISTS = ("list_type", "tuple_type")
 
 
@@ -63,6 +66,9 @@ class Reader:
     def template(self, written: Written) -> Template:
         """Read a text with substitutions."""
         text = written.text
+        if text[-1:] in _QUOTES and not written.quoted and _HALF_QUOTED.fullmatch(text):
+            told = f"the {text[-1]} at the end of '{text}' is part of the text: nothing opens it"
+            self.warning(Code.SURPRISING_SCALAR, told, written.inside, suggestion=text[-1] + text)
         if text and "$" not in text and "\\" not in text:
             span = written.inside
             return new_template((new_words(text, span),), text, span, written.quoted)

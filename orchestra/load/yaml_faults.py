@@ -14,6 +14,7 @@ import yaml
 from orchestra.description.source import shortened
 from orchestra.load.faults import Fault
 from orchestra.load.yaml_failure import Failure
+from orchestra.load.yaml_indentation import of_lines
 from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
@@ -39,7 +40,8 @@ def explained(error: yaml.YAMLError, whole: Source) -> Fault:
     at = _offset(mark, whole) if mark is not None else 0
     context = _offset(error.context_mark, whole) if error.context_mark is not None else at
     failure = Failure(whole, at, context, error.problem or "", error.context or "")
-    return failure.of_quotes() or _explanation(failure)(failure) or failure.plainly()
+    by_lines = of_lines(failure) if any(map(failure.problem.count, _OF_LINES)) else None
+    return failure.of_quotes() or by_lines or _explanation(failure)(failure) or failure.plainly()
 
 
 def _explanation(failure: Failure) -> Callable[[Failure], Fault | None]:
@@ -145,6 +147,8 @@ def _without_colon(failure: Failure, begin: int) -> Fault:
     """Explain a key whose colon, or the blank behind it, is missing."""
     end = failure.line_end(begin)
     written = failure.text[begin:end]
+    if written.startswith("- "):
+        return failure.fault("this is indented as nothing above it is", begin, begin + 1)
     if _is_item(failure, begin):
         instead = f"- {written.removeprefix('-')}"
         return failure.fault("an item of the list begins with '- '", begin, end, instead)
@@ -243,6 +247,14 @@ def _in_quotes(text: str) -> str | None:
     )
 
 
+# What the parser says where lines do not fit together.
+_OF_LINES: Final = (
+    "did not find expected key",
+    "did not find expected '-' indicator",
+    "did not find expected <document start>",
+    "mapping values are not allowed",
+    "could not find expected ':'",
+)
 _EXPLANATIONS: Final[dict[str, Callable[[Failure], Fault | None]]] = {
     "found character that cannot start any token": _stray,
     "found a tab character": _tab,

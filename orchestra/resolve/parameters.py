@@ -9,12 +9,14 @@ from orchestra.description.parts import VALUE_TYPES, Override
 from orchestra.description.text import Constant, span_of, whole_span_of
 from orchestra.errors import Code
 from orchestra.location import is_python, point
+from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.model import InlineParameter, ParameterSource
 from orchestra.resolve.parameter_files import file_parameters
 from orchestra.resolve.paths import beside
 from orchestra.resolve.rcl.overrides import override_value
 from orchestra.resolve.rcl.surprises import plainly
+from orchestra.resolve.refusals import refuse_value
 from orchestra.resolve.scalars import checked, coerced, described, differs, unified, upstream_value
 from orchestra.resolve.wrong_lists import odd_place, wrong_as_a_whole
 from orchestra.resolve.yaml_scalars import QUOTE
@@ -30,6 +32,7 @@ if TYPE_CHECKING:
     from orchestra.resolve.resolution import Resolution
     from orchestra.values import ParameterValue
 
+_BOOLEANS = ("true", "false")
 _AS_TEXT = "ParameterValue(..., value_type=str) keeps it a text"
 
 
@@ -99,6 +102,9 @@ def _text(
             return evaluated.text
         result = upstream_value(evaluated.text)
     except ValueError as error:
+        meant = nearest(evaluated.text, _BOOLEANS) if type_word == "bool" else None
+        if meant is not None and not is_python(evaluated.location):
+            return refuse_value(evaluated, run.problems, Code.PARAMETER_TYPE, str(error), meant=meant)
         return _refuse(name, error, evaluated.location, run)
     if constant is not None:
         _warn_of_surprise(constant, result, evaluated.location, run, quotes=quotes)

@@ -66,6 +66,7 @@ def refuse_value(
     origin = value.location if value.verbatim else _origin(value) or _set_by_code(value)
     if meant is not None and origin is not None:
         used = () if value.verbatim else (f"it is used at {value.location}",)
+        _forget_surprise(origin, problems)
         problems.error(code, told, origin, suggestion=meant, notes=(*notes, *used))
         return POISON
     if meant is not None and not value.verbatim:
@@ -84,6 +85,14 @@ def _origin(value: Value) -> Location | None:
             return reads[0].written
         reads = reads[0].through
     return None
+
+
+def _forget_surprise(at: Location, problems: Problems) -> None:
+    """Take back the warning that a value is surprising where it is told to be wrong."""
+    if any(problem.span == at.span and problem.code is Code.SURPRISING_SCALAR for problem in problems):
+        problems.amend(
+            lambda known: None if known.span == at.span and known.code is Code.SURPRISING_SCALAR else known
+        )
 
 
 def _set_by_code(value: Value) -> Location | None:

@@ -11,6 +11,7 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
+from orchestra.description.source import shortened
 from orchestra.errors import Code
 
 if TYPE_CHECKING:
@@ -28,19 +29,22 @@ _AS_YAML: Final = re.compile(r"[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)")
 _NOT_FINITE: Final = {"nan": ".nan", "inf": ".inf", "-inf": "-.inf"}
 _ZEROS: Final = re.compile(r"(?P<sign>[-+]?)0+(?P<digits>[1-9][0-9]*)")
 _GROUPED: Final = re.compile(r"[-+]?[0-9]+(?:_[0-9]+)+(?:\.[0-9_]*)?")
+_HALF_QUOTED: Final = re.compile(r"""[^\s"']+["']""")
 _WHOLE: Final = re.compile(r"[-+]?[0-9]+")
 _PREFIXED: Final = re.compile(r"[-+]?0(?:o(?P<octal>[0-7]+)|b(?P<binary>[01]+))")
 
 
+_NOT_PLAIN: Final = ("'", '"', "!", "&", "|", ">", "")
+_OPENING: Final = {"]": "[", "}": "{"}
 _BREAK: Final = re.compile("\r\n|[\r\n\x85\u2028\u2029]")
 
 
 @dataclass(frozen=True, slots=True)
 class Surprise:
-    """What is to be said of a scalar, and what should stand in its place."""
+    """What is to be said of a scalar, and what should stand in its place, where that is known."""
 
     message: str
-    instead: str
+    instead: str | None
 
 
 def report_surprises(sections: Sequence[Section], text: str, problems: Problems) -> None:
@@ -50,7 +54,9 @@ def report_surprises(sections: Sequence[Section], text: str, problems: Problems)
         for entry in section.entries:
             for value, location in _scalars(entry):
                 written = _written(location.span, lines)
-                found = surprise(written, value) if written is not None else None
+                found = (
+                    surprise(written, value) if written is not None else _over_lines(value, location, lines)
+                )
                 if found is not None:
                     problems.warning(
                         Code.SURPRISING_SCALAR, found.message, location, suggestion=found.instead
@@ -70,7 +76,17 @@ def _written(span: Span, lines: Sequence[str]) -> str | None:
     if span.line != span.end_line:
         return None
     text = lines[span.line - 1][span.column - 1 : span.end_column - 1]
-    return None if text[:1] in ("'", '"', "!", "&", "|", ">", "") else text
+    return None if text[:1] in _NOT_PLAIN else text
+
+
+def _over_lines(value: Scalar, location: Location, lines: Sequence[str]) -> Surprise | None:
+    """Return what is surprising about a plain text on several lines, of which no other can be put in place."""
+    span = location.span
+    if not isinstance(value, str) or span.line == span.end_line:
+        return None
+    plain = lines[span.line - 1][span.column - 1 :][:1] not in _NOT_PLAIN
+    found = half_open(value) if plain else None
+    return None if found is None else Surprise(found.message, None)
 
 
 def plainly(text: str, value: ParameterValue, *, quotes: bool) -> str | None:
@@ -111,6 +127,8 @@ def _of_boolean(text: str, value: bool) -> Surprise | None:
 
 
 def _of_text(text: str) -> Surprise | None:
+    if (half := half_open(text)) is not None:
+        return half
     if text in _NULLS:
         return Surprise(f"'{text}' is read as a text: no parameter is without a value", f"'{text}'")
     if _GROUPED.fullmatch(text):
@@ -120,6 +138,20 @@ def _of_text(text: str) -> Surprise | None:
         sign = "-" if text.startswith("-") else ""
         return Surprise(f"'{text}' is read as a text, not as the number {sign}{number}", f"{sign}{number}")
     return None
+
+
+def half_open(text: str) -> Surprise | None:
+    """Return what is to be said of a plain text that ends with a quote or a bracket that nothing opens."""
+    last = text[-1:]
+    if _HALF_QUOTED.fullmatch(text):
+        return Surprise(
+            f"the {last} at the end of '{text}' is part of the text: nothing opens it", last + text
+        )
+    opening = _OPENING.get(last)
+    if opening is None or "," not in text or opening in text or text.count(last) > 1:
+        return None
+    told = f"the {last} at the end of '{shortened(text)}' is part of the text: no {opening} opens it"
+    return Surprise(told, opening + text)
 
 
 def _of_number(text: str, value: float) -> Surprise | None:
