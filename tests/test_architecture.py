@@ -46,6 +46,7 @@ _SMALL_CORE = {
         "orchestra.plan.conditions",
         "orchestra.plan.reactions",
         "orchestra.plan.codec",
+        "orchestra.plan.json_text",
         "orchestra.plan.parameter_file",
         "orchestra.plan.startup",
     ),
