@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import importlib.util
 import json
 import os
@@ -12,6 +13,8 @@ import time
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
+
+from benchmarks import costs
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence
@@ -85,7 +88,10 @@ def started(
         try:
             yield popen
         except BaseException:
-            popen.send_signal(signal.SIGTERM)
+            # What a shell has started in sessions of their own would stay.
+            for process in costs.tree(popen.pid):
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(process.pid, signal.SIGTERM)
             print(errors.read_text()[-2000:], file=sys.stderr)
             raise
         finally:
