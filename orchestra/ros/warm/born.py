@@ -74,16 +74,16 @@ class Born:
         sys.excepthook = showing
 
 
-def born(request: Request, supervisor: int, path: Sequence[str], modules: Collection[str]) -> Born:
+def born(request: Request, supervisor: int, path: Sequence[str], loaded: Collection[str]) -> Born:
     """Wait until the program may begin, and put everything in its place; ends the process where that cannot be done.
 
-    `path` is that of the interpreter when it had started, `modules` what it had imported.
+    `path` is that of the interpreter when it had started, `loaded` are the modules that the server has imported since.
     """
     _take(request.descriptors)
     if not os.read(_GO, 1):
         os._exit(0)  # nobody waits for it any more
     try:
-        return _become(request.facts, supervisor, path, modules)
+        return _become(request.facts, supervisor, path, loaded)
     except OSError as error:
         _tell([error.errno, error.strerror or str(error), error.filename])
     except ColdError as error:
@@ -109,7 +109,7 @@ def _take(descriptors: list[int]) -> None:
     os.closerange(_GO + 1, os.sysconf("SC_OPEN_MAX"))
 
 
-def _become(facts: dict[str, Any], supervisor: int, path: Sequence[str], modules: Collection[str]) -> Born:
+def _become(facts: dict[str, Any], supervisor: int, path: Sequence[str], loaded: Collection[str]) -> Born:
     """Do what is done between fork and exec of a cold start, then what the interpreter does until it runs a program."""
     if facts["cwd"] is not None:
         os.chdir(facts["cwd"])
@@ -124,7 +124,7 @@ def _become(facts: dict[str, Any], supervisor: int, path: Sequence[str], modules
     source = b"" if module else _source_of(script, executed=facts["executed"])
     first = os.getcwd() if module else os.path.dirname(os.path.realpath(script))  # noqa: PTH109, PTH120 - as above
     sys.path[:] = path if sys.flags.safe_path else [first, *path]
-    hidden = shadowed(first, modules) if not sys.flags.safe_path else None
+    hidden = shadowed(first, loaded) if not sys.flags.safe_path else None
     if hidden:
         raise ColdError(f"{first} has a module '{hidden}' of its own")
     words = facts["words"]

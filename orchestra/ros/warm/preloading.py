@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 # rclpy imports the latter where it uses them first: with the first node, its parameters and its clock.
 _BY_NODES = (
-    *("rclpy", "rclpy.node", "rclpy.executors", "rclpy.action", "rclpy.lifecycle"),
+    *("rclpy", "rclpy.node", "rclpy.executors"),
     *("rosidl_generator_py", "rosidl_parser.parser"),
 )
 _MESSAGES = {
@@ -82,13 +82,14 @@ def _preload_for(path: str, folder: str, seen: set[str], depth: int) -> None:
     seen.add(path)
     for module, names in _imports(path):
         top = module.partition(".")[0]
-        if module in sys.modules and not names:
+        own = _lies_in(folder, top)
+        if module in sys.modules and not names and not own:
             continue
-        if top in sys.stdlib_module_names or top in _LIBRARIES:
+        if not own and (top in sys.stdlib_module_names or top in _LIBRARIES):
             if top not in _NOT:
                 with suppress(Exception):
                     import_module(module)
-        elif module.endswith(_INTERFACES) and _is_interface(top):
+        elif not own and module.endswith(_INTERFACES) and _is_interface(top):
             with suppress(Exception):
                 _import_interfaces(module, names)
         else:
@@ -130,12 +131,17 @@ def _is_interface(package: str) -> bool:
     return any(Path(prefix, _INDEX, package).exists() for prefix in (*filter(None, listed), sys.prefix))
 
 
+def _lies_in(folder: str, module: str) -> bool:
+    """Tell whether a program in a folder finds a module there."""
+    beside = Path(folder, module)
+    return beside.with_suffix(".py").exists() or (beside / "__init__.py").exists()
+
+
 def _source_of(module: str, folder: str) -> str | None:
     """Return the file of a module, which is not imported, and neither are the packages around it."""
     top, *rest = module.split(".")
-    beside = Path(folder, top)
-    if beside.is_dir() or beside.with_suffix(".py").exists():
-        place = beside
+    if _lies_in(folder, top):
+        place = Path(folder, top)
     else:
         spec = None
         with suppress(Exception):

@@ -15,14 +15,17 @@ import socket
 import sys
 import threading
 import warnings
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
 
+from orchestra.ros.warm import shown
 from orchestra.ros.warm.born import born
 from orchestra.ros.warm.preloading import preload, preload_common
+from orchestra.ros.warm.shadows import loaded_since
 from orchestra.supervise.keeping import kernel
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Sequence
+    from collections.abc import Collection, Iterator, Sequence
 
     from orchestra.ros.warm.born import Born
 
@@ -30,7 +33,7 @@ NAME = "orc-warm"
 _LARGEST = 1 << 18  # bytes of a message
 _DESCRIPTORS = 4
 # So many are forked before the first of them begins: a fork in between costs as much as one of a node.
-_AT_ONCE = 4
+_AT_ONCE = 8
 _FAILED = -1
 
 
@@ -54,13 +57,17 @@ def serve(path: Sequence[str], modules: Collection[str]) -> Born:
     try:
         with _quietly_interrupted():
             _make_ready(connection)
-            while True:
-                request = _serve_some(connection)
-                if request:
-                    break
+            loaded, request = loaded_since(modules), None
+            while request is None:
+                starts, targets = _received(connection)
+                if targets:
+                    with _frozen(connection):
+                        preload(targets)
+                    loaded = loaded_since(modules)
+                request = _fork_all(connection, starts)
     except ConnectionError:
         _leave()
-    return born(request, supervisor, path, modules)
+    return born(request, supervisor, path, loaded)
 
 
 class _quietly_interrupted:  # noqa: N801 - a context manager that reads like a word
@@ -74,20 +81,24 @@ class _quietly_interrupted:  # noqa: N801 - a context manager that reads like a 
 
 
 def _make_ready(connection: socket.socket) -> None:
-    try:
-        preload_common()
-    except Exception as error:  # noqa: BLE001 - told to the supervisor, which starts the nodes without us
-        _refuse(connection, f"{type(error).__name__}: {error}")
-    _freeze(connection)
+    with _frozen(connection):
+        try:
+            preload_common()
+        except Exception as error:  # noqa: BLE001 - told to the supervisor, which starts the nodes without us
+            _refuse(connection, f"{type(error).__name__}: {error}")
+    shown.prepare()
 
 
-def _freeze(connection: socket.socket) -> None:
-    """Leave what there is to all processes alike: the collector would write to it."""
+@contextmanager
+def _frozen(connection: socket.socket) -> Iterator[None]:
+    """Leave what is imported to all processes alike: the collector, which writes to what it looks at, never will."""
+    gc.disable()
+    yield
     running = [thread.name for thread in threading.enumerate() if thread is not threading.main_thread()]
     if running:  # a fork copies no thread, and their locks stay as they are
         _refuse(connection, f"an import has started threads: {', '.join(running)}")
-    gc.collect()
     gc.freeze()
+    gc.enable()
 
 
 def _refuse(connection: socket.socket, reason: str) -> NoReturn:
@@ -100,12 +111,8 @@ def _leave() -> NoReturn:
     os._exit(0)
 
 
-def _serve_some(connection: socket.socket) -> Request | None:
-    """Carry out what is asked now; return a request in the process that is to become its node."""
-    starts, targets = _received(connection)
-    if targets:
-        preload(targets)
-        _freeze(connection)
+def _fork_all(connection: socket.socket, starts: list[Request]) -> Request | None:
+    """Fork for all; return one of them in the process that is to become its node."""
     for index in range(0, len(starts), _AT_ONCE):
         mine = _fork_some(connection, starts[index : index + _AT_ONCE])
         if mine:

@@ -13,12 +13,13 @@ if TYPE_CHECKING:
 _SUFFIXES = tuple(all_suffixes())
 
 
-def shadowed(folder: str, at_first: Collection[str]) -> str | None:
-    """Return the name of a module in a folder that is imported from elsewhere, None where there is none.
+def loaded_since(modules: Collection[str]) -> frozenset[str]:
+    """Return the top-level modules of sys.modules that an interpreter without a program (`modules`) does not have."""
+    return frozenset({name.partition(".")[0] for name in sys.modules} - set(modules))
 
-    What the interpreter imports before it runs any program (`at_first`) is the same for all.
-    """
-    loaded = {name.partition(".")[0] for name in sys.modules} - set(at_first)
+
+def shadowed(folder: str, loaded: Collection[str]) -> str | None:
+    """Return the name of a module in a folder that is loaded from elsewhere, None where there is none."""
     try:
         entries = os.listdir(folder)  # noqa: PTH208 - this is on the way of each node
     except OSError:
@@ -26,8 +27,7 @@ def shadowed(folder: str, at_first: Collection[str]) -> str | None:
     for entry in entries:
         name = entry.partition(".")[0]
         if name in loaded and not name.startswith("_") and _is_module(folder, entry):
-            module = sys.modules.get(name)
-            found = getattr(module, "__file__", None) or ""
+            found = getattr(sys.modules.get(name), "__file__", None) or ""
             if not found.startswith(os.path.join(folder, name)):  # noqa: PTH118 - as above
                 return name
     return None

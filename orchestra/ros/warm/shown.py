@@ -7,7 +7,6 @@ told from others by its number (`marks`).
 
 from __future__ import annotations
 
-import contextlib
 import ctypes
 import mmap
 import os
@@ -42,6 +41,20 @@ class _Map(ctypes.Structure):
     )
 
 
+_MAP = _Map()
+_LIBC = ctypes.CDLL(None)
+_LIBC.sbrk.restype = ctypes.c_void_p
+
+
+def prepare() -> None:
+    """Find out the addresses of this process: those of its copies are the same."""
+    with open("/proc/self/stat", "rb") as file:  # noqa: PTH123 - on the way of the first node
+        facts = file.read().rpartition(b")")[2].split()
+    for name, field in _FIELDS.items():
+        setattr(_MAP, name, int(facts[field - _AFTER_NAME]))
+    _MAP.exe_fd = _NO_FILE
+
+
 def show(words: Sequence[str], environment: Mapping[str, str]) -> None:
     """Let /proc show this command line and this environment, as far as the kernel allows it."""
     arguments = b"".join(os.fsencode(word) + b"\0" for word in words)
@@ -49,28 +62,9 @@ def show(words: Sequence[str], environment: Mapping[str, str]) -> None:
     # Private pages: the kernel reads no others for this (mm/util.c, get_cmdline).
     memory = mmap.mmap(-1, len(arguments) + len(variables) + 1, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
     memory.write(arguments + variables)
-    begin = ctypes.addressof(ctypes.c_char.from_buffer(memory))
-    middle = begin + len(arguments)
-    with contextlib.suppress(OSError, ValueError):
-        _set_map(begin, middle, middle + len(variables))
-        _kept.append(memory)
-
-
-def _set_map(begin: int, middle: int, end: int) -> None:
-    libc = ctypes.CDLL(None, use_errno=True)
-    libc.sbrk.restype = ctypes.c_void_p
-    with open("/proc/self/stat", "rb") as file:  # noqa: PTH123 - on the way of each node
-        facts = file.read().rpartition(b")")[2].split()
-    known = {name: int(facts[field - _AFTER_NAME]) for name, field in _FIELDS.items()}
-    wanted = _Map(
-        **known,
-        brk=libc.sbrk(0),
-        arg_start=begin,
-        arg_end=middle,
-        env_start=middle,
-        env_end=end,
-        auxv=0,
-        auxv_size=0,
-        exe_fd=_NO_FILE,
-    )
-    libc.prctl(_SET_MM, _SET_MM_MAP, ctypes.byref(wanted), ctypes.sizeof(wanted), 0)
+    _kept.append(memory)
+    _MAP.arg_start = ctypes.addressof(ctypes.c_char.from_buffer(memory))
+    _MAP.arg_end = _MAP.env_start = _MAP.arg_start + len(arguments)
+    _MAP.env_end = _MAP.env_start + len(variables)
+    _MAP.brk = _LIBC.sbrk(0)
+    _LIBC.prctl(_SET_MM, _SET_MM_MAP, ctypes.byref(_MAP), ctypes.sizeof(_MAP), 0)

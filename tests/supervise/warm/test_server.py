@@ -176,12 +176,12 @@ def test_without_rclpy_nodes_are_started_cold_and_it_is_told(tmp_path: Path) -> 
 
 
 def test_a_module_of_the_program_itself_is_not_replaced_by_one_of_the_server(tmp_path: Path) -> None:
-    own = script(tmp_path, "own.py", "import argparse; print(argparse.OURS)")
-    (tmp_path / "argparse.py").write_text("OURS = 1")
+    own = script(tmp_path, "own.py", "import yaml; print(yaml.OURS)")
+    (tmp_path / "yaml.py").write_text("OURS = 1")
     run = finished(tmp_path, both_ways(node("own", own)))
     assert run.log("own") == run.log("own_cold") == "1\n"
     (cold,) = run.of_kind("started_cold")
-    assert cold.data["reason"].endswith("has a module 'argparse' of its own")
+    assert cold.data["reason"].endswith("has a module 'yaml' of its own")
 
 
 def test_without_it_there_is_no_server(tmp_path: Path) -> None:
@@ -220,11 +220,11 @@ import os, time
 if os.fork() == 0:
     os.setsid()
     if os.fork() == 0:
-        print("detached", flush=True)
+        os.write(1, b"detached\\n")
         time.sleep(100)
     os._exit(0)
 os.wait()
-print("up", flush=True)
+os.write(1, b"up\\n")
 time.sleep(100)
 """
     wanted = both_ways(node("forking", script(tmp_path, "forking.py", forking)))
