@@ -176,7 +176,7 @@ def _script(word: str | None, path: str, search_path: str) -> Program | str:
     first = _first_line(path)
     if not first.startswith(b"#!"):
         return "its program is not written in Python"
-    words = os.fsdecode(first[2:]).split()
+    words = [] if first.endswith(b"\r") else os.fsdecode(first[2:]).split()
     if len(words) == 2 and words[0] == _ENV and "/" not in words[1]:  # noqa: PLR2004 - env and a name
         called, by_name = words[1], program_on_path(words[1], {"PATH": search_path})
         executable, comm = by_name or "", called
