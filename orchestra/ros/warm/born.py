@@ -8,7 +8,6 @@ import fcntl
 import json
 import os
 import runpy
-import signal
 import sys
 import threading
 import time
@@ -74,7 +73,7 @@ class Born:
         sys.excepthook = showing
 
 
-def born(request: Request, supervisor: int, path: Sequence[str], loaded: Collection[str]) -> Born:
+def born(request: Request, path: Sequence[str], loaded: Collection[str]) -> Born:
     """Wait until the program may begin, and put everything in its place; ends the process where that cannot be done.
 
     `path` is that of the interpreter when it had started, `loaded` are the modules that the server has imported since.
@@ -83,7 +82,7 @@ def born(request: Request, supervisor: int, path: Sequence[str], loaded: Collect
     if not os.read(_GO, 1):
         os._exit(0)  # nobody waits for it any more
     try:
-        return _become(request.facts, supervisor, path, loaded)
+        return _become(request.facts, path, loaded)
     except OSError as error:
         _tell([error.errno, error.strerror or str(error), error.filename])
     except ColdError as error:
@@ -109,12 +108,11 @@ def _take(descriptors: list[int]) -> None:
     os.closerange(_GO + 1, os.sysconf("SC_OPEN_MAX"))
 
 
-def _become(facts: dict[str, Any], supervisor: int, path: Sequence[str], loaded: Collection[str]) -> Born:
+def _become(facts: dict[str, Any], path: Sequence[str], loaded: Collection[str]) -> Born:
     """Do what is done between fork and exec of a cold start, then what the interpreter does until it runs a program."""
     if facts["cwd"] is not None:
         os.chdir(facts["cwd"])
     os.setsid()
-    kernel.die_with_parent(signal.SIGTERM, supervisor)
     if facts["mark"] is not None:
         kernel.set_lock_limit(facts["mark"])
     _restrict(facts)

@@ -49,9 +49,8 @@ def serve(path: Sequence[str], modules: Collection[str]) -> Born:
 
     The one argument of the program is our parent's pid; `path` and `modules` are those of a fresh interpreter.
     """
-    supervisor = int(sys.argv[1])
     kernel.set_name(NAME)
-    kernel.die_with_parent(signal.SIGKILL, supervisor)
+    kernel.die_with_parent(signal.SIGKILL, int(sys.argv[1]))
     connection = socket.socket(fileno=os.dup(0))
     os.dup2(os.open(os.devnull, os.O_RDONLY | os.O_CLOEXEC), 0)
     try:
@@ -67,7 +66,7 @@ def serve(path: Sequence[str], modules: Collection[str]) -> Born:
                 request = _fork_all(connection, starts)
     except ConnectionError:
         _leave()
-    return born(request, supervisor, path, loaded)
+    return born(request, path, loaded)
 
 
 class _quietly_interrupted:  # noqa: N801 - a context manager that reads like a word
