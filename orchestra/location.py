@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final, Protocol
+
+from orchestra.dataclass import dataclass
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -48,6 +49,9 @@ class Span:
             if name not in FIELDS:
                 raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
             whole, begin, end = self._offsets
+            if name == "file":  # it is asked for by itself, and known without a look at the text
+                object.__setattr__(self, name, whole.file)
+                return whole.file
             for known, value in zip(
                 FIELDS, (whole.file, *whole.place(begin), *whole.place(end)), strict=True
             ):

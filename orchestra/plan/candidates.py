@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import maker
 from orchestra.location import Location
 from orchestra.plan.model import Candidate, Via
 
@@ -24,6 +25,9 @@ _MOST = 16
 _LONGEST = 200
 
 
+_new_via = maker(Via)
+
+
 def origins(sources: Iterable[ParameterSource]) -> Origins:
     """Return the parameters and files for which something was read, by the place where they are written."""
     return {source.location: source for source in sources if source.through or getattr(source, "within", ())}
@@ -31,6 +35,10 @@ def origins(sources: Iterable[ParameterSource]) -> Origins:
 
 def passage(through: Sequence[Read]) -> tuple[Via, ...]:
     """Return what was read on the way to a value, each once: what is behind one follows it, a step deeper."""
+    if not through:
+        return ()
+    if len(through) == 1 and not through[0].through:
+        return (_via(through[0], 0),)
     found: list[Via] = []
     seen: set[tuple[str, str, int]] = set()
     waiting = [(read, 0) for read in reversed(through)]
@@ -47,7 +55,7 @@ def passage(through: Sequence[Read]) -> tuple[Via, ...]:
 
 def _via(read: Read, depth: int) -> Via:
     value = read.value if len(read.value) <= _LONGEST else f"{read.value[:_LONGEST]}..."
-    return Via(read.kind, read.name, value, read.setter, read.location, depth)
+    return _new_via(read.kind, read.name, value, read.setter, read.location, depth)
 
 
 def behind(location: Location, known: Origins) -> tuple[Via, ...]:

@@ -40,7 +40,7 @@ def program_words(
     if os.sep not in written:
         _check_name(written, location, run)
         return (written,)
-    if Path(written).is_absolute():
+    if os.path.isabs(written):  # noqa: PTH117 - pathlib is slow
         found = written
     else:
         near = folder_of(run.context.file) / written

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
         ResolvedComponent,
         ResolvedProcess,
     )
-    from orchestra.resolve.rcl.sections import Entry
+    from orchestra.resolve.rcl.sections import Entry, Section
 
 
 def check_doubled(resolved: Resolved, plan: Plan, problems: Problems) -> None:
@@ -32,20 +32,23 @@ def check_doubled(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     del plan
     losing = {problem.span for problem in problems if problem.code is Code.OVERRULED_PARAMETER}
     nodes: list[ResolvedProcess | ResolvedComponent] = [*resolved.processes, *resolved.components]
+    sections = _Sections()
     for node in nodes:
+        if len(node.parameters) < 2:  # noqa: PLR2004 - nothing stands twice
+            continue
         own = [item for item in node.parameters if not item.everywhere and not is_python(item.location)]
         inline = [item for item in own if isinstance(item, InlineParameter)]
         told = {item.name for item in inline if item.location.span in losing}
         _check_values(inline, told, problems)
         if inline and len(own) > len(inline):
-            _check_files(own, node_name(node), told, problems)
+            _check_files(own, node_name(node), sections, told, problems)
 
 
 def _check_values(inline: Sequence[InlineParameter], told: set[str], problems: Problems) -> None:
     first: dict[str, InlineParameter] = {}
     for source in inline:
         earlier = first.setdefault(source.name, source)
-        if repr(earlier.value) == repr(source.value) or source.name in told:
+        if earlier is source or repr(earlier.value) == repr(source.value) or source.name in told:
             continue
         told.add(source.name)
         problems.warning(
@@ -57,7 +60,11 @@ def _check_values(inline: Sequence[InlineParameter], told: set[str], problems: P
 
 
 def _check_files(
-    own: Sequence[ParameterSource], name: str | None, told: set[str], problems: Problems
+    own: Sequence[ParameterSource],
+    name: str | None,
+    sections: _Sections,
+    told: set[str],
+    problems: Problems,
 ) -> None:
     """Report values before a file that has others for the very node, whose name it gives."""
     before: dict[str, InlineParameter] = {}
@@ -65,7 +72,7 @@ def _check_files(
         if isinstance(source, InlineParameter):
             before[source.name] = source
             continue
-        for entry in _entries(source, name or ""):
+        for entry in sections.entries(source, name or "") if before else ():
             earlier = before.get(entry.name)
             if earlier is None or entry.value is None or entry.name in told:
                 continue
@@ -74,9 +81,20 @@ def _check_files(
                 _report(entry, earlier, problems)
 
 
-def _entries(source: FileParameters, name: str) -> Iterator[Entry]:
-    for section in source.sections:
-        if section.pattern.removeprefix("/") == name.removeprefix("/"):
+class _Sections:
+    """The sections of files by their patterns; each file is gone through once."""
+
+    def __init__(self) -> None:
+        self._files: dict[int, dict[str, list[Section]]] = {}
+
+    def entries(self, source: FileParameters, name: str) -> Iterator[Entry]:
+        """Yield what a file has for the very node."""
+        known = self._files.get(id(source.sections))
+        if known is None:
+            known = self._files[id(source.sections)] = {}
+            for section in source.sections:
+                known.setdefault(section.pattern.removeprefix("/"), []).append(section)
+        for section in known.get(name.removeprefix("/"), ()):
             yield from section.entries
 
 

@@ -15,6 +15,7 @@ from orchestra.errors import Code
 from orchestra.location import Location
 from orchestra.plan.ids import node_name
 from orchestra.resolve.model import FileParameters, ResolvedProcess
+from orchestra.resolve.rcl.indexed import Indexed
 from orchestra.resolve.rcl.patterns import matches
 from orchestra.resolve.typos import is_typo
 
@@ -60,6 +61,9 @@ class _Names:
 
     def __init__(self, names: Iterable[str]) -> None:
         self._names = frozenset(names)
+        self._lasts: dict[str, list[str]] = {}
+        for name in self._names:
+            self._lasts.setdefault(name.rpartition("/")[2], []).append(name)
         self._known: dict[str, bool] = {}
 
     def any(self, pattern: str) -> bool:
@@ -67,7 +71,9 @@ class _Names:
         if "*" not in pattern:
             return _absolute(pattern) in self._names
         if pattern not in self._known:
-            self._known[pattern] = any(matches(pattern, name) for name in self._names)
+            last = pattern.rpartition("/")[2]
+            names = self._names if "*" in last else self._lasts.get(last, ())
+            self._known[pattern] = any(matches(pattern, name) for name in names)
         return self._known[pattern]
 
 
@@ -98,7 +104,7 @@ def _hands_on(node: _Node) -> bool:
 def _check(file: _File, names: _Names, resolved: Resolved, problems: Problems, told: set[object]) -> None:
     sections = file.source.sections
     exact = {_absolute(section.pattern) for section in sections}
-    wild = list(dict.fromkeys(section.pattern for section in sections if "*" in section.pattern))
+    index = Indexed(sections)
     idle: dict[str, list[Section]] = {}
     for section in sections:
         if not names.any(section.pattern):
@@ -107,7 +113,7 @@ def _check(file: _File, names: _Names, resolved: Resolved, problems: Problems, t
     for name in file.users:
         if name in exact:
             continue
-        served = any(matches(pattern, name) for pattern in wild)
+        served = index.has_wildcard_for(name)
         meant = _meant(name, idle, served=served, resolved=resolved) if idle and not file.open else None
         if meant is not None:
             _report(meant, name, _instead(meant, name), file.users[name], problems, told)
