@@ -3,16 +3,17 @@
 That one writes the text of six methods for each class and compiles them, which took half of the time until the first
 process of a run was started: there are some hundred classes on the way, and few of them are ever made there. Here
 `__init__` is compiled when more than a few objects are made, and the other methods are the same code for all classes.
-Fields are those of the standard library, so `fields`, `replace`, `asdict` and `is_dataclass` do what they always do.
+The library itself, and what it needs to write code, is imported only where somebody uses it (`orchestra.fields`).
 
-`InitVar` is not known here.
+`InitVar` and fields in an order by name alone (`KW_ONLY`) are not known here.
 """
 
 from __future__ import annotations
 
-import dataclasses
 from operator import attrgetter, ge, gt, le, lt
 from reprlib import recursive_repr
+
+from orchestra.fields import UNWRITTEN, ForLibrary, fields, own_fields
 
 __all__ = ["dataclass", "maker"]
 
@@ -21,6 +22,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from dataclasses import dataclass
     from typing import Any, ParamSpec, TypeVar
+
+    from orchestra.fields import Field
 
     P = ParamSpec("P")
     T = TypeVar("T")
@@ -43,34 +46,50 @@ else:
         return made
 
 
-_UNWRITTEN = dataclasses.MISSING
 _FEW = 3  # objects take less time to be made one by one than `__init__` takes to be compiled
 _ORDER = {"lt": lt, "le": le, "gt": gt, "ge": ge}
 
 
+def _with_slots(cls: type, names: list[str]) -> type:
+    """Return the class anew, with slots for its own fields."""
+    inherited = {slot for base in cls.__mro__[1:-1] for slot in vars(base).get("__slots__", ())}
+    content = {name: value for name, value in vars(cls).items() if name not in names}
+    content.pop("__dict__", None)
+    content.pop("__weakref__", None)
+    content["__slots__"] = tuple(name for name in names if name not in inherited)
+    made = type(cls)(cls.__name__, cls.__bases__, content)
+    made.__qualname__ = cls.__qualname__
+    return made
+
+
 def _made(cls: type, *, frozen: bool, eq: bool, order: bool, slots: bool, kw_only: bool) -> Any:
+    known: dict[str, Field] = {}
+    for base in cls.__mro__[-1:0:-1]:
+        known.update((item.name, item) for item in vars(base).get("__record_fields__", ()))
+    known.update((item.name, item) for item in own_fields(cls, kw_only=kw_only))
+    items = tuple(known.values())
     if cls.__doc__ is None:
-        cls.__doc__ = (
-            cls.__name__
-        )  # else the signature is looked up to make one, and `__init__` compiled for it
-    made: Any = dataclasses.dataclass(init=False, repr=False, eq=False, slots=slots, kw_only=kw_only)(cls)
-    own = set(vars(made))
-    fields = dataclasses.fields(made)
+        cls.__doc__ = cls.__name__
+    own = set(vars(cls))
+    made: Any = _with_slots(cls, list(known)) if slots else cls
+    made.__record_fields__ = items
     methods: dict[str, Any] = {"__init__": _Late(made, frozen=frozen)}
-    methods["__repr__"] = _repr(tuple(field.name for field in fields if field.repr))
+    methods["__match_args__"] = tuple(item.name for item in items if item.init and not item.kw_only)
+    methods["__repr__"] = _repr(tuple(item.name for item in items if item.repr))
+    methods["__dataclass_fields__"] = ForLibrary(made, "__dataclass_fields__")
+    methods["__dataclass_params__"] = ForLibrary(made, "__dataclass_params__")
     if eq:
-        methods["__eq__"] = _eq(_values([field.name for field in fields if field.compare]))
+        methods["__eq__"] = _eq(_values([item.name for item in items if item.compare]))
         # As the standard library decides: a class that says how it is compared has None here, and gets no other.
-        hashed = [field.name for field in fields if (field.compare if field.hash is None else field.hash)]
+        hashed = [item.name for item in items if (item.compare if item.hash is None else item.hash)]
         methods["__hash__"] = _hash(_values(hashed)) if frozen else None
         if vars(made).get("__hash__") is None and "__eq__" in own:
             own.discard("__hash__")
     if order:
-        values = _values([field.name for field in fields if field.compare])
+        values = _values([item.name for item in items if item.compare])
         methods.update((f"__{name}__", _ordered(values, compare)) for name, compare in _ORDER.items())
     if frozen:
-        names = frozenset(field.name for field in fields)
-        methods["__setattr__"], methods["__delattr__"] = _refusals(made, names)
+        methods["__setattr__"], methods["__delattr__"] = _refusals(made, frozenset(known))
         if slots:
             methods["__getstate__"], methods["__setstate__"] = _getstate, _setstate
     for name, method in methods.items():
@@ -97,7 +116,7 @@ class _Late:
 
     def _fill(self, instance: Any, args: tuple[Any, ...], named: dict[str, Any]) -> None:
         """Set the fields one by one; arguments that do not fit are left to the compiled one, which says why."""
-        values = _matched(dataclasses.fields(self._cls), args, named)
+        values = _matched(fields(self._cls), args, named)
         if values is None:
             self._compiled(instance, None)(*args, **named)
             return
@@ -112,35 +131,33 @@ class _Late:
         return method.__get__(instance, owner)
 
 
-def _matched(
-    fields: tuple[dataclasses.Field[Any], ...], args: tuple[Any, ...], named: dict[str, Any]
-) -> dict[str, Any] | None:
+def _matched(items: tuple[Any, ...], args: tuple[Any, ...], named: dict[str, Any]) -> dict[str, Any] | None:
     """Return the value of each field; None where the arguments do not fit."""
-    plain = [field.name for field in fields if field.init and not field.kw_only]
+    plain = [item.name for item in items if item.init and not item.kw_only]
     given = {**dict(zip(plain, args, strict=False)), **named}
     if len(args) > len(plain) or len(given) < len(args) + len(named):
         return None
     values = {}
-    for field in fields:
-        if field.init and field.name in given:
-            values[field.name] = given.pop(field.name)
-        elif field.default is not _UNWRITTEN:
-            values[field.name] = field.default
-        elif field.default_factory is not _UNWRITTEN:
-            values[field.name] = field.default_factory()
-        elif field.init:
+    for item in items:
+        if item.init and item.name in given:
+            values[item.name] = given.pop(item.name)
+        elif item.default is not UNWRITTEN:
+            values[item.name] = item.default
+        elif item.default_factory is not UNWRITTEN:
+            values[item.name] = item.default_factory()
+        elif item.init:
             return None
     return None if given else values
 
 
 def _init(cls: Any, *, frozen: bool) -> Any:
     """Compile what takes the values of the fields."""
-    fields = dataclasses.fields(cls)
-    known: dict[str, Any] = {"_set": object.__setattr__, "_unwritten": _UNWRITTEN}
-    plain = [_parameter(field, known) for field in fields if field.init and not field.kw_only]
-    named = [_parameter(field, known) for field in fields if field.init and field.kw_only]
+    items = fields(cls)
+    known: dict[str, Any] = {"_set": object.__setattr__, "_unwritten": UNWRITTEN}
+    plain = [_parameter(item, known) for item in items if item.init and not item.kw_only]
+    named = [_parameter(item, known) for item in items if item.init and item.kw_only]
     words = ["self", *plain, *(["*"] if named else []), *named]
-    lines = [line for field in fields if (line := _assignment(field, known, frozen=frozen))]
+    lines = [line for item in items if (line := _assignment(item, known, frozen=frozen))]
     if hasattr(cls, "__post_init__"):
         lines.append("self.__post_init__()")
     text = "\n ".join([f"def __init__({', '.join(words)}):", *(lines or ["pass"])])
@@ -148,26 +165,26 @@ def _init(cls: Any, *, frozen: bool) -> Any:
     method = known["__init__"]
     method.__qualname__ = f"{cls.__qualname__}.__init__"
     method.__module__ = cls.__module__
-    method.__annotations__ = {**{field.name: field.type for field in fields if field.init}, "return": None}
+    method.__annotations__ = {**{item.name: item.type for item in items if item.init}, "return": None}
     return method
 
 
-def _parameter(field: dataclasses.Field[Any], known: dict[str, Any]) -> str:
-    if field.default is not _UNWRITTEN:
-        known[f"_default_{field.name}"] = field.default
-        return f"{field.name}=_default_{field.name}"
-    return field.name if field.default_factory is _UNWRITTEN else f"{field.name}=_unwritten"
+def _parameter(item: Field, known: dict[str, Any]) -> str:
+    if item.default is not UNWRITTEN:
+        known[f"_default_{item.name}"] = item.default
+        return f"{item.name}=_default_{item.name}"
+    return item.name if item.default_factory is UNWRITTEN else f"{item.name}=_unwritten"
 
 
-def _assignment(field: dataclasses.Field[Any], known: dict[str, Any], *, frozen: bool) -> str:
-    name, value = field.name, field.name
-    if field.default_factory is not _UNWRITTEN:
-        known[f"_make_{name}"] = field.default_factory
-        value = f"_make_{name}() if {name} is _unwritten else {name}" if field.init else f"_make_{name}()"
-    elif not field.init:
-        if field.default is _UNWRITTEN:
+def _assignment(item: Field, known: dict[str, Any], *, frozen: bool) -> str:
+    name, value = item.name, item.name
+    if item.default_factory is not UNWRITTEN:
+        known[f"_make_{name}"] = item.default_factory
+        value = f"_make_{name}() if {name} is _unwritten else {name}" if item.init else f"_make_{name}()"
+    elif not item.init:
+        if item.default is UNWRITTEN:
             return ""
-        known[f"_default_{name}"] = field.default
+        known[f"_default_{name}"] = item.default
         value = f"_default_{name}"
     return f"_set(self, {name!r}, {value})" if frozen else f"self.{name} = {value}"
 
@@ -213,24 +230,30 @@ def _refusals(cls: Any, names: frozenset[str]) -> tuple[Any, Any]:
 
     def __setattr__(self: Any, name: str, value: Any) -> None:
         if type(self) is cls or name in names:
-            raise dataclasses.FrozenInstanceError(f"cannot assign to field {name!r}")
+            raise _frozen(f"cannot assign to field {name!r}")
         super(cls, self).__setattr__(name, value)
 
     def __delattr__(self: Any, name: str) -> None:
         if type(self) is cls or name in names:
-            raise dataclasses.FrozenInstanceError(f"cannot delete field {name!r}")
+            raise _frozen(f"cannot delete field {name!r}")
         super(cls, self).__delattr__(name)
 
     return __setattr__, __delattr__
 
 
+def _frozen(message: str) -> AttributeError:
+    from dataclasses import FrozenInstanceError  # noqa: PLC0415 - nobody should ever see it
+
+    return FrozenInstanceError(message)
+
+
 def _getstate(self: Any) -> list[Any]:
-    return [getattr(self, field.name) for field in dataclasses.fields(self)]
+    return [getattr(self, item.name) for item in fields(self)]
 
 
 def _setstate(self: Any, state: list[Any]) -> None:
-    for field, value in zip(dataclasses.fields(self), state, strict=True):
-        object.__setattr__(self, field.name, value)
+    for item, value in zip(fields(self), state, strict=True):
+        object.__setattr__(self, item.name, value)
 
 
 def maker(cls: Callable[P, T]) -> Callable[P, T]:
@@ -241,12 +264,12 @@ def maker(cls: Callable[P, T]) -> Callable[P, T]:
     """
     frozen: Any = cls
     slots = {"__slots__": frozen.__slots__, "__setattr__": object.__setattr__}
-    known: dict[str, Any] = {"_unwritten": _UNWRITTEN, "_new": object.__new__, "_cls": cls}
+    known: dict[str, Any] = {"_unwritten": UNWRITTEN, "_new": object.__new__, "_cls": cls}
     known["_open"] = type(f"_Open{frozen.__name__}", frozen.__bases__, slots)
-    fields = dataclasses.fields(frozen)
-    lines = ["self = _new(_open)", *(_assignment(field, known, frozen=False) for field in fields)]
+    items = fields(frozen)
+    lines = ["self = _new(_open)", *(_assignment(item, known, frozen=False) for item in items)]
     lines += ["self.__class__ = _cls", "return self"]
-    words = [_parameter(field, known) for field in fields if field.init]
+    words = [_parameter(item, known) for item in items if item.init]
     exec("\n ".join([f"def make({', '.join(words)}):", *lines]), known)  # noqa: S102 - names of fields, which are identifiers
     made: Callable[P, T] = known["make"]
     return made

@@ -12,11 +12,11 @@ Everything else stops by raising:
 from __future__ import annotations
 
 import re
-from dataclasses import field
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.location import Location, Span
 
 if TYPE_CHECKING:

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-from dataclasses import field
 from typing import Any, Literal, TypeAlias
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 
 Kind: TypeAlias = Literal[
     "run_started",  # data: run, name, directory, file

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import Literal, TypeAlias
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 
 Scalar: TypeAlias = bool | int | float | str
 ParameterValue: TypeAlias = Scalar | tuple[bool, ...] | tuple[int, ...] | tuple[float, ...] | tuple[str, ...]

@@ -18,8 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 _ROOT = Path(__file__).parents[1]
-# The spans of a file get their fields in a way of their own.
-_OF_THEIR_OWN = {"orchestra/dataclass.py", "orchestra/location.py", "orchestra/compat/place.py"}
+_OF_THEIR_OWN = {"orchestra/dataclass.py"}
 
 
 @dataclass(frozen=True, slots=True)

@@ -67,8 +67,9 @@ def inputs_of(words: Sequence[str], options: Namespace) -> Inputs:
     watching = observer()
     with watching.aside():
         given = pipeline.inputs_from(words, environment=os.environ, params_files=options.params_file)
+        environment = ObservedEnvironment(given.environment, watching)
     if watching.active:
-        given = dataclasses.replace(given, environment=ObservedEnvironment(given.environment, watching))
+        given = dataclasses.replace(given, environment=environment)
     debug, noninteractive = getattr(options, "debug", False), getattr(options, "noninteractive", True)
     weights = severities.given(options)
     return dataclasses.replace(given, debug=debug, noninteractive=noninteractive, severity=weights)

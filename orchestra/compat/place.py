@@ -5,10 +5,11 @@ from __future__ import annotations
 import linecache
 import os
 import sys
-from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
+from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.location import FIELDS, Span, displayed
 
 if TYPE_CHECKING:

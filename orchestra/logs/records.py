@@ -6,10 +6,10 @@ Bytes that are not UTF-8 are lone surrogates (PEP 383) in `text`, escaped in JSO
 from __future__ import annotations
 
 import json
-from dataclasses import fields
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import fields
 from orchestra.logs import pieces
 
 if TYPE_CHECKING:

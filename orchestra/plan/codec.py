@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import json
 import re
 import sys
@@ -14,6 +13,7 @@ from functools import cache, lru_cache
 from typing import Any, TypeAlias
 
 from orchestra.errors import Problem
+from orchestra.fields import fields, is_dataclass
 from orchestra.location import Location, Span, point
 from orchestra.plan import model
 from orchestra.plan.json_text import text_of
@@ -59,7 +59,7 @@ def encode(value: Any) -> Any:  # noqa: ANN401 - JSON
         return encode_problem(value)
     if isinstance(value, Enum):
         return value.value
-    if dataclasses.is_dataclass(value) and not isinstance(value, type):
+    if is_dataclass(value) and not isinstance(value, type):
         return {name: encode(getattr(value, name)) for name in _names(type(value))}
     if isinstance(value, dict):
         return {key: encode(item) for key, item in value.items()}
@@ -70,7 +70,7 @@ def encode(value: Any) -> Any:  # noqa: ANN401 - JSON
 
 @cache
 def _names(kind: Any) -> tuple[str, ...]:  # noqa: ANN401 - a dataclass
-    return tuple(entry.name for entry in dataclasses.fields(kind))
+    return tuple(entry.name for entry in fields(kind))
 
 
 def encode_problem(problem: Problem) -> dict[str, Any]:
@@ -130,7 +130,7 @@ def _as_it_is(data: Any) -> Any:  # noqa: ANN401 - JSON
 
 
 def _is_record(kind: Any) -> bool:  # noqa: ANN401 - a type of any form
-    return dataclasses.is_dataclass(kind)
+    return is_dataclass(kind)
 
 
 @cache

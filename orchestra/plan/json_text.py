@@ -6,13 +6,13 @@ nodes took five seconds. The text is the one that it gives with `ensure_ascii=Fa
 
 from __future__ import annotations
 
-import dataclasses
 from enum import Enum
 from json.encoder import encode_basestring as quoted
 from operator import attrgetter
 from typing import TYPE_CHECKING, Any
 
 from orchestra.errors import Problem
+from orchestra.fields import fields, is_dataclass
 from orchestra.location import Location, Span
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ class _Writing:
         """Choose how values of a type are written, which is then known."""
         if issubclass(kind, Enum):
             write: Write = lambda value, line: self.text(value.value, line)  # noqa: E731 - one of several
-        elif dataclasses.is_dataclass(kind):
+        elif is_dataclass(kind):
             write = self._record(kind)
         else:
             known = (dict, tuple, list, str, int, float)
@@ -71,7 +71,7 @@ class _Writing:
         return write
 
     def _record(self, kind: Any) -> Write:  # noqa: ANN401 - a dataclass
-        names = [field.name for field in dataclasses.fields(kind)]
+        names = [field.name for field in fields(kind)]
         heads = [f'"{name}": ' for name in names]
         values: Callable[[Any], Any] = attrgetter(*names) if len(names) > 1 else _alone(names)
         known, found = self._write, self._found

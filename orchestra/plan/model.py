@@ -6,11 +6,11 @@ tuples, mappings are plain dicts that nobody changes. `${run}` in a path stands 
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import Literal, TypeAlias
 
 from orchestra.dataclass import dataclass
 from orchestra.errors import Problem
+from orchestra.fields import field
 from orchestra.location import Location
 from orchestra.plan.conditions import Alive, Dependency, Ready
 from orchestra.plan.reactions import Trigger

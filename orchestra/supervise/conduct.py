@@ -6,10 +6,10 @@ import gc
 import os
 import signal
 from contextlib import ExitStack
-from dataclasses import replace
 from functools import partial
 from typing import TYPE_CHECKING
 
+from orchestra.fields import replace
 from orchestra.plan import codec
 from orchestra.supervise.keeping import shared_memory
 from orchestra.supervise.keeping.attention import Attention

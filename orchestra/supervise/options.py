@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, fields
 from typing import Any
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import fields
 
 
 @dataclass(frozen=True, slots=True)
@@ -47,7 +47,7 @@ class RunOptions:
 
 def encode(options: RunOptions) -> dict[str, Any]:
     """Return the options as JSON data."""
-    return asdict(options)
+    return {item.name: getattr(options, item.name) for item in fields(options)}
 
 
 def decode(data: Any) -> RunOptions:  # noqa: ANN401 - JSON

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import json
-from dataclasses import field
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -27,6 +27,8 @@ def temporary_files(files: Files) -> Iterator[None]:
     before = tempfile.tempdir, tempfile._name_sequence  # type: ignore[attr-defined] # there is no public way
     tempfile.tempdir, tempfile._name_sequence = folder, _Names()  # type: ignore[attr-defined]
     files.folder = folder
+    watching = observer()
+    watching.scratch = watching.scratch or folder  # what it is called tells nothing
     try:
         yield
     finally:

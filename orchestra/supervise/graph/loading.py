@@ -7,11 +7,11 @@ the plan are expected to be there.
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.logs.names import shown
 from orchestra.plan.model import Component
 from orchestra.supervise.graph.orders import Order

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from enum import StrEnum
 from typing import TypeAlias
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.supervise.process.ending import Ending
 from orchestra.values import Restart, Stop
 

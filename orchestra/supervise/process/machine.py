@@ -16,9 +16,9 @@ that it watched has just ended), so every pair is defined. Time comes in with th
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
+from orchestra.fields import replace
 from orchestra.supervise.process.backoff import decide
 from orchestra.supervise.process.life import (
     KILL,

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import replace
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.values import EventName
 
 if TYPE_CHECKING:

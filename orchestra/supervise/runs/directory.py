@@ -8,10 +8,10 @@ import os
 import re
 import time
 from contextlib import contextmanager
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from orchestra.fields import replace
 from orchestra.supervise.runs import identity
 from orchestra.supervise.runs.registry import folders, living
 from orchestra.supervise.runs.running import LOCK, RUNNING, is_locked, state_path

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, TypeVar
 
+from orchestra.fields import replace
 from orchestra.plan.parameter_file import contents
 from orchestra.supervise.process.spec import RUN_FOLDER, filled, located
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import json
 import os
 import time
-from dataclasses import asdict
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import fields
 from orchestra.supervise.keeping import proc
 from orchestra.supervise.runs.running import ENDED, RUNNING
 
@@ -42,7 +42,11 @@ def write(directory: Path, content: Identity) -> None:
     """Keep an identity in the directory of a run that begins. Raises `OSError`."""
     path = directory / RUNNING
     made = directory / f".{RUNNING}"
-    made.write_text(json.dumps(asdict(content), indent=2) + "\n", "utf-8", "surrogateescape")
+    made.write_text(
+        json.dumps({item.name: getattr(content, item.name) for item in fields(content)}, indent=2) + "\n",
+        "utf-8",
+        "surrogateescape",
+    )
     made.rename(path)
 
 

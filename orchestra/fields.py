@@ -1,0 +1,123 @@
+"""The fields of classes that `orchestra.dataclass` makes.
+
+To the standard library these classes have the same fields as its own, so its `fields`, `replace`, `asdict` and
+`is_dataclass` do what they always do. Those here do the same for these classes alone, without that library.
+"""
+
+from __future__ import annotations
+
+from types import MemberDescriptorType
+
+__all__ = ["field", "fields", "is_dataclass", "replace"]
+
+TYPE_CHECKING = False
+if TYPE_CHECKING:
+    from dataclasses import field, fields, is_dataclass, replace
+    from typing import Any
+
+else:
+
+    def field(**options: Any) -> Any:
+        """Say how a field is made: see the standard library."""
+        return Field(**options)
+
+    def fields(record: Any) -> tuple[Any, ...]:
+        """Return the fields of a class, or of an object of one; of each name, type, defaults and what it counts for."""
+        return record.__record_fields__
+
+    def is_dataclass(record: Any) -> bool:
+        """Tell whether it is such a class, or an object of one."""
+        return hasattr(record, "__record_fields__")
+
+    def replace(record: Any, /, **changes: Any) -> Any:
+        """Return an object like another one, with other values for some fields."""
+        for item in record.__record_fields__:
+            if item.init and item.name not in changes:
+                changes[item.name] = getattr(record, item.name)
+        return record.__class__(**changes)
+
+
+UNWRITTEN = type("Unwritten", (), {})()
+_OPTIONS = ("init", "repr", "hash", "compare", "kw_only")
+
+
+class Field:
+    """One field; `hash` is None where it counts for the hash as it does for comparisons."""
+
+    __slots__ = ("compare", "default", "default_factory", "hash", "init", "kw_only", "name", "repr", "type")
+
+    def __init__(
+        self,
+        *,
+        default: Any = UNWRITTEN,
+        default_factory: Any = UNWRITTEN,
+        init: bool = True,
+        repr: bool = True,  # noqa: A002 - the standard library's words
+        hash: bool | None = None,  # noqa: A002
+        compare: bool = True,
+        kw_only: bool | None = None,
+    ) -> None:
+        self.name, self.type = "", ""
+        self.default, self.default_factory = default, default_factory
+        self.init, self.repr, self.hash, self.compare = init, repr, hash, compare
+        self.kw_only = kw_only
+
+
+def own_fields(cls: type, *, kw_only: bool) -> list[Field]:
+    """Return the fields that a class itself declares, and leave their defaults in it."""
+    found = []
+    for name, kind in cls.__annotations__.items():
+        if "ClassVar[" in str(kind):
+            continue
+        written = vars(cls).get(name, UNWRITTEN)
+        item = _read(written)
+        item.name, item.type = name, kind
+        item.kw_only = kw_only if item.kw_only is None else item.kw_only
+        if item.default is not UNWRITTEN and type(item.default).__hash__ is None:
+            raise ValueError(f"the default of {name} can change: use default_factory")
+        if item.default is not UNWRITTEN:
+            setattr(cls, name, item.default)
+        elif written is not UNWRITTEN and not isinstance(written, MemberDescriptorType):
+            delattr(cls, name)
+        found.append(item)
+    return found
+
+
+def _read(written: Any) -> Field:
+    """Return the field that stands in a class: a default, or what `field` has given, or the standard library's."""
+    if isinstance(written, Field):
+        return written
+    if isinstance(written, MemberDescriptorType):  # it has a slot already, and no default
+        return Field()
+    if type(written).__module__ != "dataclasses":
+        return Field(default=written)
+    import dataclasses  # noqa: PLC0415 - whoever wrote it has imported it
+
+    if not isinstance(written, dataclasses.Field):
+        return Field(default=written)
+    said = {name: getattr(written, name) for name in (*_OPTIONS, "default", "default_factory")}
+    return Field(**{name: value for name, value in said.items() if value is not dataclasses.MISSING})
+
+
+class ForLibrary:
+    """What the standard library looks for in a class, made when it does."""
+
+    __slots__ = ("_cls", "_name")
+
+    def __init__(self, cls: type, name: str) -> None:
+        self._cls = cls
+        self._name = name
+
+    def __get__(self, instance: object, owner: type | None = None) -> Any:
+        import dataclasses  # noqa: PLC0415 - as above
+
+        declared = []
+        for item in self._cls.__record_fields__:  # type: ignore[attr-defined]
+            said = {name: getattr(item, name) for name in (*_OPTIONS, "default", "default_factory")}
+            made: Any = dataclasses.field
+            options = {name: value for name, value in said.items() if value is not UNWRITTEN}
+            declared.append((item.name, item.type, made(**options)))
+        twin: Any = dataclasses.make_dataclass(self._cls.__name__, declared, init=False, repr=False, eq=False)
+        for name in ("__dataclass_fields__", "__dataclass_params__"):
+            setattr(self._cls, name, getattr(twin, name))
+        return getattr(twin, self._name)
