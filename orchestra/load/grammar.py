@@ -48,11 +48,17 @@ def parse_template(
 
     Faults go to `problems` and make the template faulty; nothing is raised.
     """
-    known = known_template(text, _by_itself)
-    if known is not None:
-        return placed(known, spans, quoted)
+    sound = sound_template(text, spans, quoted=quoted)
+    if sound is not None:
+        return sound
     reader = _Reader(text, spans, problems)
     return Template(reader.parts("", "", 0), text, spans(0, len(text)), quoted, reader.faults > 0)
+
+
+def sound_template(text: str, spans: Callable[[int, int], Span], *, quoted: bool = False) -> Template | None:
+    """Read a short text of which there is nothing to tell; None where there is, or may be."""
+    known = known_template(text, _by_itself)
+    return None if known is None else placed(known, spans, quoted)
 
 
 def _by_itself(text: str, spans: Callable[[int, int], Span], problems: Problems) -> Template:

@@ -9,12 +9,12 @@ from typing import TYPE_CHECKING, Any
 from orchestra.dataclass import dataclass
 from orchestra.description.entity import REPORTED
 from orchestra.description.fields import STRAY_KEY
-from orchestra.description.source import Keyed, Listed, Written, kind_of
+from orchestra.description.source import Keyed, Listed, Verbatim, Written, kind_of
 from orchestra.description.text import Template, new_template, new_words
 from orchestra.errors import Code, Problems
 from orchestra.load.braces import warn_of_braces
 from orchestra.load.elements import beginning_of, noun
-from orchestra.load.grammar import parse_template, unescaped
+from orchestra.load.grammar import parse_template, sound_template, unescaped
 from orchestra.load.keys import known_keys
 from orchestra.load.pairs import written_list
 from orchestra.location import Location, Span
@@ -70,10 +70,14 @@ class Reader:
             told = f"the {text[-1]} at the end of '{text}' is part of the text: nothing opens it"
             self.warning(Code.SURPRISING_SCALAR, told, written.inside, suggestion=text[-1] + text)
         if text and "$" not in text and "\\" not in text:
-            span = written.inside
+            span = written.inside if written.quoted or type(written) is not Verbatim else written.span
             return new_template((new_words(text, span),), text, span, written.quoted)
+        braces = "${" in text or "$[" in text
+        sound = None if braces else sound_template(text, written.spans, quoted=written.quoted)
+        if sound is not None:
+            return sound
         found = Problems()
-        if "${" in text or "$[" in text:
+        if braces:
             warn_of_braces(text, written.spans, found)
         template = parse_template(text, written.spans, found, quoted=written.quoted)
         for problem in found:
