@@ -152,7 +152,7 @@ def _matched(items: tuple[Any, ...], args: tuple[Any, ...], named: dict[str, Any
 
 def _init(cls: Any, *, frozen: bool) -> Any:
     """Compile what takes the values of the fields."""
-    items = fields(cls)
+    items: Any = fields(cls)
     known: dict[str, Any] = {"_set": object.__setattr__, "_unwritten": UNWRITTEN}
     plain = [_parameter(item, known) for item in items if item.init and not item.kw_only]
     named = [_parameter(item, known) for item in items if item.init and item.kw_only]
@@ -266,7 +266,7 @@ def maker(cls: Callable[P, T]) -> Callable[P, T]:
     slots = {"__slots__": frozen.__slots__, "__setattr__": object.__setattr__}
     known: dict[str, Any] = {"_unwritten": UNWRITTEN, "_new": object.__new__, "_cls": cls}
     known["_open"] = type(f"_Open{frozen.__name__}", frozen.__bases__, slots)
-    items = fields(frozen)
+    items: Any = fields(frozen)
     lines = ["self = _new(_open)", *(_assignment(item, known, frozen=False) for item in items)]
     lines += ["self.__class__ = _cls", "return self"]
     words = [_parameter(item, known) for item in items if item.init]
