@@ -11,6 +11,7 @@ from orchestra.location import Span
 
 _ROOM: Final = re.compile(r"\borchestra\.compat\.(?=\w)")
 _OBJECT: Final = re.compile(r"<(?:function )?(?:[\w<>]+\.)*([\w<>]+?)(?: object)? at 0x[0-9a-f]+>")
+_LOCAL: Final = re.compile(r"\b(?:\w+\.(?:<locals>\.)?)*<locals>\.")
 _INSTALLED: Final = re.compile(r" \((?:/|unknown location)[^)]*\)$")
 
 
@@ -28,7 +29,7 @@ class Explanation:
 
 def in_their_words(text: str) -> str:
     """Return a message with the names that launch files use, without where objects and modules happen to be."""
-    return _OBJECT.sub(r"<\1>", _ROOM.sub("", _INSTALLED.sub("", text)))
+    return _OBJECT.sub(r"<\1>", _LOCAL.sub("", _ROOM.sub("", _INSTALLED.sub("", text))))
 
 
 def told(value: Any) -> str:

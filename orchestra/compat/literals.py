@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import inspect
+import re
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.place import Key, Letters, ValueOf
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
 
     from orchestra.compat.place import Place, Way
 
+_GAPS = re.compile(r"\{[^{}]*\}|%[sd]")  # where `format` and `%` put other texts
 _LISTS = ("list", "tuple", "sorted", "set")
 _Parameter = inspect.Parameter
 
@@ -103,6 +105,10 @@ class Literal:
                 span = node_span(self.file, text) if around is None else _text_in(self.file, around, text)
                 if span is not None:
                     found.setdefault(str(text.value), span)
+                for piece in _GAPS.split(str(text.value)) if around is None else ():
+                    place = part_in(self.file, span, piece) if span is not None else None
+                    if place is not None:
+                        found.setdefault(piece, place)
         return found
 
     def step(self, step: Way) -> Literal:

@@ -19,7 +19,5 @@ def explained(error: PackageNotFoundError, place: Place) -> Explanation:
     if error.package is None:
         return Explanation(f"PackageNotFoundError: {error}", Code.MISSING_PACKAGE)
     severity, told, meant = connection().missing_package(error.package)
-    span = argument_span(place, error.package)
-    notes = () if meant is None or span is not None else (f"did you mean {meant!r}?",)
-    suggestion = None if span is None else meant
-    return Explanation(told, Code.MISSING_PACKAGE, span, suggestion, notes, severity)
+    span = argument_span(place, error.package) or place.span
+    return Explanation(told, Code.MISSING_PACKAGE, span, meant, (), severity)

@@ -28,9 +28,7 @@ def package_meant(package: str) -> str | None:
     place = Place(frame.f_code, frame.f_lasti)
     span = argument_span(place, package)
     problems, chain = collecting
-    notes = () if span is not None else (f"did you mean {meant!r}?",)
-    suggestion = None if span is None else meant
-    found = Problem(Code.MISSING_PACKAGE, severity, told, span or place.span, chain, suggestion, notes)
+    found = Problem(Code.MISSING_PACKAGE, severity, told, span or place.span, chain, meant)
     problems.report(found)
     return meant
 

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 _QUOTED: Final = re.compile(r"'([^']+)'")
 _SLASHES: Final = re.compile("/+")
+_SHORT: Final = 2  # a text of so few letters may mean anything
 _BETWEEN: Final = re.compile(r"[\s()$]+")
 
 
@@ -39,7 +40,10 @@ def in_place(problem: Problem) -> Problem:
         problem = replace(problem, span=found.span)
     if meant is None:
         return replace(problem, span=_narrower(problem, found))
-    wrong = _wrong(found, meant, problem.message)
+    is_name = not isinstance(span, Argument)  # else it may stand for what is wrong
+    wrong = _wrong(found, meant, problem.message, is_name=is_name) or _elsewhere(
+        found, meant, problem.message
+    )
     if wrong is None:
         return replace(problem, suggestion=None, notes=(*problem.notes, f"did you mean '{meant}'?"))
     return replace(problem, span=wrong[0], suggestion=wrong[1])
@@ -75,13 +79,14 @@ def _narrower(problem: Problem, found: Literal) -> Span:
     return problem.span or found.span
 
 
-def _wrong(found: Literal, meant: str, message: str) -> tuple[Span, str] | None:
+def _wrong(found: Literal, meant: str, message: str, *, is_name: bool) -> tuple[Span, str] | None:
     """Return where the text stands that something else was meant by, and what should stand there.
 
     It is part of what the message tells of.
     """
     if found.node is None:  # a name, or the part of something
-        if text_at(found.file, found.span).replace(".", "").isidentifier():
+        written = text_at(found.file, found.span)
+        if written.replace(".", "").isidentifier() and (is_name or _stands(written, message)):
             return found.span, meant
         return next(_replaced(_told(quoted_in(found.file, found.span), message), meant), None)
     if isinstance(found.node, ast.Constant):
@@ -89,6 +94,16 @@ def _wrong(found: Literal, meant: str, message: str) -> tuple[Span, str] | None:
         whole = "$(" not in meant and _SLASHES.sub("/", text).count("/") == meant.count("/")
         return (found.span, meant) if whole else next(_replaced({text: found.span}, meant), None)
     return next(_replaced(_told(found.texts, message), meant), None)
+
+
+def _elsewhere(found: Literal, meant: str, message: str) -> tuple[Span, str] | None:
+    """Return the same for a text that stands but once in the file: it came there by a way that only running tells."""
+    tree = tree_of(found.file)
+    texts = {} if tree is None else tree.texts(found.file)
+    return next(
+        _replaced({text: span for text, span in _told(texts, message).items() if len(text) > _SHORT}, meant),
+        None,
+    )
 
 
 def _told(texts: dict[str, Span], message: str) -> dict[str, Span]:

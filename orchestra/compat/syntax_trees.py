@@ -38,6 +38,14 @@ class Tree:
                 return node
         return None
 
+    def texts(self, file: str) -> dict[str, Span]:
+        """Return the texts that stand but once in the file, and where."""
+        found: dict[str, list[ast.Constant]] = {}
+        for node in self.nodes:
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                found.setdefault(node.value, []).append(node)
+        return {text: node_span(file, nodes[0]) for text, nodes in found.items() if len(nodes) == 1}
+
     def functions_around(self, node: ast.AST) -> Iterator[Function]:
         """Yield the functions that a node stands in, innermost first."""
         place = _range(node)
