@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import os
 import threading
+import time
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Final, TypeAlias
 
@@ -14,8 +15,10 @@ from orchestra.logs import pieces
 if TYPE_CHECKING:
     from pathlib import Path
 
-# Written at a time: after each, whoever waits can see that the disk is alive.
+# Written at a time: after each, whoever waits can see that the disk is alive. More where it has been quick, in seconds.
 _SLICE = 1 << 18
+_LARGE_SLICE = 1 << 22
+_QUICK = 0.1
 # The kernel takes no more pieces at a time (writev(2)).
 _PIECES = 1024
 
@@ -64,6 +67,7 @@ class Appended:
         self._descriptor: int | None = None
         self._size = 0
         self._newest: int | None = None
+        self._slice = _SLICE
 
     def append(self, pieces: Sequence[bytes]) -> OSError | None:
         """Append pieces of data; return what prevented it. What could not be written is lost."""
@@ -138,13 +142,15 @@ class Appended:
     def _write(self, pieces: Sequence[Bytes]) -> tuple[int, OSError | None]:
         written = 0
         try:
-            for group in _groups(pieces):
+            for group in _groups(pieces, self._slice):
                 rest = group
+                began = time.monotonic()
                 while rest:
                     size = os.writev(self._open(), rest)
                     written += size
                     self._progress()
                     rest = _behind(rest, size)
+                self._slice = _LARGE_SLICE if time.monotonic() - began < _QUICK else _SLICE
         except OSError as error:
             return written, error
         finally:
@@ -185,19 +191,19 @@ class Appended:
         return self._descriptor
 
 
-def _groups(pieces: Sequence[Bytes]) -> Iterator[list[Bytes]]:
+def _groups(pieces: Sequence[Bytes], most: int) -> Iterator[list[Bytes]]:
     """Yield pieces that are written with one call."""
     group: list[Bytes] = []
     size = 0
     for piece in pieces:
-        if size + len(piece) > _SLICE or len(group) == _PIECES:
+        if size + len(piece) > most or len(group) == _PIECES:
             if group:
                 yield group
             group, size = [], 0
-        if len(piece) > _SLICE:
+        if len(piece) > most:
             view = memoryview(piece)
-            for begin in range(0, len(piece), _SLICE):
-                yield [view[begin : begin + _SLICE]]
+            for begin in range(0, len(piece), most):
+                yield [view[begin : begin + most]]
         else:
             group.append(piece)
             size += len(piece)

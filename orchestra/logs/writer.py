@@ -34,9 +34,12 @@ FEW: Final = 2 * 1024 * 1024
 STUCK_AFTER: Final = 2.0
 
 # What comes within this time after a write is written with the next one, in seconds: waking for each line of a robot
-# that says a thousand in a second costs more than the lines. So much is written sooner, in bytes.
+# that says a thousand in a second costs more than the lines. Behind a large write it is shorter, since more is on its
+# way. So much is written sooner, in bytes: with each call this thread has to wait until the other one pauses.
 _TOGETHER: Final = 0.01
-_PLENTY: Final = 1024 * 1024
+_BEHIND_MUCH: Final = 0.002
+_MUCH: Final = 256 * 1024
+_PLENTY: Final = 3 * 1024 * 1024
 # From no size on.
 _NEVER: Final = sys.maxsize
 
@@ -86,6 +89,7 @@ class Writer:
         self._stuck = False
         self._over = False
         self._awaited = False
+        self._written = 0
         # From so many waiting bytes on, the thread is woken.
         self._wake_from = _NEVER
         self._resumed: list[Callable[[], None]] = []
@@ -191,11 +195,13 @@ class Writer:
     def _next(self) -> dict[Appended, list[bytes | int]]:
         with self._changed:
             self._wake_from = _PLENTY
-            self._changed.wait_for(lambda: self._size >= _PLENTY or self._awaited or self._over, _TOGETHER)
+            pause = _BEHIND_MUCH if self._written > _MUCH else _TOGETHER
+            self._changed.wait_for(lambda: self._size >= _PLENTY or self._awaited or self._over, pause)
             self._wake_from = 0
             self._changed.wait_for(lambda: self._waiting or self._over)
             self._wake_from = _NEVER
             batch, self._waiting = self._waiting, {}
+            self._written = self._size
             return batch
 
     def _write(self, file: Appended, data: list[bytes | int]) -> None:
