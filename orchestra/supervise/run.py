@@ -9,7 +9,6 @@ Call it early: what is imported before is imported in all three.
 
 from __future__ import annotations
 
-import gc
 import os
 import sys
 import time
@@ -37,8 +36,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from orchestra.supervise.attendance import Attend
+    from orchestra.supervise.resolver.document import Document
     from orchestra.supervise.resolver.process import Prepare
     from orchestra.supervise.resolver.recalling import Recall
+    from orchestra.supervise.warm.launching import Launched
 
 
 def run(
@@ -107,6 +108,8 @@ def _supervise(
     summons = taken(os.environ, kept.keeper)
     # The keeper's mask is still in force: no signal can reach the resolver with our handlers, nor us without them.
     # Until the first processes begin all that is made stays: to walk through it takes time.
+    import gc  # noqa: PLC0415 - the keeper has no use for it
+
     gc.disable()
     document, prepare = recalled(recall, prepare)
     given = document or fork_resolver(prepare, kept.stacks)
@@ -116,9 +119,33 @@ def _supervise(
     disregard_hang_up()
     unblock_signals()
     try:
+        ahead = _fork_server(document, kept.run_id, foresee)
         # Imported while the resolver works, so that neither waits for the other.
         from orchestra.supervise.boundary import guarded_run  # noqa: PLC0415
     except BaseException:  # noqa: BLE001 - a forked child must not run on into its parent's code
         sys.excepthook(*sys.exc_info())
         return 3
-    return guarded_run(Beginnings(kept, given, signals, attend, summons, foresee))
+    return guarded_run(Beginnings(kept, given, signals, attend, summons, ahead))
+
+
+def _fork_server(
+    document: Document | None, run_id: str, foresee: Callable[[], bool] | None
+) -> Launched | None:
+    """Start the fork server before anything else, where it will be needed or is likely to be."""
+    if document is None:
+        wanted = foresee is not None and foresee()
+    else:
+        wanted = document.options.warm and any(
+            process.warm is not None and process.warm.warm for process in document.plan.processes
+        )
+    if not wanted:
+        return None
+    # Here, because not every run has nodes in Python; what is imported is needed by all that follows.
+    from orchestra.supervise.process import open_files  # noqa: PLC0415
+    from orchestra.supervise.warm.launching import environment_of, launch  # noqa: PLC0415
+
+    open_files.keep_to_ourselves()
+    try:
+        return launch(environment_of(run_id))
+    except OSError:
+        return None  # it is tried again when it is needed, and then told

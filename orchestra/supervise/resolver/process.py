@@ -7,7 +7,6 @@ something more that is nothing to the run.
 
 from __future__ import annotations
 
-import gc
 import io
 import os
 import signal
@@ -75,6 +74,8 @@ def _connection() -> tuple[int, int]:
 
 def _prepare(prepare: Prepare, descriptor: int) -> int:
     # Until the plan is there all that is made stays: to walk through it again and again takes a tenth of the time.
+    import gc  # noqa: PLC0415 - the keeper has no use for it
+
     gc.disable()
     try:
         # Held back until it is complete: a resolver that fails half-way has handed over nothing.

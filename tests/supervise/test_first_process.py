@@ -1,0 +1,145 @@
+"""What stands between the command and the first program is counted: modules, processes, system calls."""
+
+from __future__ import annotations
+
+import json
+import os
+import re
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+_LAUNCH = "launch:\n  - executable: {cmd: 'true', name: first}\n"
+_COUNTING = Path(__file__).with_name("counting.py")
+# Of ours and of the interpreter's library, in the supervisor when it starts its first program.
+_OURS, _ALL = 160, 265
+# What only some runs need, and none for its first program.
+_UNWANTED = (
+    *(
+        "pydantic",
+        "pydantic_core",
+        "yaml",
+        "rclpy",
+        "rich",
+        "jinja2",
+        "jsonschema",
+        "xml",
+        "hashlib",
+        "argparse",
+    ),
+    *(
+        "dataclasses",
+        "inspect",
+        "ast",
+        "tokenize",
+        "subprocess",
+        "traceback",
+        "shutil",
+        "random",
+        "base64",
+        "graphlib",
+        "asyncio",
+        "logging",
+        "importlib.metadata",
+    ),
+    *(
+        "orchestra.load",
+        "orchestra.resolve",
+        "orchestra.compat",
+        "orchestra.description",
+        "orchestra.settings",
+    ),
+    *("orchestra.plan.build", "orchestra.pipeline", "orchestra.cli.main", "orchestra.cli.launch"),
+    *(
+        "orchestra.supervise.crash.dossier",
+        "orchestra.supervise.reactions.fragment",
+        "orchestra.probes.table",
+    ),
+    *(
+        "orchestra.supervise.graph.observer",
+        "orchestra.supervise.limits.preflight",
+        "orchestra.control.server",
+    ),
+    "orchestra.control.requests",
+)
+# Three processes of ours: keeper, guard and supervisor; the program itself comes by posix_spawn(3).
+_FORKS = 2
+# System calls of the supervisor from its begin to that of its first program, with a plan that is remembered.
+_CALLS = 3000
+
+
+@pytest.fixture
+def environment(tmp_path: Path) -> dict[str, str]:
+    (tmp_path / "one.launch.yaml").write_text(_LAUNCH)
+    return {
+        **os.environ,
+        "ORCHESTRA_HOME": str(tmp_path / "home"),
+        "ORCHESTRA_CACHE": str(tmp_path / "cache"),
+        "XDG_RUNTIME_DIR": str(tmp_path),
+        # A start of the interpreter that a package asks for once more would be counted too.
+        "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",
+    }
+
+
+def _launch(folder: Path, environment: dict[str, str], *before: str) -> set[str]:
+    told = folder / "modules"
+    words = [*before, sys.executable, str(_COUNTING), str(told), "launch", "one.launch.yaml"]
+    subprocess.run(words, cwd=folder, env=environment, check=True, capture_output=True, timeout=100)
+    names = set(told.read_text().split())
+    told.unlink()
+    return names
+
+
+def _plan(folder: Path) -> object:
+    """Return the plan of the latest run."""
+    return json.loads((max((folder / "home/runs").iterdir()) / "plan.json").read_text())
+
+
+def _wait_for_the_entry(folder: Path) -> None:
+    """The run may be over first: what is kept is kept beside it, and the run waits for it only for a while."""
+    assert [item for item in (folder / "cache/plans").iterdir() if "." not in item.name]
+
+
+def test_a_second_launch_needs_no_resolver(tmp_path: Path, environment: dict[str, str]) -> None:
+    first = _launch(tmp_path, environment)
+    plan = _plan(tmp_path)
+    _wait_for_the_entry(tmp_path)
+    second = _launch(tmp_path, {**environment, "COUNT_RESOLVER": "no"})
+    assert _plan(tmp_path) == plan
+    for names in (first, second):
+        unwanted = {
+            name for name in names for what in _UNWANTED if name == what or name.startswith(f"{what}.")
+        }
+        assert not unwanted
+        assert len([name for name in names if name.startswith("orchestra")]) <= _OURS
+        assert len(names) <= _ALL
+
+
+def test_a_change_brings_the_resolver_back(tmp_path: Path, environment: dict[str, str]) -> None:
+    _launch(tmp_path, environment)
+    (tmp_path / "one.launch.yaml").write_text(_LAUNCH.replace("first", "another"))
+    _launch(tmp_path, environment)
+    assert "another" in json.dumps(_plan(tmp_path))
+
+
+@pytest.mark.skipif(
+    shutil.which("strace") is None and not os.environ.get("CI"),
+    reason="there is no strace(1) on this machine",
+)
+def test_processes_and_system_calls_are_few(tmp_path: Path, environment: dict[str, str]) -> None:
+    _launch(tmp_path, environment)
+    trace = tmp_path / "trace"
+    _launch(tmp_path, {**environment, "COUNT_RESOLVER": "no"}, "strace", "-f", "-o", str(trace))
+    lines = trace.read_text(errors="replace").splitlines()
+    begun = next(number for number, line in enumerate(lines) if re.search(r"execve\(.*/true\"", line))
+    before = lines[:begun]
+    forks = [line for line in before if re.search(r"\b(clone3?|fork)\(", line) and "CLONE_VM" not in line]
+    assert len(forks) == _FORKS, forks
+    first = before[0].split()[0]
+    supervisor = next(line.split()[0] for line in before if '"orc-supervisor"' in line)
+    calls = [line for line in before if line.startswith(f"{supervisor} ") and "resumed>" not in line]
+    assert supervisor != first
+    assert len(calls) <= _CALLS
