@@ -23,7 +23,7 @@ _LOOK_AGAIN = 0.05
 def leftovers(run_id: str) -> list[int]:
     """Return every process below this one, and every one that carries the run's mark, wherever it hangs now."""
     ourselves = os.getpid()
-    below = dict.fromkeys(proc.descendants(ourselves))
+    below = {} if proc.childless() else dict.fromkeys(proc.descendants(ourselves))
     marked = [
         pid
         for pid in proc.pids()

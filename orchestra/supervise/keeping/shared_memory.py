@@ -44,6 +44,8 @@ def remove_leftovers(began: float) -> list[str]:
 def _stems(began: float) -> set[str]:
     """Return the stems of all files of this user that came since then, or of which a part did."""
     try:
+        if os.stat(_FOLDER).st_mtime < began - _TICK:  # noqa: PTH116 - as below
+            return set()  # nothing has come or gone since
         names = os.listdir(_FOLDER)  # noqa: PTH208 - this runs in the keeper too, without pathlib
     except OSError:
         return set()
