@@ -12,7 +12,8 @@ if TYPE_CHECKING:
 _LEAST_LIKENESS = 0.6
 _LIKENESS_OF_A_SLIP = 0.7
 _CHARACTERS_OF_A_SLIP = 2  # more or less
-_LIKENESS_OF_A_SWAP = 0.8  # two letters in each other's place
+_LIKENESS_OF_A_SWAP = 0.9  # two letters in each other's place
+_LIKENESS_OF_A_SHORT_SWAP = 0.8
 _LETTERS_OF_A_SHORT_WORD = 4
 
 
@@ -84,8 +85,8 @@ def _likeness(word: str, candidate: str, letters: dict[str, int]) -> float:
     if 2 * min(len(word), len(candidate)) <= _LEAST_LIKENESS * (len(word) + len(candidate)):
         return 0.0  # what `real_quick_ratio` would say, without looking at the letters
     short = min(len(word), len(candidate)) <= _LETTERS_OF_A_SHORT_WORD
-    if short and _is_swapped(word, candidate):
-        return _LIKENESS_OF_A_SWAP
+    if len(word) == len(candidate) and _is_swapped(word, candidate):
+        return _LIKENESS_OF_A_SHORT_SWAP if short else max(_LIKENESS_OF_A_SWAP, 1 - 1 / len(word))
     common = sum([min(count, candidate.count(letter)) for letter, count in letters.items()])
     if 2.0 * common / (len(word) + len(candidate)) <= _LEAST_LIKENESS:
         return 0.0  # what `quick_ratio` would say, in a tenth of the time

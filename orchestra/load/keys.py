@@ -9,8 +9,9 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Protocol
 
 from orchestra.description.actions import ACTIONS
+from orchestra.description.source import Keyed, Listed
 from orchestra.errors import Code
-from orchestra.load.elements import emptied, noun
+from orchestra.load.elements import Tagged, emptied, noun
 from orchestra.load.pairs import written_item
 from orchestra.load.words import ELSEWHERE, KEYS_ELSEWHERE, snake
 from orchestra.nearest import is_slip, nearest
@@ -18,7 +19,6 @@ from orchestra.nearest import is_slip, nearest
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
-    from orchestra.description.source import Keyed
     from orchestra.location import Span
 
 
@@ -83,7 +83,7 @@ def known_keys(
     for key, value in mapping.items():
         at, name = mapping.keys_at[key], spelled(key)
         if name not in known:
-            near, slip = key_meant(key, free)
+            near, slip = _near(key, free, known, mapping)
             if near is None or not slip:
                 stands_for = strangers.told(key, at, near, report)
                 read.lossy = True
@@ -92,12 +92,28 @@ def known_keys(
                 continue
             report(Code.UNKNOWN_KEY, f"unknown {noun(mapping, key)}", at, suggestion=_as_written(near, key))
             name, free = near, free - {near}
-        if name in read:
+        if isinstance(mapping, Tagged) and isinstance(read.get(name), Listed) and isinstance(value, Listed):
+            read[name].extend(value)
+        elif name in read:
             first = f"first at {read.keys_at[name]}"
             report(Code.DUPLICATE_KEY, f"the {noun(mapping, key)} stands twice", at, notes=(first,))
         else:
             read.put(name, value, at)
     return read
+
+
+def _near(key: str, free: frozenset[str], known: frozenset[str], mapping: Keyed) -> tuple[str | None, bool]:
+    """Return the key that another one probably means, and whether it is only a slip.
+
+    In XML it is rather one of the same form, and an element may be one more of those that there are.
+    """
+    if isinstance(mapping, Tagged):
+        alike = free & mapping.elements if key in mapping.elements else free - mapping.elements
+        again = {name for name in mapping.elements if isinstance(mapping.get(name), Listed)} - {key}
+        near, slip = key_meant(key, alike | (again & known if key in mapping.elements else frozenset()))
+        if slip:
+            return near, slip
+    return key_meant(key, free)
 
 
 class _Strangers:

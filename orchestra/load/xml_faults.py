@@ -7,9 +7,12 @@ from typing import TYPE_CHECKING, Final
 from xml.parsers.expat import ErrorString, errors
 
 from orchestra.dataclass import dataclass
+from orchestra.description.actions import ACTIONS, model_of
+from orchestra.description.launch import Launch
 from orchestra.description.source import shortened
 from orchestra.errors import Code
 from orchestra.load.faults import Fault
+from orchestra.load.forms import forms_of
 from orchestra.location import Span
 from orchestra.nearest import is_slip
 
@@ -56,12 +59,22 @@ def _mismatch(at: int, whole: Source, opened: Opened | None) -> Fault:
         return Fault(
             f"<{opened.name}> is not closed: </{opened.name}> is missing before </{name}>", opened.span
         )
+    if is_slip(opened.name, name) and _is_known(name) and not _is_known(opened.name):
+        message = f"<{opened.name}> is closed by </{name}>, which is what it is called"
+        return Fault(message, opened.span, suggestion=name)
     return Fault(
         f"</{name}> stands where </{opened.name}> is expected",
         whole.span(at, at + len(name)),
         suggestion=opened.name if is_slip(name, opened.name) else None,
         notes=(f"<{opened.name}> is opened at {opened.span}",),
     )
+
+
+def _is_known(name: str) -> bool:
+    """Return whether an element has this name somewhere in a launch file."""
+    models = [Launch, *(model for action in ACTIONS if (model := model_of(action)) is not None)]
+    known = {"launch", *ACTIONS, *(key for model in models for key in forms_of(model).elements)}
+    return name.replace("-", "_") in known
 
 
 def _ended(at: int, whole: Source, opened: Opened | None) -> Fault:

@@ -103,7 +103,7 @@ class _Shaper:
         self._attributes(element, forms, tagged)
         actions = Listed(at)
         for child in element.children:
-            form = self._form(child.name, forms, actions=forms.holds_actions)
+            form = self._form(child.name, forms, actions=forms.holds_actions, element=True)
             if form is not None:
                 self._child(child, form, tagged)
             elif forms.holds_actions:
@@ -158,13 +158,21 @@ class _Shaper:
         _lose(tagged, near.removesuffix(_SEPARATOR))
         return True
 
-    def _form(self, name: str, forms: Forms, *, actions: bool = False) -> Form | None:
-        """Return the form of a key, or of the one that it is a slip of unless it may as well be an action."""
+    def _form(self, name: str, forms: Forms, *, actions: bool = False, element: bool = False) -> Form | None:
+        """Return the form of a key, or of the one that it is a slip of unless it may as well be an action.
+
+        An `element` is rather a slip of an element, as an attribute of an attribute.
+        """
         known = forms.by_key
         form = known.get(spelled(name))
         if form is not None or not known or (actions and (spelled(name) in ACTIONS or exposes_action(name))):
             return form
-        near, slip = key_meant(name, {*known, *(ACTIONS if actions else ())})
+        others = ACTIONS if actions else ()
+        near, slip = key_meant(
+            name, {*(forms.elements if element else known.keys() - forms.elements), *others}
+        )
+        if not slip:
+            near, slip = key_meant(name, {*known, *others})
         return known.get(near) if near is not None and slip else None
 
     def _child(self, child: Element, form: Form, tagged: Tagged) -> None:
