@@ -24,6 +24,7 @@ _ROUNDS: Final = 7
 def main(words: Sequence[str] | None = None) -> int:
     """Measure what is asked for; return 0."""
     asked = _asked(words)
+    launching.compile_all()
     outcomes: list[Outcome] = []
     unable: list[tuple[Figure, str]] = []
     for measurement in measurements():

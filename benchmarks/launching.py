@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import compileall
 import contextlib
 import importlib.util
 import json
@@ -37,6 +38,11 @@ sys.exit(service.run())
 """
 
 
+def compile_all() -> None:
+    """Have the bytecode of our modules on the disk, as an installation has."""
+    compileall.compile_dir(Path(__file__).parent.parent / "orchestra", quiet=1)
+
+
 def orchestra(*words: str | Path) -> list[str]:
     """Return a command line of Orchestra's."""
     return [sys.executable, "-m", "orchestra", *map(str, words)]
@@ -52,8 +58,9 @@ def upstream(file: Path) -> list[str] | None:
 
 def environment(folder: Path) -> dict[str, str]:
     """Return the environment of what is started: no run, cache or setting of the user's own."""
+    kept = {name: value for name, value in os.environ.items() if name != "PYTHONDONTWRITEBYTECODE"}
     return {
-        **os.environ,
+        **kept,
         "PYTHONPATH": os.pathsep.join((str(Path(__file__).parent.parent), str(folder))),
         "ORCHESTRA_HOME": str(folder / "home"),
         "ORCHESTRA_CACHE": str(folder / "cache"),
