@@ -102,11 +102,10 @@ class Param(Entity):
 
     def conflict(self) -> Conflict | None:
         """Return what keeps this from being one of the three forms."""
-        forms = (self.value, self.param, self.from_)
-        if sum(form is not None for form in forms) != 1:
-            none = forms == (None, None, None)
+        forms = (self.value is not None) + (self.param is not None) + (self.from_ is not None)
+        if forms != 1:
             return Conflict(
-                "a param has one of `value`, `param` and `from`", () if none else ("value", "param", "from")
+                "a param has one of `value`, `param` and `from`", ("value", "param", "from") if forms else ()
             )
         if (self.name is None) != (self.from_ is not None):
             return Conflict(

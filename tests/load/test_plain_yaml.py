@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 import yaml
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from orchestra.description.source import Keyed, Listed, Written
@@ -46,6 +46,7 @@ def _both(text: str) -> tuple[Any, Any, Problems]:
     return (None if plain is None else _whole(plain)), (None if close is None else _whole(close)), problems
 
 
+@settings(deadline=None)  # a busy machine is no fault
 @given(_TREES, _STYLES, _FLOWS, st.integers(40, 90))
 def test_the_tree_is_that_of_a_close_look(tree: Any, style: str | None, flow: Any, width: int) -> None:
     text = yaml.safe_dump(tree, default_style=style, default_flow_style=flow, width=width, allow_unicode=True)
@@ -55,6 +56,7 @@ def test_the_tree_is_that_of_a_close_look(tree: Any, style: str | None, flow: An
     assert plain is not None or problems or odd
 
 
+@settings(deadline=None)  # a busy machine is no fault
 @given(st.text("ab: -\n[]{},'\"#|>&*!<?~\t\r\x85\u2028", max_size=40))
 def test_any_text_has_the_same_tree_or_none(text: str) -> None:
     plain, close, problems = _both(text)
