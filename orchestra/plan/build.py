@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import maker
 from orchestra.plan.awaited import life, readiness
 from orchestra.plan.checks.table import check_all
 from orchestra.plan.command import command
@@ -80,6 +81,9 @@ def build(
     return replace(plan, problems=problems.ordered)
 
 
+new_process = maker(Process)
+
+
 def _arguments(resolved: Resolved) -> tuple[Argument, ...]:
     return tuple(
         Argument(
@@ -109,7 +113,7 @@ def _process(
     path = path_of(identity) if parameters.values or parameters.files else None
     files = tuple(ParameterFile(path or file.path, file.content) for file in parameters.files)
     words, environment = command(process, path), environment_of(process)
-    return Process(
+    return new_process(
         id=identity,
         kind=process.kind,
         package=process.package,

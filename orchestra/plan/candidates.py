@@ -25,6 +25,7 @@ _MOST = 16
 _LONGEST = 200
 
 
+new_candidate = maker(Candidate)
 _new_via = maker(Via)
 
 
@@ -84,7 +85,7 @@ def _touch(one: Span, other: Span) -> bool:
 def of_parameter(below: Setting | None, above: Setting | None, known: Origins) -> tuple[Candidate, ...]:
     """Return all values of one parameter: those of the description, then those of the command line, which win."""
     written = [
-        Candidate(
+        new_candidate(
             item.value,
             item.location,
             item.won and above is None,
@@ -96,7 +97,7 @@ def of_parameter(below: Setting | None, above: Setting | None, known: Origins) -
     ]
     if above is not None:
         written += [
-            Candidate(item.value, item.location, item.won, _of_command_line(item, above))
+            new_candidate(item.value, item.location, item.won, _of_command_line(item, above))
             for item in above.written
         ]
     return tuple(written)
@@ -129,7 +130,9 @@ def of_environment(changes: Sequence[EnvironmentChange]) -> tuple[Candidate, ...
     last = len(changes) - 1
     rules = ("the last one counts", "set before the value that counts")
     return tuple(
-        Candidate(change.value, change.location, index == last, rules[index != last], passage(change.through))
+        new_candidate(
+            change.value, change.location, index == last, rules[index != last], passage(change.through)
+        )
         for index, change in enumerate(changes)
     )
 
@@ -138,7 +141,7 @@ def of_name(name: Value | None) -> tuple[Candidate, ...]:
     """Return the one name that the description gives to a node."""
     if name is None:
         return ()
-    return (Candidate(name.text, name.location, True, "the name of the node", passage(name.through)),)
+    return (new_candidate(name.text, name.location, True, "the name of the node", passage(name.through)),)
 
 
 def of_namespace(namespace: Value | None) -> tuple[Candidate, ...]:
@@ -148,11 +151,11 @@ def of_namespace(namespace: Value | None) -> tuple[Candidate, ...]:
     around = next((read for read in namespace.through if read.kind == "namespace"), None)
     if around is None or around.location is None:
         rule = "the namespace of the node itself"
-        return (Candidate(namespace.text, namespace.location, True, rule, passage(namespace.through)),)
+        return (new_candidate(namespace.text, namespace.location, True, rule, passage(namespace.through)),)
     behind_it = passage(around.through)
     if around.location == namespace.location:
         rule = "pushed for all that stands below it"
-        return (Candidate(namespace.text, around.location, True, rule, behind_it),)
+        return (new_candidate(namespace.text, around.location, True, rule, behind_it),)
     below = namespace.text.startswith(f"{around.value.rstrip('/')}/")
     rules = (
         ("pushed for all that stands below it", "the namespace of the node itself, below what is pushed")
@@ -161,6 +164,6 @@ def of_namespace(namespace: Value | None) -> tuple[Candidate, ...]:
     )
     own = passage([read for read in namespace.through if read is not around])
     return (
-        Candidate(around.value, around.location, False, rules[0], behind_it),
-        Candidate(namespace.text, namespace.location, True, rules[1], own),
+        new_candidate(around.value, around.location, False, rules[0], behind_it),
+        new_candidate(namespace.text, namespace.location, True, rules[1], own),
     )

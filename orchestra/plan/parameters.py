@@ -80,7 +80,7 @@ def _plain(process: ResolvedProcess, own: str) -> Parameters | None:
             return None
         values[source.name] = source.value
         through = candidates.passage(source.through)
-        written[source.name] = (Candidate(source.value, source.location, True, rule, through),)
+        written[source.name] = (candidates.new_candidate(source.value, source.location, True, rule, through),)
     return Parameters(values, written)
 
 

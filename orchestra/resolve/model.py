@@ -68,6 +68,9 @@ class FileParameters:
     within: tuple[tuple[Span, tuple[Read, ...]], ...] = field(default=(), compare=False, repr=False)
 
 
+# What a resolution makes thousands of; `new_remap` and `new_process` are another two.
+new_parameter = maker(InlineParameter)
+
 ParameterSource: TypeAlias = InlineParameter | FileParameters
 
 
@@ -170,6 +173,9 @@ class ResolvedProcess:
     share: str | None = None
     origin: Any = field(default=None, compare=False, repr=False)
     around: tuple[Any, ...] = field(default=(), compare=False, repr=False)
+
+
+new_process = maker(ResolvedProcess)
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

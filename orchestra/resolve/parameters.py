@@ -11,7 +11,7 @@ from orchestra.errors import Code
 from orchestra.location import is_python, point
 from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON, Poison, Value
-from orchestra.resolve.model import InlineParameter, ParameterSource
+from orchestra.resolve.model import InlineParameter, ParameterSource, new_parameter
 from orchestra.resolve.parameter_files import file_parameters
 from orchestra.resolve.paths import beside
 from orchestra.resolve.rcl.overrides import override_value
@@ -146,7 +146,7 @@ def _inline(
         value = _retyped(value, at, run)
     items = param.value if isinstance(param.value, tuple) else ()
     places = tuple(run.at(item.span) for item in items)
-    return [InlineParameter(name, value, at, everywhere, keys, places, tuple(reads))]
+    return [new_parameter(name, value, at, everywhere, keys, places, tuple(reads))]
 
 
 def _constant(name: str, value: Constant, type_word: str | None, run: Resolution) -> ParameterValue | Poison:

@@ -22,6 +22,7 @@ from orchestra.resolve.model import (
     ParameterSource,
     ResolvedProcess,
     ResolvedRemap,
+    new_process,
 )
 from orchestra.resolve.outputs import output
 from orchestra.resolve.paths import check_folder
@@ -83,7 +84,7 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
     places = output(action.output, run, location)
     again = sound(restart(action, run))
     check_keys(action, again, run)
-    return ResolvedProcess(
+    return new_process(
         kind=program.kind,
         package=program.package,
         executable=program.executable,
@@ -115,9 +116,8 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         warm=sound(run.flag(action.warm)),
         location=location,
         conditional=_is_conditional(action, run),
-        faulty=sound.faulty
-        or program.faulty
-        or action.faulty,  # the last one: all others have been looked at
+        # The last one: all others have been looked at.
+        faulty=sound.faulty or program.faulty or action.faulty,
         inherit_environment=action.env_only is None,
         autostart=program.autostart,
         through=program.through,

@@ -72,7 +72,7 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
         through=(*reads, *more),
         params_schema=None if isinstance(schema, Poison) else schema,
         share=run.context.packages.share(package.text) if isinstance(package, Value) else None,
-        faulty=not whole or not regular or any(isinstance(value, Poison) for value in values),
+        faulty=not whole or not regular or Poison in map(type, values),
     )
     _tell(action.origin, program)
     if not program.faulty and run.nodes_are_extended():
