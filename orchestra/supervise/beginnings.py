@@ -7,14 +7,13 @@ import time
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable
-
     from orchestra.supervise.attendance import Attend
     from orchestra.supervise.keeping.patience import Patience
     from orchestra.supervise.keeping.stacks import Stacks
     from orchestra.supervise.resolver.document import Document
     from orchestra.supervise.resolver.process import Resolver
     from orchestra.supervise.summons import Summons
+    from orchestra.supervise.warm.launching import Launched
 
 
 class Kept:
@@ -36,14 +35,14 @@ class Beginnings:
     `began` is now, in seconds since the epoch;
     `stacks` is where our processes write where they are; `attend` is what attends to the run besides;
     `summons` what the service manager wants that has started us;
-    `foresee` tells whether there are likely to be nodes in Python.
+    `ahead` is the fork server, where it has been started already.
     """
 
     __slots__ = (
         "_patience",
+        "ahead",
         "attend",
         "began",
-        "foresee",
         "given",
         "keeper",
         "run_id",
@@ -59,7 +58,7 @@ class Beginnings:
         signals: int,
         attend: Attend | None,
         summons: Summons,
-        foresee: Callable[[], bool] | None = None,
+        ahead: Launched | None = None,
     ) -> None:
         self.began = time.time()
         self.run_id = kept.run_id
@@ -69,7 +68,7 @@ class Beginnings:
         self.signals = signals
         self.attend = attend
         self.summons = summons
-        self.foresee = foresee
+        self.ahead = ahead
         self._patience = kept.patience
 
     def orphaned(self) -> bool:

@@ -51,13 +51,11 @@ def conduct(beginnings: Beginnings) -> int:
     dump = Dump(loop, beginnings.stacks, say)
     attention.on_dump = dump.take
     kin = Kin(beginnings.run_id)
-    starts = Starts(loop, kin, beginnings.run_id, say)
+    starts = Starts(loop, kin, beginnings.run_id, say, beginnings.ahead)
     given = beginnings.given
     if isinstance(given, Document):
         document, resolver = given, None
     else:
-        if beginnings.foresee and beginnings.foresee():
-            starts.foresee()
         document, resolver = _collect(loop, given, attention, dump, starts)
     confines = Confines(loop, beginnings.run_id)
     unfit = confines.take_up(document.plan)

@@ -72,27 +72,24 @@ def run(
 
     `attend` is called in the supervisor process when the run is about to begin, and may import what it needs then.
     `afterwards` is called in the keeper with the run's mark when everything is over, whoever was killed before.
-    `recall` is called in the supervisor: where it returns a document `prepare` is not called.
-    `foresee` is called there too: it tells, before there is a plan, whether nodes in Python are to be expected.
+    `recall` is called in the supervisor: where it returns a document `prepare` is not called. `foresee` tells there,
+    before there is a plan, whether nodes in Python are likely.
     """
     fill_standard_descriptors()
-    keeper = os.getpid()
-    run_id = run_mark(time.time_ns(), keeper)
-    patience, stacks = Patience(), Stacks()
-
-    def supervise() -> int:
-        return _supervise(prepare, attend, Kept(keeper, run_id, patience, stacks), recall, foresee)
+    kept = Kept(os.getpid(), run_mark(time.time_ns(), os.getpid()), Patience(), Stacks())
 
     def bury() -> None:
         from orchestra.supervise.keeping import remnants  # noqa: PLC0415 - only where keeper and supervisor were killed
 
-        remnants.end({run_id})
+        remnants.end({kept.run_id})
         if afterwards:
-            afterwards(run_id)
+            afterwards(kept.run_id)
 
-    status = keep(supervise, patience, stacks, bury)
+    status = keep(
+        lambda: _supervise(prepare, attend, kept, recall, foresee), kept.patience, kept.stacks, bury
+    )
     if afterwards:
-        afterwards(run_id)
+        afterwards(kept.run_id)
     return status
 
 

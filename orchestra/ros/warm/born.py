@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
     from types import TracebackType
 
-    from orchestra.ros.warm.serving import Request
+    from orchestra.ros.warm.request import Request
 
 _GO = 3  # the descriptor on which the supervisor says that the program may begin
 _ABOVE = 64  # descriptors are moved out of the way of the first ones

@@ -16,11 +16,12 @@ import sys
 import threading
 import warnings
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, NamedTuple, NoReturn
+from typing import TYPE_CHECKING, Any, NoReturn
 
 from orchestra.ros.warm import shown
 from orchestra.ros.warm.born import born
 from orchestra.ros.warm.preloading import preload, preload_common
+from orchestra.ros.warm.request import Request
 from orchestra.ros.warm.shadows import loaded_since
 from orchestra.supervise.keeping import kernel
 
@@ -35,13 +36,6 @@ _DESCRIPTORS = 4
 # So many are forked before the first of them begins: a fork in between costs as much as one of a node.
 _AT_ONCE = 8
 _FAILED = -1
-
-
-class Request(NamedTuple):
-    """What is to be started, and its descriptors: to be told to go, its output, its errors, perhaps its input."""
-
-    facts: dict[str, Any]
-    descriptors: list[int]
 
 
 def serve(path: Sequence[str], modules: Collection[str]) -> Born:

@@ -7,16 +7,11 @@ import array
 import json
 import os
 import signal
-import sys
-from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from orchestra.supervise.keeping.kin import send_to_groups
-from orchestra.supervise.keeping.marks import PROCESS
 from orchestra.supervise.output.stream import Stream, as_text
 from orchestra.supervise.process.ending import Ending
-from orchestra.supervise.process.spawn import spawn
-from orchestra.supervise.process.spec import Spec
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping, Sequence
@@ -24,9 +19,8 @@ if TYPE_CHECKING:
     from orchestra.supervise.keeping.kin import Kin
     from orchestra.supervise.loop import Loop
     from orchestra.supervise.process.child import Child
+    from orchestra.supervise.warm.launching import Launched
 
-# By its file: with `-m`, or another option, nodes would have other flags than those that are started cold.
-PROGRAM = str(Path(__file__).parents[2] / "ros" / "warm" / "__main__.py")
 _LARGEST = 65536  # bytes of a message from it
 
 
@@ -40,34 +34,27 @@ class Server:
         self,
         loop: Loop,
         kin: Kin,
-        environment: Mapping[str, str],
+        launched: Launched,
         said: Callable[[str], None],
         ears: tuple[Callable[[dict[str, Any]], None], Callable[[str], None]],
     ) -> None:
         self._loop = loop
         self._kin = kin
         self._heard, self._lost = ears
-        self.environment = {name: value for name, value in environment.items() if name != PROCESS}
-        ours, theirs = _socket.socketpair(_socket.AF_UNIX, _socket.SOCK_SEQPACKET)
-        ours.setblocking(False)
-        command = (sys.executable, PROGRAM, str(os.getpid()))
-        spec = Spec("fork server", command, self.environment, None, tty=False, stdin=False)
-        try:
-            self._child: Child | None = spawn(spec, stdin=theirs.fileno())
-        except OSError:
-            ours.close()
-            raise
-        finally:
-            theirs.close()
+        self.environment: Mapping[str, str] = launched.environment
+        self._child: Child | None = launched.child
+        ours = launched.connection
         self._socket: _socket.socket | None = ours
         # Another descriptor of the same socket: the loop has one callback for each.
         self._writable = os.dup(ours.fileno())
         self._waiting: list[tuple[bytes, Sequence[int], Callable[[], None] | None]] = []
         self._held_up = False
-        kin.add(self._child.pid, None)
-        self._streams = [Stream(loop, descriptor, as_text(said)) for descriptor in self._child.outputs.values()]
+        kin.add(launched.child.pid, None)
+        self._streams = [
+            Stream(loop, descriptor, as_text(said)) for descriptor in launched.child.outputs.values()
+        ]
         loop.on_readable(ours.fileno(), self._read)
-        loop.on_readable(self._child.pidfd, self._ended)
+        loop.on_readable(launched.child.pidfd, self._ended)
 
     @property
     def pid(self) -> int | None:

@@ -8,15 +8,13 @@ from __future__ import annotations
 
 import errno
 import itertools
-import os
 from typing import TYPE_CHECKING, Any, Protocol
 
-from orchestra.supervise.environment import node_environment
-from orchestra.supervise.host import this_host
 from orchestra.supervise.keeping import proc
 from orchestra.supervise.process.life import FINAL
 from orchestra.supervise.process.spawn import spawn
 from orchestra.supervise.warm import dialogue
+from orchestra.supervise.warm.launching import environment_of, launch
 from orchestra.supervise.warm.server import Server
 from orchestra.supervise.warm.start import Start
 
@@ -28,6 +26,7 @@ if TYPE_CHECKING:
     from orchestra.supervise.loop import Loop, Timer
     from orchestra.supervise.process.life import State
     from orchestra.supervise.process.spec import Spec
+    from orchestra.supervise.warm.launching import Launched
     from orchestra.supervise.warm.start import Told
 
 # How long a warm start may take, the server's own imports included, on a machine that is busy; in seconds.
@@ -52,14 +51,19 @@ class Startable(Protocol):
 
 
 class Starts:
-    """Starts processes. `said` gets what users should know of the server; without `wanted` there is none."""
+    """Starts processes. `said` gets what users should know of the server; without `wanted` there is none.
 
-    def __init__(self, loop: Loop, kin: Kin, run_id: str, said: Callable[[str], None]) -> None:
+    `ahead` is a server that has been started already.
+    """
+
+    def __init__(
+        self, loop: Loop, kin: Kin, run_id: str, said: Callable[[str], None], ahead: Launched | None = None
+    ) -> None:
         self.said = said
         self.wanted = True
         self._loop = loop
         self._kin = kin
-        self._environment = _environment(run_id)
+        self._environment = environment_of(run_id)
         self._prepared: set[tuple[str, str]] = set()
         self._server: Server | None = None
         self._former: list[Server] = []
@@ -70,6 +74,8 @@ class Starts:
         self._timer: Timer | None = None
         self._reasons: set[str] = set()
         kin.unborn = self._is_unborn
+        if ahead is not None:
+            self._server = self._attended(ahead)
 
     @property
     def pid(self) -> int | None:
@@ -81,10 +87,6 @@ class Starts:
         """Whether a server's process has not been reaped."""
         self._former = [one for one in self._former if one.alive]
         return bool(self._former) or (self._server is not None and self._server.alive)
-
-    def foresee(self) -> None:
-        """Start the server: what it will be asked for is not known yet, but that it will be is likely."""
-        self._ready()
 
     def prepare(self, processes: Iterable[Process]) -> None:
         """Let the server, which takes some time for it, import what those of the processes need that it will start."""
@@ -149,12 +151,14 @@ class Starts:
     def _ready(self) -> Server | None:
         """Return the server, started where there is none; None where there will not be one."""
         if self._server is None and self._hopeless is None and self.wanted:
-            ears = (self._heard, self._lost)
             try:
-                self._server = Server(self._loop, self._kin, self._environment, self._say, ears)
+                self._server = self._attended(launch(self._environment))
             except OSError as error:
                 self._hopeless = f"could not be started: {error}"
         return self._server
+
+    def _attended(self, launched: Launched) -> Server:
+        return Server(self._loop, self._kin, launched, self._say, (self._heard, self._lost))
 
     def _start_cold(self, spec: Spec, told: Told, reason: str) -> None:
         """Start cold what the plan starts warm; users are told each reason once."""
@@ -227,11 +231,6 @@ class Starts:
 def _warm(process: Process) -> Warm | None:
     """Return how the server starts a process, None where it does not."""
     return process.warm if process.warm is not None and process.warm.warm else None
-
-
-def _environment(run_id: str) -> dict[str, str]:
-    """Return the environment of the server: what is the same for all nodes of a run."""
-    return node_environment(os.environ, this_host(), {}, log_folder="", colour=False, marks=(run_id, ""))
 
 
 def _start_cold(spec: Spec, told: Told) -> None:
