@@ -145,8 +145,8 @@ class Entity(BaseModel):
             return handler(data) if reader is not None else _sound(handler(data))
         if reader is None:
             raise TypeError("mappings are read with a loader as the validation context")
-        if data.read is not None and isinstance(data.read, cls):  # read before, when something beside it was wrong
-            return data.read
+        if data.read is not None and isinstance(data.read, cls):
+            return data.read  # before, when something beside it was wrong
         known = cls.known_keys()
         mapping = data if data.keys() <= known else reader.keys(known, data, cls.required_keys())
         faulty = mapping.lossy
