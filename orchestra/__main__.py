@@ -8,7 +8,7 @@ TYPE_CHECKING = False  # `typing` itself costs more than this module
 if TYPE_CHECKING:
     from typing import BinaryIO
 
-    from orchestra.cli.remembered import Remembered
+    from orchestra.cli.recollection import Remembered
     from orchestra.supervise.resolver.serving import Answer, Settled
 
 _ONLY_SHOWING = {"--help", "--show-args", "--show-arguments", "--print", "--print-description"}

@@ -181,6 +181,17 @@ def _removed(name: str) -> Callable[[Rememberer], None]:
     return lambda plans: (plans.folder / name).unlink()
 
 
+def _earlier_package(plans: Rememberer) -> None:
+    plans.write("early/share/ament_index/resource_index/packages/demo", "")
+    plans.write("early/lib/demo/talker", "#!/bin/sh\n")
+    plans.environment["AMENT_PREFIX_PATH"] = f"{plans.folder}/early:{plans.folder}/prefix"
+
+
+def _earlier_program(plans: Rememberer) -> None:
+    plans.write("sbin/tool", "#!/bin/sh\n")
+    plans.environment["PATH"] = f"{plans.folder}/sbin:{plans.environment['PATH']}"
+
+
 _CHANGES: dict[str, Callable[[Rememberer], None]] = {
     "the file": _replaced("work/main.launch.yaml", "nobody", "somebody"),
     "an included file": _replaced("work/part.launch.xml", "$(var name)", "other"),
@@ -192,16 +203,9 @@ _CHANGES: dict[str, Callable[[Rememberer], None]] = {
     "a folder that it looks for": _added("work/extra/file"),
     "a variable that it reads": _set("MODE", "wild"),
     "a variable of a substitution": _set("ROBOT", "r2"),
-    "a package that is found earlier": lambda plans: (
-        plans.write("early/share/ament_index/resource_index/packages/demo", ""),
-        plans.write("early/lib/demo/talker", "#!/bin/sh\n"),
-        plans.environment.update({"AMENT_PREFIX_PATH": f"{plans.folder}/early:{plans.folder}/prefix"}),
-    )[0],
+    "a package that is found earlier": _earlier_package,
     "settings": _added("work/orchestra.toml", '[severity]\nORC001 = "off"\n'),
-    "an executable of the same name": lambda plans: (
-        plans.write("sbin/tool", "#!/bin/sh\n"),
-        plans.environment.update({"PATH": f"{plans.folder}/sbin:{plans.environment['PATH']}"}),
-    )[0],
+    "an executable of the same name": _earlier_program,
 }
 
 

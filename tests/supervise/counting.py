@@ -27,7 +27,7 @@ def _never(*_args: object) -> None:
 
 
 if os.environ.get("COUNT_RESOLVER") == "no":
-    orchestra.supervise.run.fork_resolver = _never  # type: ignore[assignment]
+    orchestra.supervise.run.fork_resolver = _never  # type: ignore[attr-defined,assignment]
 _told(sys.argv[1])
 sys.argv[1:] = sys.argv[2:]
 sys.exit(main())
