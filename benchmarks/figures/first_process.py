@@ -47,7 +47,7 @@ def _first(signs: Signs, command: Sequence[str], site: Site, size: int) -> float
     before = len(signs.lines)
     began = time.perf_counter()
     with launching.started(command, site, subprocess.DEVNULL) as popen:
-        came = signs.wait(before + 1)
-        signs.wait(before + size)
+        came = signs.wait(before + 1, popen)
+        signs.wait(before + size, popen)
         launching.finished(popen)
     return came - began

@@ -62,7 +62,7 @@ def _passed(signs: Signs, command: Sequence[str], site: Site, expected: int) -> 
     """Return the seconds from the first line until the screen, and our log file, have them all."""
     screen = site.folder / "screen"
     with screen.open("wb") as file, launching.started(command, site, file.fileno()) as popen:
-        began = signs.wait(len(signs.lines) + 1)
+        began = signs.wait(len(signs.lines) + 1, popen)
         ours = "orchestra" in command
         log = launching.run_directory(site) / "logs" / "noisy.log" if ours else screen
         least = expected - expected // (_LINE + _PREFIX) * _PREFIX if ours else expected

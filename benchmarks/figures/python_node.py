@@ -37,6 +37,6 @@ def _first_message(signs: Signs, command: Sequence[str], site: Site) -> float:
     before = len(signs.lines)
     began = time.perf_counter()
     with launching.started(command, site) as popen:
-        came = signs.wait(before + 1)
+        came = signs.wait(before + 1, popen)
         popen.send_signal(signal.SIGINT)
     return came - began

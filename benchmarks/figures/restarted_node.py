@@ -26,12 +26,12 @@ def measure(site: Site, size: int) -> Mapping[str, Sample]:
         signalling = Site(site.folder, launching.with_variables(site.environment, BENCHMARK_SIGNS=signs.path))
         began = time.perf_counter()
         with launching.started(node_package.by_hand(0), signalling) as popen:
-            floor = signs.wait(1) - began
+            floor = signs.wait(1, popen) - began
             popen.send_signal(signal.SIGINT)
         with launching.started(launching.orchestra("launch", file), signalling) as popen:
-            signs.wait(1 + size)
+            signs.wait(1 + size, popen)
             began = time.perf_counter()
             os.kill(int(signs.lines[1]), signal.SIGKILL)
-            ours = signs.wait(2 + size) - began
+            ours = signs.wait(2 + size, popen) - began
             popen.send_signal(signal.SIGINT)
     return {"restarted-node": Sample(ours, floor)}

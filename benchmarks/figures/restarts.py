@@ -30,9 +30,9 @@ def measure(site: Site, size: int) -> Mapping[str, Sample]:
         script = f"echo up > {signs.path}"
         file.write_text(f"launch:\n  - executable: {{cmd: /bin/sh -c '{script}', restart: {restart}}}\n")
         with launching.started(launching.orchestra("launch", file), site) as popen:
-            signs.wait(max(2, size // 100))
+            signs.wait(max(2, size // 100), popen)
             before = _memory(popen.pid)
-            signs.wait(size)
+            signs.wait(size, popen)
             after = _memory(popen.pid)
             popen.send_signal(signal.SIGINT)
     return {"restarts": Sample(after, before)}

@@ -57,7 +57,7 @@ def _cost(signs: Signs, command: Sequence[str], site: Site, size: int) -> Cost:
     before = len(signs.lines)
     began = time.perf_counter()
     with launching.started(command, site) as popen:
-        seconds = signs.wait(before + size) - began
+        seconds = signs.wait(before + size, popen) - began
         processes = costs.tree(popen.pid)
         cpu = sum(process.seconds for process in processes)
         nodes = [process.pid for process in processes[1:] if process.name not in _OURS]

@@ -67,7 +67,7 @@ def _launched(signs: Signs, command: Sequence[str], site: Site, size: int) -> tu
     before = len(signs.lines)
     began = time.perf_counter()
     with launching.started(command, site) as popen:
-        up = signs.wait(before + size)
+        up = signs.wait(before + size, popen)
         interrupted = time.perf_counter()
         popen.send_signal(signal.SIGINT)
         launching.finished(popen)

@@ -39,7 +39,7 @@ def measure(site: Site, size: int) -> Mapping[str, Sample]:
         file = site.folder / "idle.launch.yaml"
         file.write_text("launch:\n" + f"  - executable: {{cmd: /bin/sh -c '{script}'}}\n" * size)
         with launching.started(launching.orchestra("launch", file), site) as popen:
-            signs.wait(size)
+            signs.wait(size, popen)
             ours = [process.pid for process in costs.tree(popen.pid) if process.name.startswith("orc-")]
             _at_rest(ours)
             before = sum(map(costs.waits, ours))
