@@ -1,4 +1,4 @@
-"""While nothing happens nothing is done: neither keeper nor supervisor is woken, however much there is to watch."""
+"""While nothing happens nothing is done: no process of ours is woken, however much there is to watch."""
 
 from __future__ import annotations
 
@@ -27,9 +27,9 @@ if TYPE_CHECKING:
     from tests.supervise.plans import Launched
 
 _COUNT = 20
-_OURS = ("orc-keeper", "orc-supervisor")
+_OURS = ("orc-keeper", "orc-supervisor", "orc-guard")
 _QUIET = 0.6
-_SHARE = 0.001  # of one core, both together
+_SHARE = 0.001  # of one core, all together
 
 
 def idlers() -> list[Process]:
@@ -66,12 +66,12 @@ def at_rest(folder: Path) -> Iterator[Launched]:
 
 
 def efforts(run: Launched) -> list[Effort]:
-    """Return what keeper and supervisor have done so far."""
+    """Return what our processes have done so far."""
     return [effort(run.own(name)) for name in _OURS]
 
 
 def watched(run: Launched, seconds: float) -> tuple[int, float]:
-    """Return how often both were woken in a time, and their share of a core."""
+    """Return how often they were woken in a time, and their share of a core."""
     before = efforts(run)
     time.sleep(seconds)
     after_it = efforts(run)
