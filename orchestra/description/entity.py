@@ -24,12 +24,15 @@ from pydantic_core import ErrorDetails, PydanticCustomError
 
 from orchestra.description.conflict import Conflict
 from orchestra.description.fields import Flag
+from orchestra.description.plugins import keep_away
 from orchestra.description.source import Keyed
 from orchestra.description.text import Template
 from orchestra.errors import Problem
 from orchestra.location import Span
 
 REPORTED = "reported"
+
+keep_away()
 
 _EntityT = TypeVar("_EntityT", bound="Entity")
 
@@ -72,7 +75,9 @@ class Entity(BaseModel):
 
         `faults` are what was wrong with values that have been left out. Raises `ValidationError`.
         """
-        entity = cls(**values)
+        entity: Self = cls.__pydantic_validator__.validate_python(
+            values
+        )  # as the constructor, without its detours
         _set_beside(
             entity,
             {"span": span, "origin": origin, "faults": faults}

@@ -85,7 +85,8 @@ class Constant:
     span: Span
 
 
-# What the loaders make thousands of.
+# What the loaders, and code, make thousands of.
+new_constant = maker(Constant)
 new_words = maker(Words)
 new_call = maker(Call)
 new_template = maker(Template)

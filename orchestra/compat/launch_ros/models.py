@@ -12,7 +12,7 @@ from orchestra.compat.launch_ros.utilities.exact import Exact
 from orchestra.compat.place import Argument, within
 from orchestra.compat.text import template
 from orchestra.description.parts import Override, Param, Remap
-from orchestra.description.text import Constant, Template
+from orchestra.description.text import Constant, Template, new_constant
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -95,20 +95,20 @@ def _typed(value: ParameterValue) -> dict[str, Any]:
         if not any(isinstance(item, Template) for item in read):
             read = Constant(tuple(written), span)
     else:
-        read = _text(written, span) if isinstance(written, list) else Constant(written, span)
+        read = _text(written, span) if isinstance(written, list) else new_constant(written, span)
     return {"value": read, **({} if word is None else {"type": template(word, span)})}
 
 
 def _value(value: Any, span: Span) -> Value | tuple[Value, ...]:
     if not isinstance(value, tuple):
-        return Constant(value, span)
+        return new_constant(value, span)
     if _is_text(value):
         return _text(value, span)
     if not any(isinstance(item, tuple) for item in value):
-        return Constant(value, span)
+        return new_constant(value, span)
     read = tuple(_text(item, span) for item in value)
     exact = [item.value for item in read if isinstance(item, Constant)]
-    return Constant(tuple(exact), span) if len(exact) == len(read) else read  # type: ignore[arg-type]  # the visit checks that they are of one type
+    return new_constant(tuple(exact), span) if len(exact) == len(read) else read  # type: ignore[arg-type]  # the visit checks that they are of one type
 
 
 def _is_text(items: Any) -> bool:
@@ -118,7 +118,7 @@ def _is_text(items: Any) -> bool:
 
 def _text(items: Any, span: Span) -> Value:
     if len(items) == 1 and isinstance(items[0], Exact):
-        return Constant(items[0].value, span)
+        return new_constant(items[0].value, span)
     return template(items, span)
 
 
