@@ -75,9 +75,8 @@ class Entity(BaseModel):
 
         `faults` are what was wrong with values that have been left out. Raises `ValidationError`.
         """
-        entity: Self = cls.__pydantic_validator__.validate_python(
-            values
-        )  # as the constructor, without its detours
+        # As the constructor does, without its detours.
+        entity: Self = cls.__pydantic_validator__.validate_python(values)
         _set_beside(
             entity,
             {"span": span, "origin": origin, "faults": faults}
