@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from orchestra.description.text import Template
 from orchestra.errors import Code
 from orchestra.location import is_python
 
@@ -11,7 +12,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from orchestra.description.running import Running
-    from orchestra.description.text import Template
     from orchestra.resolve.resolution import Resolution
     from orchestra.values import Restart
 
@@ -28,6 +28,7 @@ def _idle(action: Running, restart: Restart | None, run: Resolution) -> Iterator
     yield from _without_respawn(action)
     yield from _beside_stop(action)
     yield from _never_restarted(action, restart)
+    yield from _unseen(action, run)
     if restart is None or restart.policy != "always" or restart.budget is not None:
         return
     again = "`respawn`" if action.respawn is not None else "`restart: always`"
@@ -38,6 +39,15 @@ def _idle(action: Running, restart: Restart | None, run: Resolution) -> Iterator
         )
     elif action.required is not None and run.flag(action.required) is True:
         yield action.required, f"{again} starts the process again whenever it ends: `required` never acts"
+
+
+def _unseen(action: Running, run: Resolution) -> Iterator[tuple[Template, str]]:
+    """Yield an output that hides what the user is to answer."""
+    if not isinstance(action.output, Template) or action.output.constant not in ("log", "own_log"):
+        return
+    if action.stdin is not None and run.flag(action.stdin) is True:
+        word = action.output.constant
+        yield action.output, f"`output: {word}` keeps from the screen what `stdin` lets the user answer"
 
 
 def _without_respawn(action: Running) -> Iterator[tuple[Template, str]]:

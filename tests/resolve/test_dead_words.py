@@ -87,6 +87,10 @@ DEAD: dict[str, tuple[str, list[Told]]] = {
     ),
     # Keys.
     "a delay without respawn": (node("a", respawn_delay="2.0"), [(Code.IDLE_KEY, "2.0", None)]),
+    "output that nobody sees beside stdin": (
+        node("a", stdin="true", output="log"),
+        [(Code.IDLE_KEY, "log", None)],
+    ),
     "retries without respawn": (node("a", respawn_max_retries="2"), [(Code.IDLE_KEY, "2", None)]),
     "a respawn of what ends the run": (
         node("a", respawn="true", on_exit="shutdown"),
