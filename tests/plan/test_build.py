@@ -176,6 +176,31 @@ def test_sections_for_other_nodes_are_passed_on_before_the_nodes_own(tmp_path: P
     }
 
 
+@pytest.mark.parametrize(
+    ("node", "patterns"),
+    [
+        ("name: n, namespace: ns", ["/**", "/inner", "/ns/n"]),
+        ("name: n", ["/**", "/inner", "/ns/n", "/other/n"]),
+        ("output: log", ["/**", "/inner", "/ns/n", "/other/n", "/other/m"]),
+    ],
+)
+def test_sections_for_nodes_of_other_processes_are_not_passed_on(
+    node: str, patterns: list[str], tmp_path: Path
+) -> None:
+    """A node whose namespace is not known may be any of its name, one without a name any at all."""
+    others = "".join(f"- node: {{exec: b, name: {name}, namespace: other}}\n" for name in "nm")
+    files = {
+        "main.yaml": f"launch:\n- node: {{exec: a, {node}, param: [{{from: p.yaml}}]}}\n{others}",
+        "p.yaml": "".join(
+            f"{pattern}: {{ros__parameters: {{x: 1}}}}\n"
+            for pattern in ("/**", "/inner", "/ns/n", "/other/n", "/other/m")
+        ),
+    }
+    first, *_ = outcome(tmp_path, files).plan.processes
+    lines = "".join(contents(first).values()).splitlines()
+    assert [line.removesuffix(":") for line in lines if line.startswith("/")] == patterns
+
+
 def test_a_node_whose_name_is_not_known_gets_all_sections_in_order(tmp_path: Path) -> None:
     files = {
         "main.yaml": "launch:\n- node: {exec: a, param: [{from: p.yaml}, {name: own, value: 1}]}",
