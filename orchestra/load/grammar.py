@@ -203,7 +203,7 @@ class _Reader:
             elif self.text.startswith("\\ ", self.at):
                 wrong = wrong or "a backslash does not join words: quote the argument"
             found.text(_PLAIN)
-        if wrong and not self.lost:
+        if wrong and self.here and not self.lost:  # at the end, the substitution itself is not closed
             self.fault(
                 start, self.at, wrong, suggestion=None if within or glued else self.in_quotes(start, self.at)
             )

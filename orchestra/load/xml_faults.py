@@ -200,7 +200,8 @@ def _in_attribute(found: re.Match[str], whole: Source) -> Fault | None:
     if not blank:
         return _fault(f"a space is missing before '{name}'", whole, found.start(2), found.end(2))
     if bare:
-        meant = f'"{bare.strip(_CURLY)}"'
+        behind = whole.text[found.end(4) :][:1]
+        meant = f"{behind}{bare}" if behind in ("'", '"') else f'"{bare.strip(_CURLY)}"'
         return _fault(f"the value of '{name}' needs quotes", whole, *found.span(4), meant)
     if not quoted and (doubled := _DOUBLED.match(whole.text, found.end(2))):
         return _fault("one '=' stands between name and value", whole, doubled.end() - 1, doubled.end())

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 
 _PLAIN = re.compile(r"[^\s,\]}#](?:[^\n,\]}#]*[^\s,\]}#])?")
+_WORD_ALONE = re.compile(r"[ ]*(?:- )?([A-Za-z_][\w-]*)[ ]*$", re.MULTILINE)
 _COLON = re.compile(r":(?:\s|$)|\s#", re.MULTILINE)
 _ANCHOR = re.compile(r"&([^\s,\[\]{}]+)")
 _ALIAS = re.compile(r"\*([^\s,\[\]{}]*)")
@@ -148,7 +149,9 @@ def _without_colon(failure: Failure, begin: int) -> Fault:
     end = failure.line_end(begin)
     written = failure.text[begin:end]
     if written.startswith("- "):
-        return failure.fault("this is indented as nothing above it is", begin, begin + 1)
+        return _above_items(failure, begin) or failure.fault(
+            "this is indented as nothing above it is", begin, begin + 1
+        )
     if _is_item(failure, begin):
         instead = f"- {written.removeprefix('-')}"
         return failure.fault("an item of the list begins with '- '", begin, end, instead)
@@ -159,6 +162,15 @@ def _without_colon(failure: Failure, begin: int) -> Fault:
     name = name.rstrip(",;")
     meant = f"{name}: {value}" if blank and " " not in value else f"{name}:" if not blank else None
     return failure.fault(f"a ':' is missing behind '{shortened(name)}'", begin, end, meant)
+
+
+def _above_items(failure: Failure, begin: int) -> Fault | None:
+    """Explain a word above the items of a list that is their key, and has no colon."""
+    line = failure.line_of(begin)
+    found = _WORD_ALONE.match(failure.text, failure.whole.lines[line - 2]) if line > 1 else None
+    if found is None:
+        return None
+    return failure.fault(f"a ':' is missing behind '{found[1]}'", *found.span(1), f"{found[1]}:")
 
 
 def _is_item(failure: Failure, begin: int) -> bool:

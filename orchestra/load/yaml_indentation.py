@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 _UNSPACED: Final = re.compile(r"-([A-Za-z][\w-]*)\s*:")
 _KEY: Final = re.compile(r"([\w./~*-]+)\s*:(?:\s|$)")
-_BRACKETED: Final = re.compile(r"(?:- )?([\w./~*-]+) [\[{]")
+_BRACKETED: Final = re.compile(r"(?:- )?([\w/~][\w./~*-]*) [\[{]")
 
 
 @dataclass(frozen=True, slots=True)
