@@ -52,7 +52,7 @@ class Place:
     def idle(self) -> bool:
         """Whether nothing is waited for: no descriptor, no timer, no program."""
         return (
-            not self.loop._selector.get_map()
+            not self.loop._watched
             and self.loop._until_next_timer() is None
             and not self.trials.alive
         )
