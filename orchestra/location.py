@@ -77,12 +77,21 @@ def inside(span: Span, first: int, last: int) -> Span:
     return stretch(whole, begin + first, begin + last)
 
 
+_END: Final = 4
+_BOTH_ENDS: Final = 2 * _END
+
+
 @dataclass(frozen=True, slots=True)
 class Location:
     """A span, and the include actions that led to its file, innermost first."""
 
     span: Span
     included_from: tuple[Span, ...] = ()
+
+    def __hash__(self) -> int:
+        """Return the same for equal ones, at a cost that does not grow with the depth of the includes."""
+        chain = self.included_from
+        return hash((self.span, chain if len(chain) <= _BOTH_ENDS else (*chain[:_END], *chain[-_END:])))
 
     def __str__(self) -> str:
         return str(self.span)
