@@ -1,4 +1,4 @@
-"""What is left of runs whose keeper and supervisor were killed in the same instant, and how it is found and ended."""
+"""What is left of runs whose keeper, supervisor and guard were killed in the same instant; how it is found and ended."""
 
 from __future__ import annotations
 
@@ -28,25 +28,21 @@ if TYPE_CHECKING:
 
     Command: TypeAlias = Callable[..., CompletedProcess[str]]
 
-PROCESSES = (
-    process("/polite", "polite", "say=up", "linger"),
-    process("/stubborn", "ignore=INT,TERM", "daemon=ignore", "say=up", "linger"),
-)
-# The one that ignores what it is told when its parent dies, and its daemon.
+STUBBORN = process("/stubborn", "ignore=INT,TERM", "daemon=ignore", "say=up", "linger")
+# The program and its daemon.
 LEFT = 2
 
 
 @pytest.fixture
 def left(tmp_path: Path) -> Iterator[set[int]]:
     """What a run leaves that is killed as a whole."""
-    with launched(tmp_path, plan(*PROCESSES)) as run:
+    with launched(tmp_path, plan(STUBBORN)) as run:
         yield _killed(run)
 
 
 def _killed(run: Launched) -> set[int]:
-    for name in ("polite", "stubborn"):
-        run.await_line(name, "up")
-    ours = {run.popen.pid, run.own("orc-supervisor")}
+    run.await_line("stubborn", "up")
+    ours = {run.popen.pid, run.own("orc-supervisor"), run.own("orc-guard")}
     below = run.everything() - ours
     for pid in ours:
         os.kill(pid, signal.SIGSTOP)
@@ -54,7 +50,6 @@ def _killed(run: Launched) -> set[int]:
         os.kill(pid, signal.SIGKILL)
     run.popen.wait()
     wait_for(lambda: not any(map(alive, ours)), "their end")
-    wait_for(lambda: sum(map(alive, below)) <= LEFT, "the end of what hears of that")
     return {pid for pid in below if alive(pid)}
 
 
@@ -128,7 +123,7 @@ def test_what_lives_is_left_alone(left: set[int], orchestra: Command, home: Path
 def test_a_run_that_died_and_left_nothing_is_put_in_order_without_a_word(
     tmp_path: Path, orchestra: Command, home: Path
 ) -> None:
-    with launched(tmp_path, plan(*PROCESSES)) as run:
+    with launched(tmp_path, plan(STUBBORN)) as run:
         for pid in _killed(run):
             os.kill(pid, signal.SIGKILL)
         wait_for(lambda: not run.everything(), "the end of all")
@@ -142,8 +137,8 @@ def test_a_run_that_died_and_left_nothing_is_put_in_order_without_a_word(
 
 
 def test_a_killed_supervisor_leaves_no_socket(tmp_path: Path) -> None:
-    with launched(tmp_path, plan(*PROCESSES)) as run:
-        run.await_line("polite", "up")
+    with launched(tmp_path, plan(STUBBORN)) as run:
+        run.await_line("stubborn", "up")
         path = door.linked(run.directory)
         assert path is not None
         assert os.path.lexists(path)
@@ -154,8 +149,8 @@ def test_a_killed_supervisor_leaves_no_socket(tmp_path: Path) -> None:
 
 
 def test_a_killed_keeper_leaves_no_socket_and_no_unfinished_run(tmp_path: Path, home: Path) -> None:
-    with launched(tmp_path, plan(*PROCESSES)) as run:
-        run.await_line("polite", "up")
+    with launched(tmp_path, plan(STUBBORN)) as run:
+        run.await_line("stubborn", "up")
         path = door.linked(run.directory)
         assert path is not None
         os.kill(run.popen.pid, signal.SIGKILL)

@@ -51,11 +51,7 @@ class Place:
     @property
     def idle(self) -> bool:
         """Whether nothing is waited for: no descriptor, no timer, no program."""
-        return (
-            not self.loop._watched
-            and self.loop._until_next_timer() is None
-            and not self.trials.alive
-        )
+        return not self.loop._watched and self.loop._until_next_timer() is None and not self.trials.alive
 
     def begin(self, probe: Probe) -> None:
         probe.begin(self.site, self._count)
