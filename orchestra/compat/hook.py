@@ -96,9 +96,12 @@ def served() -> Iterator[None]:
 
 def _forget_new(before: dict[str, ModuleType]) -> None:
     """Make the modules of this process what they were, but for installed ones that have been added."""
-    for name in sys.modules.keys() - before.keys():
-        if name.partition(".")[0] in SERVED or _is_of_users(name, sys.modules[name]):
-            del sys.modules[name]
+    added = sys.modules.keys() - before.keys()
+    # All are judged before the first goes: where a package without a file is, it learns from the one around it.
+    for name in [
+        name for name in added if name.partition(".")[0] in SERVED or _is_of_users(name, sys.modules[name])
+    ]:
+        del sys.modules[name]
     sys.modules.update(before)
 
 
@@ -109,7 +112,10 @@ def _is_of_users(name: str, module: object) -> bool:
     """
     if not isinstance(module, ModuleType):
         return True  # something that code has put in its place
-    file = getattr(module, "__file__", None) or next(iter(getattr(module, "__path__", ())), None)
+    try:
+        file = getattr(module, "__file__", None) or next(iter(getattr(module, "__path__", ())), None)
+    except KeyError:  # a package without a file asks the one around it, which code has taken away
+        return True
     if file is not None:
         return not is_own(file) and not os.path.realpath(file).startswith(_INSTALLED)
     package, _, inner = name.partition(".")
