@@ -92,7 +92,7 @@ def test_all_kinds_of_mistakes_in_one_run(tmp_path: Path) -> None:
         (Code.DUPLICATE_KEY, "main.yaml", 20, "exec", None),
         (Code.MISSING_FILE, "main.yaml", 22, "sub/parms.yaml", "sub/params.yaml"),
         (Code.DUPLICATE_NODE, "main.yaml", 23, "n2", None),
-        (Code.UNKNOWN_DEPENDENCY, "main.yaml", 23, "r1/tiwn", "/r1/twin"),
+        (Code.UNKNOWN_DEPENDENCY, "main.yaml", 23, "r1/tiwn", "r1/twin"),
         (Code.MISSING_PACKAGE, "main.yaml", 24, "bringupp", "bringup"),
         (Code.UNKNOWN_SUBSTITUTION, "main.yaml", 25, "vra", "var"),
         (Code.UNKNOWN_KEY, "inner.yaml", 4, "outptu", "output"),
@@ -173,7 +173,7 @@ ONE_FILE: dict[str, tuple[str, list[tuple[Code, int, str, str | None]]]] = {
         "- include: {file: nope.yaml}\n"
         "- node: {exec: a, name: robot1}\n"
         "- executable: {cmd: x, depends_on: [{node: robto1}]}",
-        [(Code.MISSING_FILE, 2, "nope.yaml", None), (Code.UNKNOWN_DEPENDENCY, 4, "robto1", "/robot1")],
+        [(Code.MISSING_FILE, 2, "nope.yaml", None), (Code.UNKNOWN_DEPENDENCY, 4, "robto1", "robot1")],
     ),
     "a timer without a period is gone into": (
         "- timer: {children: [{log: {message: $(var nope)}}]}",
