@@ -93,6 +93,9 @@ def _schema_of(name: str) -> dict[str, Any]:
     model = model_of(name)
     assert model is not None  # noqa: S101 - the name is from the table
     schema = model.model_json_schema(schema_generator=_WithoutTitles, ref_template="#/$defs/{model}")
+    if "required" in schema:  # what another key may stand for is the business of a rule
+        always = model.required_beside(model.known_keys())
+        schema["required"] = [key for key in schema["required"] if key in always]
     for entry in (schema, *schema.get("$defs", {}).values()):
         entry.pop("title", None)
         for key, value in entry.get("properties", {}).items():
