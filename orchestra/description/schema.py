@@ -25,7 +25,7 @@ def launch_schema() -> dict[str, Any]:
     for name in ACTIONS:
         schema = _schema_of(name)
         definitions.update(schema.pop("$defs", {}))
-        definitions[name] = _shortened(schema)
+        definitions[name] = _relaxed(name, _shortened(schema))
         actions[name] = {"$ref": f"#/$defs/{name}"}
     for name, definition in definitions.items():
         definitions[name] = with_rules(name, with_hyphens(definition, name))
@@ -80,6 +80,16 @@ def _shortened(schema: dict[str, Any]) -> dict[str, Any]:
     return schema
 
 
+def _relaxed(name: str, schema: dict[str, Any]) -> dict[str, Any]:
+    """Return the schema of an action without the keys that others may stand for: of these a rule tells."""
+    model = model_of(name)
+    assert model is not None  # noqa: S101 - the name is from the table
+    always = model.required_beside(model.known_keys())
+    required = [key for key in schema.get("required", ()) if key in always]
+    rest = {key: value for key, value in schema.items() if key != "required"}
+    return {**rest, "required": required} if required else rest
+
+
 class _WithoutTitles(GenerateJsonSchema):
     """Leaves out what pydantic makes of the names of fields: it says nothing that the key does not."""
 
@@ -93,9 +103,6 @@ def _schema_of(name: str) -> dict[str, Any]:
     model = model_of(name)
     assert model is not None  # noqa: S101 - the name is from the table
     schema = model.model_json_schema(schema_generator=_WithoutTitles, ref_template="#/$defs/{model}")
-    if "required" in schema:  # what another key may stand for is the business of a rule
-        always = model.required_beside(model.known_keys())
-        schema["required"] = [key for key in schema["required"] if key in always]
     for entry in (schema, *schema.get("$defs", {}).values()):
         entry.pop("title", None)
         for key, value in entry.get("properties", {}).items():
