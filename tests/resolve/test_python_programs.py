@@ -125,7 +125,7 @@ def test_a_container_is_an_executable(folder: Path) -> None:
 
 
 @pytest.mark.parametrize(("launching", "severity"), [(True, Severity.ERROR), (False, Severity.WARNING)])
-def test_a_module_of_another_environment(launching: bool, severity: Severity, folder: Path) -> None:  # noqa: FBT001 - a case
+def test_a_module_of_another_environment(launching: bool, severity: Severity, folder: Path) -> None:
     (problem,) = outcome(folder, "launch:\n- node: {module: zqxj.y}\n", launching=launching).problems
     assert (problem.code, problem.severity, problem.suggestion) == (Code.MISSING_EXECUTABLE, severity, None)
 
