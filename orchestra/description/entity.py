@@ -58,8 +58,9 @@ class FaultReader(Protocol):
 class Entity(BaseModel):
     """Something a user writes: an action, or a part of one."""
 
+    # A model is made ready when it is first used: few of them are, in one file.
     model_config = ConfigDict(
-        frozen=True, extra="forbid", arbitrary_types_allowed=True, populate_by_name=True
+        frozen=True, extra="forbid", arbitrary_types_allowed=True, populate_by_name=True, defer_build=True
     )
 
     @classmethod

@@ -2,18 +2,21 @@
 
 They are for those who want to see what becomes of data, which is not what a launch file is. To look for them, pydantic
 reads the metadata of every distribution that is installed: 30 ms of the processor beside the wheels of ROS, a third of
-what all models take to be made. The variable that turns them off (PYDANTIC_DISABLE_PLUGINS) would be one of the nodes'
-environment too, so the table that pydantic keeps is filled with nothing instead, before it looks.
+what all models take to be made, and as much again for the library that reads it. The variable that turns them off
+(PYDANTIC_DISABLE_PLUGINS) would be one of the nodes' environment too, so the module that looks is never imported.
 """
 
 from __future__ import annotations
 
+import sys
+from types import ModuleType
+
+_LOADER = "pydantic.plugin._loader"  # not of the public interface: where there is none, nothing changes but the time
+
 
 def keep_away() -> None:
-    """Let pydantic have found no plug-ins; where it keeps them otherwise than expected nothing changes but the time."""
-    try:
-        from pydantic.plugin import _loader  # noqa: PLC0415 - not of the public interface
-    except ImportError:
-        return
-    if getattr(_loader, "_plugins", {}) is None:
-        _loader._plugins = {}  # noqa: SLF001 - as above
+    """Let pydantic find no plug-ins, unless it has looked already."""
+    if _LOADER not in sys.modules:
+        nothing = ModuleType(_LOADER, keep_away.__doc__)
+        vars(nothing)["get_plugins"] = tuple
+        sys.modules[_LOADER] = nothing

@@ -1,4 +1,7 @@
-"""YAML as editors read it: by the core schema of YAML 1.2, in which `no` is a text and `1e-6` a number."""
+"""YAML as editors read it: by the core schema of YAML 1.2, in which `no` is a text and `1e-6` a number.
+
+A key that stands twice is no YAML for them either.
+"""
 
 from __future__ import annotations
 
@@ -38,6 +41,14 @@ def _float(_loader: CoreLoader, node: yaml.ScalarNode) -> float:
     return float(text.replace(".inf", "inf").replace(".nan", "nan"))
 
 
+def _mapping(loader: CoreLoader, node: yaml.MappingNode) -> dict[Any, Any]:
+    keys = [key.value for key, _ in node.value if isinstance(key, yaml.ScalarNode) and key.value != "<<"]
+    if len(set(keys)) < len(keys):
+        raise yaml.constructor.ConstructorError(None, None, "a key stands twice", node.start_mark)
+    return loader.construct_mapping(node, deep=True)
+
+
+CoreLoader.add_constructor("tag:yaml.org,2002:map", _mapping)
 CoreLoader.add_constructor("tag:yaml.org,2002:int", _integer)
 CoreLoader.add_constructor("tag:yaml.org,2002:float", _float)
 
