@@ -21,6 +21,7 @@ if TYPE_CHECKING:
 _PATHS: Final = (
     (Include, "file"),
     (Node, "params_schema"),
+    (Node, "script"),
     (Param, "from_"),
     (SetParametersFromFile, "filename"),
 )

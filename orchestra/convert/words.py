@@ -15,7 +15,20 @@ if TYPE_CHECKING:
 _NAMES: Final = {place: name for name, place in ACTIONS.items()}
 # What says what an action is comes first, what only qualifies it last.
 _FIRST: Final = (
-    *("if_", "unless", "pkg", "plugin", "exec", "cmd", "file", "target", "period", "for_each"),
+    *(
+        "if_",
+        "unless",
+        "pkg",
+        "plugin",
+        "exec",
+        "module",
+        "script",
+        "cmd",
+        "file",
+        "target",
+        "period",
+        "for_each",
+    ),
     *("name", "from_", "to", "value", "type", "allow_substs", "default", "choices", "choice", "description"),
     *("namespace", "exec_name", "args", "ros_args", "param", "remap", "arg", "let"),
 )

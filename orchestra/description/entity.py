@@ -7,7 +7,7 @@ follows from it. Reporting itself is the loader's business (`Reader`).
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from functools import cache
 from typing import Any, Protocol, Self, TypeVar
 
@@ -142,6 +142,12 @@ class Entity(BaseModel):
             entry.alias or name for name, entry in cls.model_fields.items() if entry.is_required()
         )
 
+    @classmethod
+    def required_beside(cls, keys: Collection[str]) -> frozenset[str]:
+        """Return the keys that a user must write who has written these."""
+        del keys
+        return cls.required_keys()
+
     @model_validator(mode="wrap")
     @classmethod
     def _read(cls, data: Any, handler: ModelWrapValidatorHandler[Self], info: ValidationInfo) -> Self:  # noqa: ANN401 - whatever stands in the file
@@ -153,13 +159,14 @@ class Entity(BaseModel):
         if data.read is not None and isinstance(data.read, cls):
             return data.read  # before, when something beside it was wrong
         known = cls.known_keys()
-        mapping = data if data.keys() <= known else reader.keys(known, data, cls.required_keys())
+        mapping = data if data.keys() <= known else reader.keys(known, data, cls.required_beside(data))
         faulty = mapping.lossy
         try:
             entity = handler(dict(mapping))
         except ValidationError as error:
             faulty = True
-            entity = _without(reader.faults(mapping, _details(error)), mapping, cls.required_keys(), handler)
+            wrong = reader.faults(mapping, _details(error))
+            entity = _without(wrong, mapping, cls.required_beside(mapping), handler)
         if (conflict := entity.conflict()) is not None:
             if not faulty:
                 reader.conflict(mapping, conflict)

@@ -35,6 +35,11 @@ _FACTS: Final = (
     *("log", "message", "topic", "node", "service", "action", "parameter", "lifecycle", "tf", "tcp", "http"),
     *("file", "command", "notify"),
 )
+_STARTED: Final = [
+    _one_of("exec", "module", "script"),
+    *(_never(*pair) for pair in (("exec", "module"), ("exec", "script"), ("module", "script"))),
+    *(_never(*pair) for pair in (("pkg", "module"), ("pkg", "script"))),
+]
 _RULES: Final[dict[str, list[Schema]]] = {
     "Alive": [
         _one_of("notify", "message", "command"),
@@ -53,6 +58,7 @@ _RULES: Final[dict[str, list[Schema]]] = {
             "then": {"properties": {"rlimits": {"properties": {"memlock": False}}}},
         },
     ],
+    **dict.fromkeys(("lifecycle_node", "node"), _STARTED),
     "Param": [
         _one_of("value", "param", "from"),
         *(_never(*pair) for pair in (("value", "param"), ("name", "from"), ("value", "from"))),

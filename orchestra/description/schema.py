@@ -25,7 +25,7 @@ def launch_schema() -> dict[str, Any]:
     for name in ACTIONS:
         schema = _schema_of(name)
         definitions.update(schema.pop("$defs", {}))
-        definitions[name] = _shortened(schema)
+        definitions[name] = _relaxed(name, _shortened(schema))
         actions[name] = {"$ref": f"#/$defs/{name}"}
     for name, definition in definitions.items():
         definitions[name] = with_rules(name, with_hyphens(definition, name))
@@ -78,6 +78,16 @@ def _shortened(schema: dict[str, Any]) -> dict[str, Any]:
     if required == ["children"]:
         return {**schema, "type": ["object", "array"], "items": {"$ref": "#/$defs/Action"}}
     return schema
+
+
+def _relaxed(name: str, schema: dict[str, Any]) -> dict[str, Any]:
+    """Return the schema of an action without the keys that others may stand for: of these a rule tells."""
+    model = model_of(name)
+    assert model is not None  # noqa: S101 - the name is from the table
+    always = model.required_beside(model.known_keys())
+    required = [key for key in schema.get("required", ()) if key in always]
+    rest = {key: value for key, value in schema.items() if key != "required"}
+    return {**rest, "required": required} if required else rest
 
 
 class _WithoutTitles(GenerateJsonSchema):

@@ -81,7 +81,7 @@ class _Builder:
             return None
         if nested and "children" not in content:
             content = self._listed(content, model.known_keys())
-        content = self.reader.keys(model.known_keys(), content, model.required_keys())
+        content = self.reader.keys(model.known_keys(), content, model.required_beside(content))
         if nested and "children" in content:
             children = self.actions(content["children"], content.keys_at["children"])
             content = _with_children(content, children)

@@ -246,7 +246,7 @@ def _lacking(model: type[Entity] | None, tagged: Tagged) -> frozenset[str]:
     if model is None or tagged.element.children:
         return frozenset()
     present = {spelled(key) for key in tagged}
-    required = model.required_keys() - present
+    required = model.required_beside(present) - present
     return required or (frozenset(_VALUES) & model.known_keys() if present <= {"name"} else frozenset())
 
 

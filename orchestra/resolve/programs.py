@@ -18,7 +18,7 @@ from orchestra.witness.once import once
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from orchestra.description.actions.node import Node
+    from orchestra.description.text import Template
     from orchestra.location import Location
     from orchestra.resolve.context import Poison, Value
     from orchestra.resolve.resolution import Resolution
@@ -53,20 +53,20 @@ def program_words(
 
 
 def packaged_words(
-    package: Value, executable: Value, action: Node, run: Resolution
+    package: Value, executable: Value, written: tuple[Template, Template], run: Resolution
 ) -> tuple[str, ...] | Poison:
-    """Return the words that start an executable of a package.
+    """Return the words that start an executable of a package; `written` are the texts that name the two.
 
     For a package that is not on this machine they name the place symbolically; whether that is an error is decided
     where it is reported.
     """
     packages = run.context.packages
     if packages.prefix(package.text) is None:
-        report_missing_package(package.text, action.pkg or action.exec, run.context, package)
+        report_missing_package(package.text, written[0], run.context, package)
         return ("${prefix:" + package.text + "}/lib/" + f"{package.text}/{executable.text}",)
     words = packages.executable(package.text, executable.text)
     if words is None:
-        return report_missing_executable(executable.text, package.text, action.exec, run.context, executable)
+        return report_missing_executable(executable.text, package.text, written[1], run.context, executable)
     return words if _is_runnable(words[0], executable.location, run) else POISON
 
 

@@ -32,6 +32,7 @@ from orchestra.resolve.mentions import (
     variables_in,
 )
 from orchestra.resolve.paths import beside, near_path, settled_path
+from orchestra.resolve.python_programs import is_slip_of, module_fault
 from orchestra.resolve.refusals import missing_package
 
 if TYPE_CHECKING:
@@ -83,10 +84,17 @@ class _Look:
                 self._package(part.arguments[-1 if part.name == "exec-in-pkg" else 0])
 
     def at_program(self, node: Node) -> None:
-        """Report the package and the executable of a node."""
-        package = node.pkg.constant if node.pkg is not None else None
-        executable = node.exec.constant
-        if package is None or node.pkg is None or not self._package(node.pkg) or executable is None:
+        """Report what a node starts: the package and the executable, the module or the script."""
+        if node.script is not None:
+            self.at_file(node.script, "script")
+        elif node.module is not None:
+            self._module(node, node.module)
+        elif node.pkg is not None and node.exec is not None and self._package(node.pkg):
+            self._executable(node.pkg.constant, node.exec)
+
+    def _executable(self, package: str | None, written: Template) -> None:
+        executable = written.constant
+        if package is None or executable is None:
             return
         packages = self.run.context.packages
         if packages.executable(package, executable) is not None:
@@ -95,7 +103,13 @@ class _Look:
         if known:
             told = f"package '{package}' has no executable '{executable}'"
             notes = (f"it has {', '.join(sorted(known))}",)
-            self._tell(Code.MISSING_EXECUTABLE, told, node.exec, nearest(executable, known), notes)
+            self._tell(Code.MISSING_EXECUTABLE, told, written, nearest(executable, known), notes)
+
+    def _module(self, node: Node, written: Template) -> None:
+        name = written.constant
+        fault = None if name is None else module_fault(name, node, self.run)
+        if name is not None and fault is not None and (fault.certain or is_slip_of(name, fault)):
+            self._tell(Code.MISSING_EXECUTABLE, fault.told, written, fault.meant)
 
     def at_include(self, include: Include) -> None:
         """Report the file of an include that should be there, and arguments that it does not know."""

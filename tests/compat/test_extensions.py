@@ -212,6 +212,22 @@ SAME: list[tuple[str, str, list[dict[str, Any]]]] = [
             }
         ],
     ),
+    (
+        "modules and scripts",
+        "Node(module=['json.', LC('m', default='tool')], name='a', arguments=['b c'], parameters=[{'x': 1}]), "
+        "LifecycleNode(script='inner.py', name='b', namespace='', warm=False)",
+        [
+            {
+                "node": {
+                    "module": "json.$(var m tool)",
+                    "name": "a",
+                    "args": ["b c"],
+                    "param": [{"name": "x", "value": 1}],
+                }
+            },
+            {"lifecycle_node": {"script": "inner.py", "name": "b", "namespace": "", "warm": False}},
+        ],
+    ),
     ("a group for no value", "GroupAction([ExecuteProcess(cmd=['a'])], for_each={'i': []})", []),
     (
         "an include with everything",
@@ -237,6 +253,7 @@ SAME: list[tuple[str, str, list[dict[str, Any]]]] = [
 
 @pytest.mark.parametrize(("actions", "same"), [row[1:] for row in SAME], ids=[row[0] for row in SAME])
 def test_a_keyword_says_what_the_key_does(tmp_path: Path, actions: str, same: list[dict[str, Any]]) -> None:
+    (tmp_path / "inner.py").touch()
     inner = tmp_path / "inner.launch.yaml"
     inner.write_text('launch: [{executable: {cmd: "w $(var i none)"}}]', "utf-8")
     plan, other = plans.python(tmp_path, actions, _BEFORE), plans.yaml(tmp_path, same)
@@ -442,6 +459,16 @@ INCLUDED_FAULTS = [
     (
         "b, ExecuteProcess(cmd=['a'], depends_on=[{'process': b, 'condition': 'ready'}])",
         "'/b' does not say when it is ready",
+    ),
+    ("Node(module='json.tol')", "there is no module 'json.tol'"),
+    (
+        "Node(module='json.tool', executable='a')",
+        "a Node starts one of 'executable', 'module' and 'script'",
+    ),
+    ("Node(module='json.tool', package='a')", "'package' goes with 'executable', not with 'module'"),
+    (
+        "ComposableNodeContainer(name='c', namespace='', module='json.tool')",
+        "a ComposableNodeContainer is no program in Python: it has no 'module'",
     ),
     ("Node(executable='a', ready={'message': b})", "expected text, found Node"),
 ]

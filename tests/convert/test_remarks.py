@@ -189,10 +189,12 @@ def test_relative_paths_stay_right_in_another_folder(tmp_path: Path) -> None:
     other.mkdir(parents=True)
     (folder / "p.yaml").write_text("/**: {ros__parameters: {a: 1}}", "utf-8")
     (folder / "inner.launch.yaml").write_text("launch: [{log: {message: inner}}]", "utf-8")
+    (folder / "run.py").touch()
     path = folder / "a.launch.yaml"
     path.write_text(
         "launch:\n- include: {file: inner.launch.yaml}\n- include: {file: $(dirname)/inner.launch.yaml}\n"
-        "- node: {exec: e, name: n, param: [{from: p.yaml}, {from: later.yaml}]}\n",
+        "- node: {exec: e, name: n, param: [{from: p.yaml}, {from: later.yaml}]}\n"
+        "- node: {script: run.py, name: m}\n",
         "utf-8",
     )
     found = convert(str(path), "xml", _ENVIRONMENT, output=str(other))
@@ -202,6 +204,7 @@ def test_relative_paths_stay_right_in_another_folder(tmp_path: Path) -> None:
         "../../launch/inner.launch.yaml",
         "$(dirname)/../../launch/inner.launch.yaml",
         "../../launch/p.yaml",
+        "../../launch/run.py",
     ):
         assert f'"{written}"' in found.text
     assert '"later.yaml"' in found.text

@@ -45,6 +45,19 @@ def test_a_row_of_the_language_says_the_same_there_and_back(row: str, tmp_path: 
     round_trip(_write(tmp_path, WRITERS["yaml"](language_tables.ROWS[row][0])), environment)
 
 
+def test_modules_and_scripts_say_the_same_everywhere(tmp_path: Path) -> None:
+    (tmp_path / "run.py").touch()
+    actions: Actions = [
+        {"arg": {"name": "m", "default": "tool"}},
+        {"node": {"module": "json.$(var m)", "name": "a", "args": "b c", "warm": False}},
+        {"node": {"script": "$(dirname)/run.py", "name": "b", "param": [{"name": "x", "value": 1}]}},
+        {"lifecycle_node": {"script": "run.py", "name": "c", "namespace": "n"}},
+    ]
+    path = _write(tmp_path, WRITERS["yaml"](actions))
+    same_everywhere(path, {"PATH": "/bin"})
+    round_trip(path, {"PATH": "/bin"}, rounds=2)
+
+
 @pytest.mark.parametrize("row", _UNSAYABLE)
 def test_what_python_cannot_say_is_told(row: str, tmp_path: Path) -> None:
     environment = _place(tmp_path)

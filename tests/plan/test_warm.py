@@ -16,6 +16,7 @@ from orchestra.plan.startup import is_read_at_startup
 from orchestra.plan.warm import warmed, wish
 from orchestra.values import Limits
 from tests.plan.records import plan, process
+from tests.resolve.launching import outcome
 
 if TYPE_CHECKING:
     from orchestra.plan.model import Process
@@ -78,6 +79,21 @@ def test_the_interpreter_with_a_script_or_a_module(folder: Path) -> None:
         *(True, "module"),
         *("bringup.nodes.simulation", 1),
     )
+
+
+def test_a_module_and_a_script_of_a_description(tmp_path: Path) -> None:
+    (tmp_path / "run.py").write_text("print()", "utf-8")
+    actions = (
+        "- node: {module: json.tool, name: a}\n- node: {script: run.py, name: b}\n"
+        "- node: {script: run.py, name: c, warm: false}\n"
+    )
+    planned = warmed(outcome(tmp_path, f"launch:\n{actions}").plan, {"PATH": f"{BESIDE}:/usr/bin:/bin"})
+    found = [process.warm for process in planned.processes]
+    assert [(warm.warm, warm.kind, warm.target) for warm in found if warm is not None] == [
+        (True, "module", "json.tool"),
+        (True, "script", str(tmp_path / "run.py")),
+        (False, None, None),
+    ]
 
 
 @pytest.mark.parametrize(

@@ -100,7 +100,7 @@ def _attributes(model: type[Entity], texts: dict[str, str]) -> Iterator[str]:
     for key, form in forms_of(model).by_key.items():
         if form.kind not in _ATTRIBUTES and not form.or_text:
             continue
-        required = key in model.required_keys() and len(_spellings(key)) == 1
+        required = key in model.required_beside(model.known_keys()) and len(_spellings(key)) == 1
         for spelling in _spellings(key):
             yield _attribute(spelling, texts[key], required=required)
         if form.kind in _LISTS or _may_be_list(model.model_fields[_field(model, key)].annotation):

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 from pydantic import Field
 
 from orchestra.description.actions.node import Node
@@ -12,6 +14,10 @@ from orchestra.description.fields import Text
 class NodeContainer(Node):
     """Start a component container and load components into it."""
 
+    exec: Text = Field(description="Executable in the package; without `pkg` a program.")
+    # A container is no program in Python: these keys are not its own.
+    module: ClassVar[None] = None  # type: ignore[misc]
+    script: ClassVar[None] = None  # type: ignore[misc]
     name: Text = Field(description="Name of the container's own node.")
     namespace: Text | None = Field(description="Namespace; a relative one is put below the pushed one.")
     composable_node: tuple[ComposableNode, ...] = Field(

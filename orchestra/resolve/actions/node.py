@@ -12,11 +12,13 @@ from orchestra.resolve.node_names import named
 from orchestra.resolve.parameters import parameters
 from orchestra.resolve.params_schema import params_schema
 from orchestra.resolve.programs import packaged_words, program_words
+from orchestra.resolve.python_programs import module_words, script_words
 from orchestra.resolve.remapping import remaps
 from orchestra.resolve.running import Program, add_process, texts
 
 if TYPE_CHECKING:
     from orchestra.description.actions.node import Node
+    from orchestra.description.text import Template
     from orchestra.resolve.model import Kind
     from orchestra.resolve.resolution import Resolution
 
@@ -43,7 +45,7 @@ def check_full_name(index: int, action: Node, run: Resolution) -> None:
 def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison | None = False) -> int:
     """Add the process of a node to what has been found; return its index."""
     with run.scope.tracing() as reads:
-        package, executable = run.evaluate(action.pkg), run.evaluate(action.exec)
+        package, executable = run.evaluate(action.pkg), run.evaluate(_started(action))
     label = run.text(action.exec_name)
     words = _words(package, executable, action, run)
     name, namespace = named(action.name, run), namespace_at(action.namespace, action.span, run)
@@ -58,7 +60,7 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
     values = (package, executable, label, words, name, namespace, arguments, ros_arguments, autostart, schema)
     program = Program(
         kind=kind,
-        executable=executable.text if isinstance(executable, Value) else action.exec.raw,
+        executable=executable.text if isinstance(executable, Value) else _started(action).raw,
         words=() if isinstance(words, Poison) else words,
         package=package.text if isinstance(package, Value) else None,
         name=name if isinstance(name, Value) else None,
@@ -95,11 +97,23 @@ def _extended(program: Program, action: Node, run: Resolution) -> Program:
     return extended(program, action, run)
 
 
+def _started(action: Node) -> Template:
+    """Return what is started: the model has one of the three."""
+    started = action.module or action.script or action.exec
+    assert started is not None  # noqa: S101 - see above
+    return started
+
+
 def _words(
     package: Evaluated | None, executable: Evaluated | None, action: Node, run: Resolution
 ) -> tuple[str, ...] | Poison:
     if isinstance(package, Poison) or not isinstance(executable, Value):
         return POISON
+    if action.module is not None:
+        return module_words(executable, action, run)
+    if action.script is not None:
+        return script_words(executable, action.script, run)
     if package is None:
         return program_words(executable.text, executable.location, run)
-    return packaged_words(package, executable, action, run)
+    program = _started(action)
+    return packaged_words(package, executable, (action.pkg or program, program), run)

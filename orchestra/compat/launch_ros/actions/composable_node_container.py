@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.compat.launch_ros.actions.node import Node
 from orchestra.compat.launch_ros.descriptions.composable_node import component_models
 from orchestra.compat.wrong import WrongType
+from orchestra.description.actions.node import INSTEAD
 from orchestra.description.actions.node_container import NodeContainer
 
 if TYPE_CHECKING:
@@ -31,6 +32,11 @@ class ComposableNodeContainer(Node):
         if name is None:
             told = "a ComposableNodeContainer needs a name, for components are loaded by it"
             raise WrongType(told, path=("name",))
+        for key in INSTEAD:
+            if kwargs.get(key) is not None:
+                raise WrongType(
+                    f"a ComposableNodeContainer is no program in Python: it has no '{key}'", path=(key,)
+                )
         super().__init__(name=name, namespace=namespace, **kwargs)
         self.__composable_node_descriptions = composable_node_descriptions
 

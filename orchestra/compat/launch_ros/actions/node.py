@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final
 
@@ -16,7 +17,9 @@ from orchestra.compat.launch_ros.utilities.normalize_parameters import normalize
 from orchestra.compat.launch_ros.utilities.normalize_remap_rule import normalize_remap_rules
 from orchestra.compat.text import normalized, template
 from orchestra.compat.values import optional, words
+from orchestra.compat.wrong import WrongType
 from orchestra.description.actions.node import Node as NodeModel
+from orchestra.errors import Code
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -37,10 +40,11 @@ _ROS_ARGUMENTS: Final = "--ros-args"
 class Node(ExecuteProcess):
     """Start a node: an executable of a package, without `package` any program.
 
-    `name` and `namespace` are the node's, `exec_name` labels the process. `arguments` are the program's own,
-    `ros_arguments` follow `--ros-args`. All keywords of `ExecuteProcess` are taken but `cmd` and `name`. Raises
-    `TypeError` for `parameters` and `ros_arguments` that are no list, for remappings that are not pairs in tuples, and
-    for values that no parameter can have.
+    Instead of them a Python `module` or `script` may be given. `name` and `namespace` are the node's, `exec_name`
+    labels the process. `arguments` are the program's own, `ros_arguments` follow `--ros-args`. All keywords of
+    `ExecuteProcess` are taken but `cmd` and `name`. Raises `TypeError` for `parameters` and `ros_arguments` that are no
+    list, for remappings that are not pairs in tuples, for values that no parameter can have, and where not one program
+    is given.
     """
 
     _more_keywords = (*RUNNING, "lifecycle", "params_schema")
@@ -51,7 +55,7 @@ class Node(ExecuteProcess):
     def __init__(  # noqa: PLR0913 - upstream's signature
         self,
         *,
-        executable: Sub,
+        executable: Sub | None = None,
         package: Sub | None = None,
         name: Sub | None = None,
         namespace: Sub | None = None,
@@ -60,9 +64,17 @@ class Node(ExecuteProcess):
         remappings: Any = None,
         ros_arguments: Iterable[Sub] | None = None,
         arguments: Iterable[Sub] | None = None,
+        module: Sub | None = None,
+        script: Sub | None = None,
         **kwargs: Any,
     ) -> None:
         _refuse_former(kwargs)
+        _check_program({"executable": executable, "module": module, "script": script}, package)
+        self.__instead = {
+            key: normalized(value)
+            for key, value in (("module", module), ("script", script))
+            if value is not None
+        }
         self.__package = package
         self.__node_executable = executable
         self.__node_name = name
@@ -98,8 +110,8 @@ class Node(ExecuteProcess):
         return self.__package
 
     @property
-    def node_executable(self) -> Sub:
-        """The executable, as it was given."""
+    def node_executable(self) -> Sub | None:
+        """The executable, as it was given; None where a module or a script is run."""
         return self.__node_executable
 
     @property
@@ -170,7 +182,8 @@ class Node(ExecuteProcess):
         arguments = tuple(template(word, at("arguments", index)) for index, word in words)
         return {
             "pkg": package,
-            "exec": template(self.__node_executable, at("executable")),
+            "exec": self.__program(),
+            **{key: template(value, at(key)) for key, value in self.__instead.items()},
             "name": name,
             "namespace": namespace,
             "exec_name": optional(self.process_description.name, at("exec_name")),
@@ -181,16 +194,28 @@ class Node(ExecuteProcess):
         }
 
     def _extension_fields(self, extensions: Mapping[str, Any]) -> dict[str, Any]:
-        program = template(self.__node_executable, self._place.at("executable"))
-        return extension_fields(NodeModel, extensions, self._place, exec=program)
+        return extension_fields(NodeModel, extensions, self._place, exec=self.__program())
+
+    def __program(self) -> Template | None:
+        if self.__node_executable is None:
+            return None
+        return template(self.__node_executable, self._place.at("executable"))
 
     def __words(self) -> list[Sub]:
         """Return the words of the command line that are known without a visit."""
-        program: Sub = self.__node_executable
-        if self.__package is not None:
-            program = ExecutableInPackage(package=self.__package, executable=self.__node_executable)
+        program: list[Sub]
+        if self.__node_executable is None:
+            program = [
+                sys.executable,
+                *(("-m",) if "module" in self.__instead else ()),
+                *self.__instead.values(),
+            ]
+        elif self.__package is not None:
+            program = [ExecutableInPackage(package=self.__package, executable=self.__node_executable)]
+        else:
+            program = [self.__node_executable]
         ros_arguments = () if self.__ros_arguments is None else (_ROS_ARGUMENTS, *self.__ros_arguments)
-        return [program, *self.__argument_words, *ros_arguments, _ROS_ARGUMENTS]
+        return [*program, *self.__argument_words, *ros_arguments, _ROS_ARGUMENTS]
 
     def __ros_words(self) -> tuple[Template, ...] | None:
         """Return the ROS arguments, with what users have appended to `cmd` since, which ends with `--ros-args`."""
@@ -205,6 +230,19 @@ def _refuse_former(kwargs: Mapping[str, Any]) -> None:
     for former, now in _FORMER.items():
         if former in kwargs:
             raise TypeError(f"Node has no argument '{former}' any more: it is called '{now}'")
+
+
+def _check_program(given: Mapping[str, Any], package: Any) -> None:
+    """Raise `TypeError` where not one program is given: as Python tells it where none is."""
+    names = [name for name, value in given.items() if value is not None]
+    if not names:
+        raise TypeError("Node.__init__() missing 1 required keyword-only argument: 'executable'")
+    if len(names) > 1:
+        told = "a Node starts one of 'executable', 'module' and 'script'"
+        raise WrongType(told, code=Code.CONFLICTING_KEYS, path=(names[-1],))
+    if package is not None and names != ["executable"]:
+        told = f"'package' goes with 'executable', not with '{names[0]}'"
+        raise WrongType(told, code=Code.CONFLICTING_KEYS, path=("package",))
 
 
 def _checked(value: Any, name: str) -> Any:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from orchestra.compat.launch.frontend.entity import Entity
 
 _OPTIONAL = {"pkg": "package", "name": "name", "namespace": "namespace", "exec_name": "exec_name"}
+_INSTEAD = {"module": "module", "script": "script"}
 _WORDS = {"args": "arguments", "ros_args": "ros_arguments"}
 _REQUIRED_OF_COMPONENT = {"pkg": "package", "plugin": "plugin"}
 _OPTIONAL_OF_COMPONENT = {"name": "name", "namespace": "namespace"}
@@ -29,7 +30,8 @@ _OPTIONAL_OF_COMPONENT = {"name": "name", "namespace": "namespace"}
 def node(entity: Entity, parser: Any, ignored: frozenset[str]) -> dict[str, Any]:
     """Return a node and how it is run."""
     found = execute_process(entity, parser, ignored | {"cmd", "name"})
-    found |= texts(entity, parser, {"exec": "executable"})
+    other = texts(entity, parser, _INSTEAD, optional=True)
+    found |= other | texts(entity, parser, {"exec": "executable"}, optional=bool(other))
     found |= texts(entity, parser, _OPTIONAL, optional=True)
     for name, keyword in _WORDS.items():
         given = words(entity, name, parser, optional=True)
