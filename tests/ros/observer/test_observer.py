@@ -75,7 +75,7 @@ def test_it_is_gone_after_the_last_wait(tmp_path: Path) -> None:
     node = publisher("/chat,RELIABLE,VOLATILE,0", ready=ready_when(message="/chat", timeout=60.0))
     with launched(tmp_path, plan(node), environment=DOMAIN) as run:
         run.await_event("process_ready", "publisher")
-        wait_for(lambda: len(run.everything()) == 3, "keeper, supervisor and node to be alone")
+        wait_for(lambda: len(run.everything()) == 4, "keeper, guard, supervisor and node to be alone")
         assert run.popen.poll() is None
 
 
