@@ -53,7 +53,7 @@ def test_what_the_loader_takes_is_valid(tmp_path: Path, content: str) -> None:
 _BAD = [
     '<node pkg="a" exce="b"/>',
     '<nod pkg="a" exec="b"/>',
-    '<node pkg="a"/>',
+    '<executable name="a"/>',
     '<node exec="b"><parm name="x" value="1"/></node>',
     '<group><node exec="b" nmae="c"/></group>',
     '<node exec="b"><log message="a"/></node>',

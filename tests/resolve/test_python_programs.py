@@ -24,10 +24,10 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     path = tmp_path / "path"
     monkeypatch.syspath_prepend(path)
     for name in (
-        "bringup/__init__",
-        "bringup/talker",
-        "bringup/arms/__init__",
-        "bringup/arms/__main__",
+        "walkers/__init__",
+        "walkers/talker",
+        "walkers/arms/__init__",
+        "walkers/arms/__main__",
         "alone",
     ):
         file = path / f"{name}.py"
@@ -42,7 +42,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 @pytest.mark.parametrize(
-    "module", ["bringup.talker", "bringup.arms", "alone", "spread.inner.node", "beside", "json.tool"]
+    "module", ["walkers.talker", "walkers.arms", "alone", "spread.inner.node", "beside", "json.tool"]
 )
 def test_a_module_that_can_be_run(module: str, folder: Path) -> None:
     assert unrunnable(module, str(folder)) is None
@@ -51,17 +51,17 @@ def test_a_module_that_can_be_run(module: str, folder: Path) -> None:
 @pytest.mark.parametrize(
     ("module", "meant"),
     [
-        ("bringup.taker", "bringup.talker"),
-        ("bringpu.talker", "bringup.talker"),
+        ("walkers.taker", "walkers.talker"),
+        ("walkesr.talker", "walkers.talker"),
         ("alnoe", "alone"),
         ("bseide", "beside"),
         ("spread.inner.ndoe", "spread.inner.node"),
-        ("bringup.quite_another", None),
-        ("bringup", None),
+        ("walkers.quite_another", None),
+        ("walkers", None),
         ("spread.inner", None),
         ("alone.talker", None),
         ("a b", None),
-        ("bringup..talker", None),
+        ("walkers..talker", None),
         ("", None),
     ],
 )
@@ -75,31 +75,31 @@ def test_what_a_node_is_started_with(folder: Path) -> None:
     found = outcome(
         folder,
         "launch:\n"
-        "- node: {module: $(var m bringup).talker, name: a, namespace: n, args: x y, ros_args: [--log-level, debug],"
+        "- node: {module: $(var m walkers).talker, name: a, namespace: n, args: x y, ros_args: [--log-level, debug],"
         " remap: [{from: c, to: d}], param: [{name: rate, value: 5}]}\n"
         "- node: {script: $(dirname)/nodes/listener.py, name: b}\n"
         "- node: {script: nodes/listener.py}\n"
-        "- lifecycle_node: {module: bringup.arms, name: l, namespace: ''}\n",
+        "- lifecycle_node: {module: walkers.arms, name: l, namespace: ''}\n",
     )
     assert list(found.problems) == []
     script = str(folder / "nodes" / "listener.py")
     talker = found.process("/n/a")
-    assert talker.command[:6] == (sys.executable, "-m", "bringup.talker", "x", "y", "--ros-args")
-    assert (talker.kind, talker.package, talker.executable) == ("node", None, "bringup.talker")
+    assert talker.command[:6] == (sys.executable, "-m", "walkers.talker", "x", "y", "--ros-args")
+    assert (talker.kind, talker.package, talker.executable) == ("node", None, "walkers.talker")
     assert (talker.parameters, talker.remappings) == ({"rate": 5}, (("c", "d"),))
     assert found.process("/b").command[:2] == (sys.executable, script)
     assert found.process("/listener.py").name is None
     lifecycle = found.process("/l")
     assert (lifecycle.kind, lifecycle.command[:3]) == (
         "lifecycle_node",
-        (sys.executable, "-m", "bringup.arms"),
+        (sys.executable, "-m", "walkers.arms"),
     )
 
 
 @pytest.mark.parametrize(
     ("node", "expected"),
     [
-        ("module: bringup.taker", (Code.MISSING_EXECUTABLE, "bringup.taker", "bringup.talker")),
+        ("module: walkers.taker", (Code.MISSING_EXECUTABLE, "walkers.taker", "walkers.talker")),
         ("script: nodes/listner.py", (Code.MISSING_FILE, "nodes/listner.py", "nodes/listener.py")),
         ("script: nodes", (Code.MISSING_FILE, "nodes", None)),
         ("module: alone, script: beside.py", (Code.CONFLICTING_KEYS, "script", None)),
@@ -111,7 +111,7 @@ def test_what_a_node_is_started_with(folder: Path) -> None:
         ("module: alone, respawn: maybe", (Code.WRONG_TYPE, "maybe", None)),
         ("module: [a, b]", (Code.WRONG_TYPE, "[a, b]", None)),
         ("module: $(var nothing)", (Code.UNDEFINED_VARIABLE, "nothing", None)),
-        ("module: bringup.taker, if: 'false'", (Code.MISSING_EXECUTABLE, "bringup.taker", "bringup.talker")),
+        ("module: walkers.taker, if: 'false'", (Code.MISSING_EXECUTABLE, "walkers.taker", "walkers.talker")),
         ("script: besde.py, unless: 'true'", (Code.MISSING_FILE, "besde.py", "beside.py")),
     ],
 )
@@ -143,6 +143,6 @@ def test_where_a_node_looks_for_modules_itself(actions: str, folder: Path) -> No
 
 
 def test_a_module_is_not_imported(folder: Path) -> None:
-    outcome(folder, "launch:\n- node: {module: bringup.arms}\n")
-    assert not {name for name in sys.modules if name.partition(".")[0] == "bringup"}
+    outcome(folder, "launch:\n- node: {module: walkers.arms}\n")
+    assert not {name for name in sys.modules if name.partition(".")[0] == "walkers"}
     assert os.getcwd() == str(folder)  # noqa: PTH109 - as the system has it
