@@ -7,11 +7,12 @@ import contextlib
 import importlib.util
 import json
 import os
+import select
 import signal
 import subprocess
 import sys
 import time
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
 
 # Whoever has not got so far by then never will, in seconds.
 PATIENCE: Final = 300.0
+# As long as a launcher gives a process to end by itself, in seconds.
+_GRACE: Final = 5.0
 
 _UPSTREAM: Final = """
 import sys
@@ -168,3 +171,20 @@ def until(there: Callable[[], bool], pause: float = 0.0005) -> float:
 def with_variables(site_environment: Mapping[str, str], **variables: str | Path) -> dict[str, str]:
     """Return an environment with some more variables."""
     return {**site_environment, **{name: str(value) for name, value in variables.items()}}
+
+
+def end(pids: Sequence[int]) -> None:
+    """End processes that nobody else ends: a node that hangs when it is told to is killed, as a launcher would do."""
+    with ExitStack() as opened:
+        waiting = {}
+        for pid in pids:
+            descriptor = os.pidfd_open(pid)
+            opened.callback(os.close, descriptor)
+            waiting[descriptor] = pid
+            signal.pidfd_send_signal(descriptor, signal.SIGTERM)
+        deadline = time.monotonic() + _GRACE
+        while waiting and (left := deadline - time.monotonic()) > 0:
+            for descriptor in select.select(list(waiting), [], [], left)[0]:
+                del waiting[descriptor]
+        for descriptor in waiting:
+            signal.pidfd_send_signal(descriptor, signal.SIGKILL)

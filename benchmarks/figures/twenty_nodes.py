@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import shlex
 import signal
 import time
@@ -64,8 +63,7 @@ def _cost(signs: Signs, command: Sequence[str], site: Site, size: int) -> Cost:
         memory = sum(map(costs.memory, nodes))
         if command[0] == "/bin/sh":
             # A shell ignores SIGINT for what it starts with `&`.
-            for pid in signs.lines[before:]:
-                os.kill(int(pid), signal.SIGTERM)
+            launching.end([int(pid) for pid in signs.lines[before:]])
         else:
             popen.send_signal(signal.SIGINT)
     return Cost(seconds, cpu, memory)
