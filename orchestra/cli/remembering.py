@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from contextlib import ExitStack, contextmanager
+from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from orchestra.cli.remembered import key, place
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
     from typing import TextIO
 
 
+# What models and look-ups import when they are first used. While somebody watches, an import reads the folders of the
+# import path, and a plan would depend on everything that comes and goes there.
+_WANTED = ("array", "encodings.utf_8_sig", "pydantic.dataclasses", "socket", "unicodedata")
 _MOST = 32 * 1024 * 1024  # bytes that all plans may take together
 
 
@@ -33,6 +37,8 @@ class Memory:
     @contextmanager
     def watching(self) -> Iterator[None]:
         """Record everything that is looked at meanwhile, and whether something is printed."""
+        for name in _WANTED:
+            import_module(name)
         watched = observer()
         watched.install()
         watched.asks = False  # whoever reads the record has nobody to ask
