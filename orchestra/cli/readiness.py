@@ -38,17 +38,23 @@ def _await(directory: Path, progress: Callable[[], None]) -> list[str] | None:
     """Wait until everything is ready; return what never will be, None where the run is over before."""
     try:
         with Client(directory) as client:
-            processes = client.ask("subscribe")["processes"]
+            seen = client.ask("subscribe")
             while True:
                 progress()
+                processes = seen["processes"]
                 lost = [one for one in processes if one["phase"] in _LOST]
                 # There are none before the run has begun: it may be that we are that early.
-                if lost or (processes and all(map(_settled, processes))):
+                if not _ends(seen, lost) and (lost or (processes and all(map(_settled, processes)))):
                     return [f"{one['name']} ({one['ending'] or one['phase']})" for one in lost]
                 client.await_event()
-                processes = client.ask("snapshot")["processes"]
+                seen = client.ask("snapshot")
     except GoneError:
         return None
+
+
+def _ends(seen: dict[str, Any], lost: list[dict[str, Any]]) -> bool:
+    """Tell whether the run comes to its end: it does, or is about to, because what it cannot be without is lost."""
+    return bool(seen["ending"]) or any(one["required"] for one in lost)
 
 
 def _settled(process: dict[str, Any]) -> bool:

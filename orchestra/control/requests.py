@@ -7,6 +7,7 @@
     down                  reason                      the end of the run; `run_ended` is its last event
     attach, input, resize, detach                     `attaching` says more
 
+The first two answer `{"run": HELLO, "ending": whether it is coming to its end, "processes": [STANDING, ...]}`.
 `start`, `stop` and `restart` answer `{"refused": {ID: WHY, ...}, "processes": {ID: STANDING, ...}}` when what they
 concern is at rest, or at once where `wait` is false. A standing has the fields of
 `orchestra.supervise.operation.Standing`.
@@ -60,7 +61,11 @@ def _subscribe(desk: Desk, guest: Guest, request: Request) -> None:
 
 
 def _seen(desk: Desk) -> dict[str, Any]:
-    return {"run": dict(desk.run), "processes": [_told(found) for found in desk.operation.processes()]}
+    return {
+        "run": dict(desk.run),
+        "ending": desk.operation.ending,
+        "processes": [_told(found) for found in desk.operation.processes()],
+    }
 
 
 def _told(standing: Standing) -> dict[str, Any]:

@@ -56,6 +56,11 @@ class Operation:
         self._around = surroundings
         self._end = end
 
+    @property
+    def ending(self) -> bool:
+        """Whether the run is coming to its end."""
+        return self._stopping.begun
+
     def processes(self) -> list[Standing]:
         """Return how every process stands, in plan order."""
         return [self._standing(unit) for unit in self._units.values()]

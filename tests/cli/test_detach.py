@@ -41,10 +41,21 @@ launch:
 """
 
 
+# The end takes so long that everybody sees the run while it ends.
+_SLOW_END = f"""{_REQUIRED}\
+  - executable: {{cmd: "sh -c 'trap \\"sleep 0.5; exit\\" INT; echo up; while :; do sleep 0.05; done'", name: lasts}}
+"""
+
+
 @pytest.fixture(autouse=True)
 def files(folder: Path, home: Path) -> Iterator[None]:
     """Files to launch; what is left of their runs is killed at the end."""
-    for name, text in {"talk": _TALK, "fail": _FAIL, "required": _REQUIRED}.items():
+    for name, text in {
+        "talk": _TALK,
+        "fail": _FAIL,
+        "required": _REQUIRED,
+        "slow": _SLOW_END,
+    }.items():
         (folder / f"{name}.launch.yaml").write_text(text)
     yield
     for run in registry.living(home / "runs"):
@@ -111,6 +122,7 @@ def test_what_is_never_ready_is_told_and_the_run_goes_on(orchestra: Command, hom
         (("nothing.yaml",), 2, "there is no launch file nothing.yaml"),
         (("talk.launch.yaml", "x:=1"), 2, "x"),
         (("--wait-ready", "required.launch.yaml"), 7, "required process fails failed (exit code 7)"),
+        (("--wait-ready", "slow.launch.yaml"), 7, "required process fails failed (exit code 7)"),
     ],
 )
 def test_what_goes_wrong_before_is_shown_with_its_status(

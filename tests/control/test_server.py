@@ -109,6 +109,7 @@ def test_a_snapshot_has_every_process(shared: Launched) -> None:
     with Client(shared.directory) as client:
         found = client.ask("snapshot")
     assert [one["id"] for one in found["processes"]] == ["/robot1/ekf", "/robot1/arm", "/robot2/ekf", "bag"]
+    assert found["ending"] is False
     first = found["processes"][0]
     assert first["name"] == "robot1/ekf"
     assert first["phase"] == "running"
