@@ -62,6 +62,11 @@ class Guest:
         """Send what it takes now."""
         self._outlet.push()
 
+    def catch_up(self) -> None:
+        """Read what it has said by now, its leave among it."""
+        if self._reading:
+            self._read()
+
     def descriptor(self) -> int:
         """The descriptor of the connection."""
         return self._connection.fileno()

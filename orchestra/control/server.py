@@ -82,12 +82,18 @@ class Server:
     def _receive(self, connection: socket.socket) -> None:
         if door.owner(connection) != os.getuid():
             _send_away(connection, Refusal("foreign", "only the user whose run it is may control it"))
-        elif len(self._guests) >= MOST_CLIENTS:
+        elif len(self._guests) >= MOST_CLIENTS and not self._makes_room():
             _send_away(connection, Refusal("busy", f"there are {MOST_CLIENTS} clients already"))
         else:
             guest = Guest(self._loop, connection, self._serve, self._guests.discard)
             self._guests.add(guest)
             guest.send(self._hello)
+
+    def _makes_room(self) -> bool:
+        """Part from those who have hung up, which the kernel may tell later than of a new client."""
+        for guest in tuple(self._guests):
+            guest.catch_up()
+        return len(self._guests) < MOST_CLIENTS
 
     def _send_away_unseen(self) -> None:
         """Free a descriptor for as long as it takes to hang up on whoever wants in."""

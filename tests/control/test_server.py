@@ -22,7 +22,8 @@ from orchestra.control import door, protocol
 from orchestra.control.client import Client, GoneError
 from orchestra.control.outlet import BACKLOG
 from orchestra.control.protocol import LONGEST_REQUEST, Refusal
-from orchestra.control.server import MOST_CLIENTS
+from orchestra.control.server import MOST_CLIENTS, Server
+from orchestra.supervise.loop import Loop
 from orchestra.supervise.options import RunOptions
 from orchestra.supervise.resolver import document
 from tests.supervise.plans import PATIENCE, PROCESSES, launched, plan, process, ready_when, wait_for
@@ -261,6 +262,33 @@ def test_one_client_too_many_is_told_so_and_has_a_place_when_another_has_gone(sh
             return True
 
         wait_for(place, "a free place")
+
+
+def test_a_client_that_has_hung_up_takes_no_place() -> None:
+    """The kernel may tell of a new client before it tells that others have gone."""
+    listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM | socket.SOCK_NONBLOCK)
+    listener.bind("")  # an abstract name, by the kernel's choice (unix(7))
+    listener.listen(MOST_CLIENTS)
+    loop = Loop()
+    server = Server(loop, listener, {}, lambda _guest, _request: None)
+
+    def entering() -> socket.socket:
+        client = socket.socket(socket.AF_UNIX)
+        client.connect(listener.getsockname())
+        return client
+
+    clients = [entering() for _ in range(MOST_CLIENTS)]
+    while server.clients < MOST_CLIENTS:
+        server._accept()
+    clients.pop().close()
+    with entering() as late, entering() as too_late:
+        server._accept()
+        assert json.loads(late.recv(4096)) == {}
+        assert json.loads(too_late.recv(4096))["error"]["code"] == "busy"
+        for client in clients:
+            client.close()
+        server.close()
+    loop.close()
 
 
 def test_events_follow_the_snapshot_without_gap_or_repetition(shared: Launched) -> None:
