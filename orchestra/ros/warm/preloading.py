@@ -15,6 +15,8 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from orchestra.ros.warm.algebra import load_algebra
+
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
@@ -56,6 +58,7 @@ _DEEPEST = 4  # modules of users that import each other are followed so far
 
 def preload_common() -> None:
     """Import what every node needs. Raises `ImportError` where there is no rclpy."""
+    load_algebra()
     for name in _BY_NODES:
         import_module(name)
     for module, names in _MESSAGES.items():

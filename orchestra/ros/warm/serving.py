@@ -14,12 +14,12 @@ import signal
 import socket
 import sys
 import threading
-import warnings
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, NoReturn
 
 from orchestra.ros.warm import shown
 from orchestra.ros.warm.born import born
+from orchestra.ros.warm.forking import FAILED, fork
 from orchestra.ros.warm.preloading import preload, preload_common
 from orchestra.ros.warm.request import Request
 from orchestra.ros.warm.shadows import loaded_since
@@ -35,7 +35,6 @@ _LARGEST = 1 << 18  # bytes of a message
 _DESCRIPTORS = 4
 # So many are forked before the first of them begins: a fork in between costs as much as one of a node.
 _AT_ONCE = 8
-_FAILED = -1
 
 
 def serve(path: Sequence[str], modules: Collection[str]) -> Born:
@@ -146,10 +145,10 @@ def _message(connection: socket.socket, flags: int) -> tuple[dict[str, Any], lis
 def _fork_some(connection: socket.socket, requests: list[Request]) -> Request | None:
     """Fork for some requests; return one of them in the process that is to become its node."""
     readable, writable = os.pipe()
-    between = _fork()
+    between = fork()
     if between == 0:
         for request in requests:
-            pid = _fork()
+            pid = fork()
             if pid == 0:
                 return request
             os.write(writable, f"{pid}\n".encode())
@@ -159,21 +158,10 @@ def _fork_some(connection: socket.socket, requests: list[Request]) -> Request | 
         os.waitpid(between, 0)
     with os.fdopen(readable, "rb") as told:
         pids = [int(line) for line in told]
-    pids += [_FAILED] * (len(requests) - len(pids))
+    pids += [FAILED] * (len(requests) - len(pids))
     for request, pid in zip(requests, pids, strict=True):
-        answer = {"cold": "there is no room for one more process"} if pid == _FAILED else {"pid": pid}
+        answer = {"cold": "there is no room for one more process"} if pid == FAILED else {"pid": pid}
         connection.send(json.dumps({"id": request.facts["id"], **answer}).encode())
         for descriptor in request.descriptors:
             os.close(descriptor)
     return None
-
-
-def _fork() -> int:
-    """Fork; -1 where there is no memory or no room for one more process."""
-    with warnings.catch_warnings():
-        # Later interpreters warn of threads: libraries have some here, for tracing, and they are to be left behind.
-        warnings.simplefilter("ignore")
-        try:
-            return os.fork()
-        except OSError:
-            return _FAILED
