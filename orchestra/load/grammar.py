@@ -221,7 +221,7 @@ class _Reader:
             return True
         self.faults += 1
         told = f"there is no substitution $({call.name})"
-        near = meant(call.name, alone=not call.arguments)
+        near = meant(call.name, [argument.raw for argument in call.arguments])
         self.problems.error(Code.UNKNOWN_SUBSTITUTION, told, span, suggestion=near)
         return False
 

@@ -2,16 +2,32 @@
 
 from __future__ import annotations
 
+import re
 from functools import cache
+from typing import TYPE_CHECKING, Final
 
 from orchestra.description.substitutions import ELSEWHERE, SIGNATURES
 from orchestra.load.words import snake
 from orchestra.nearest import nearest
 
+if TYPE_CHECKING:
+    from collections.abc import Sequence
 
-def meant(name: str, *, alone: bool = False) -> str | None:
-    """Return the substitution that an unknown name probably means; one `alone` is rather the name of a variable."""
-    return ELSEWHERE.get(snake(name)) or nearest(name, SIGNATURES) or (f"var {name}" if alone else None)
+
+_WORD: Final = re.compile(r"[A-Za-z_]\w*")
+
+
+def meant(name: str, arguments: Sequence[str]) -> str | None:
+    """Return the substitution that an unknown name probably means, told by it and by the arguments as written.
+
+    One without any is rather the name of a variable; of a single word there is nothing to evaluate.
+    """
+    if other := ELSEWHERE.get(snake(name)):
+        return other
+    near = nearest(name, SIGNATURES)
+    if near == "eval" and len(arguments) == 1 and _WORD.fullmatch(arguments[0]):
+        near = nearest(name, SIGNATURES.keys() - {"eval"}) or near
+    return near or (None if arguments else f"var {name}")
 
 
 @cache
