@@ -7,7 +7,7 @@ deciding.py DOCUMENT ANSWERS    ANSWERS is a JSON file: from `ref` to what is do
 {"exit": N}                 the code calls sys.exit
 {"die": NAME}               the resolver is ended by this signal
 {"hang": 0}                 the code never comes to an end; says "hanging" on standard error first
-{"slow": SECONDS}           the answer, an empty one, takes so long
+{"slow": PATH}              the answer, an empty one, takes until there is this file
 
 Each question is appended, as a line of JSON, to ANSWERS.asked.
 """
@@ -18,6 +18,7 @@ import os
 import signal
 import sys
 import threading
+import time
 from pathlib import Path
 from typing import Any, BinaryIO
 
@@ -47,7 +48,8 @@ def decide(question: dict[str, Any]) -> Answer:
             os.write(2, b"hanging\n")
             threading.Event().wait()
         case "slow":
-            threading.Event().wait(value)
+            while not Path(value).exists():
+                time.sleep(0.02)
             return {}
     return filled(value, question["event"])
 

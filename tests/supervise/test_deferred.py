@@ -245,7 +245,8 @@ def test_nothing_is_left_whoever_is_killed_while_the_resolver_stays(decided: Dec
 
 def test_answers_of_one_event_keep_the_order_of_its_handlers(decided: Decided) -> None:
     """A slow one holds up those after it for the same event, and no other event."""
-    decided.answers[1] = {"slow": 1.0}
+    go = decided.folder / "go"
+    decided.answers[1] = {"slow": str(go)}
     what = plan(
         process("a", "exit=0"),
         process("b", "exit=0"),
@@ -255,7 +256,11 @@ def test_answers_of_one_event_keep_the_order_of_its_handlers(decided: Decided) -
             when_ended("b", log("b is over")),
         ),
     )
-    run = decided.finished(what)
+    with decided.launched(what) as run:
+        run._await(lambda: decided.asked, "the question")
+        run._await(lambda: "b is over" in run.stderr, "the other event")
+        go.touch()
+        assert run.wait() == 0
     texts = [line.split("] ")[1] for line in run.stderr.splitlines()]
     assert texts.index("b is over") < texts.index("older handler")
 

@@ -78,9 +78,8 @@ def test_each_condition_lets_its_dependent_begin(tmp_path: Path) -> None:
 
 
 def test_a_timeout_names_what_was_awaited_and_shows_the_last_lines(tmp_path: Path) -> None:
-    server = process(
-        "server", "say=opening port", "say=port is busy", "linger", ready=ready_when("listening")
-    )
+    talking = ("/bin/sh", "-c", "echo opening port; echo port is busy; exec sleep 600")
+    server = process("server", command=talking, ready=ready_when("listening"))
     client = process("client", "exit=0", depends_on=after("server", "ready", timeout=1.5))
     run = finished(tmp_path, plan(server, client))
     assert run.popen.returncode == 1

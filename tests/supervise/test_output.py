@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import random
+import select
 import signal
 import socket
 import subprocess
@@ -15,7 +16,7 @@ import pytest
 
 from orchestra.logs import records
 from orchestra.supervise.options import RunOptions
-from tests.supervise.plans import after, finished, launched, plan, process, wait_for
+from tests.supervise.plans import PATIENCE, after, finished, launched, plan, process, wait_for
 
 if TYPE_CHECKING:
     from orchestra.plan.model import Process
@@ -160,11 +161,17 @@ def test_a_disk_that_hangs_stops_nobody(tmp_path: Path) -> None:
 def test_a_disk_that_is_only_slow_loses_nothing(tmp_path: Path) -> None:
     """Somebody reads the pipe, so it is a disk that takes its time; the program waits for it."""
     size = 6_000_000
-    noisy = process("noisy", f"bytes={size}", depends_on=after("block", "completed"), output="own_log")
-    with launched(tmp_path, plan(blocked("noisy"), noisy), stdout=subprocess.DEVNULL) as run:
-        run.await_event("process_running", "noisy")
+    go = tmp_path / "go"
+    there = process("there", command=("sh", "-c", f"until test -e {go}; do sleep 0.02; done"))
+    begins = (*after("block", "completed"), *after("there", "completed"))
+    noisy = process("noisy", f"bytes={size}", depends_on=begins, output="own_log")
+    with launched(tmp_path, plan(blocked("noisy"), there, noisy), stdout=subprocess.DEVNULL) as run:
+        run.await_event("process_exited", "block")
         received = 0
-        descriptor = os.open(run.directory / "logs" / "noisy.log", os.O_RDONLY)
+        descriptor = os.open(run.directory / "logs" / "noisy.log", os.O_RDONLY | os.O_NONBLOCK)
+        go.touch()
+        assert select.select([descriptor], [], [], PATIENCE)[0], "the first of it"
+        os.set_blocking(descriptor, True)
         while data := os.read(descriptor, 1 << 16):
             received += len(data)
         os.close(descriptor)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import signal
 import socket
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -72,7 +73,8 @@ def test_everything_that_is_written_has_to_come_about(tmp_path: Path) -> None:
         f"the command test -e {second} (exit code 1)"
     ) in text(run)
     (tmp_path / "again").mkdir()
-    with launched(tmp_path / "again", plan(server, client())) as run:
+    patient = process("server", "say=up", "linger", ready=replace(conditions, timeout=None))
+    with launched(tmp_path / "again", plan(patient, client())) as run:
         run.await_event("process_running", "server")
         (tmp_path / "second").touch()
         (tmp_path / "first").touch()
@@ -82,7 +84,8 @@ def test_everything_that_is_written_has_to_come_about(tmp_path: Path) -> None:
 def test_a_timeout_of_an_edge_names_what_is_missing(tmp_path: Path) -> None:
     with closed_port() as port:
         address = f"localhost:{port.getsockname()[1]}"
-        server = process("server", "say=up", "linger", ready=ready(tcp=address, log="up"))
+        there = str(tmp_path)  # which holds from the first look on
+        server = process("server", "linger", ready=ready(tcp=address, file=there))
         waits = process("waits", "exit=0", depends_on=after("server", "ready", timeout=0.5))
         run = finished(tmp_path, plan(server, waits))
     assert run.popen.returncode == 1
