@@ -124,6 +124,7 @@ class Server:
             except BlockingIOError:
                 return
             except OSError as error:
+                self._read_last_words()
                 self._lose(f"takes no requests any more: {error.strerror}")
                 return
             del self._waiting[0]
@@ -160,9 +161,13 @@ class Server:
         self._kin.remove(child.pid)
         child.reap()
         self._child = None
-        while self._socket is not None and self._waits():  # its last words
-            self._read()
+        self._read_last_words()
         self._lose(f"ended ({Ending(*ended)})")
+
+    def _read_last_words(self) -> None:
+        """Hear what it has sent before its end."""
+        while self._waits():
+            self._read()
 
     def _waits(self) -> bool:
         """Tell whether something that it has sent is still to be read."""

@@ -93,8 +93,9 @@ class Starts:
         targets = {(warm.kind or "", warm.target or "") for warm in map(_warm, processes) if warm is not None}
         server = self._ready() if targets - self._prepared else None
         if server:
-            server.tell({"prepare": sorted(targets - self._prepared)})
-            self._prepared |= targets
+            fresh = sorted(targets - self._prepared)
+            self._prepared |= targets  # first, because a server that is lost is told of them again
+            server.tell({"prepare": fresh})
 
     def start(self, process: Process, spec: Spec, told: Told) -> None:
         """Start a process; `told` hears what comes of it, at once where it is started cold."""
