@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import sys
 
+from orchestra.compiled import install
+
 TYPE_CHECKING = False  # `typing` itself costs more than this module
 if TYPE_CHECKING:
     from typing import BinaryIO
@@ -21,6 +23,7 @@ _WITH_A_VALUE = {"--prefix", "--name"}  # of `run`
 
 def main() -> int:
     """Carry out the command line and return the exit status."""
+    install()
     words = sys.argv[1:]
     if _concerns_runs(words) and (status := _look_after_the_dead()):
         return status
