@@ -25,6 +25,15 @@ def effort(pid: int) -> Effort:
     return Effort(waits, nanoseconds / 1e9)
 
 
+def sleeps(pid: int) -> bool:
+    """Tell whether all threads of a process wait for something, and none of them for a processor (proc(5), stat)."""
+    found = []
+    for thread in Path(f"/proc/{pid}/task").iterdir():
+        with contextlib.suppress(FileNotFoundError, ProcessLookupError):
+            found.append((thread / "stat").read_text().rpartition(")")[2].split()[0])
+    return set(found) == {"S"}
+
+
 def descriptors(pid: int) -> int:
     """Return how many files a process has open."""
     return len(list(Path(f"/proc/{pid}/fd").iterdir()))

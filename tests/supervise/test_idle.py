@@ -15,7 +15,7 @@ import pytest
 
 from orchestra.plan.conditions import Dependency
 from orchestra.values import Restart
-from tests.supervise.effort import effort
+from tests.supervise.effort import effort, sleeps
 from tests.supervise.plans import HERE, launched, plan, process, ready_when, wait_for
 
 if TYPE_CHECKING:
@@ -56,7 +56,7 @@ def at_rest(folder: Path) -> Iterator[Launched]:
         def quiet() -> bool:
             time.sleep(_QUIET)
             seen.append(efforts(run))
-            return seen[-1] == seen[-2]
+            return seen[-1] == seen[-2] and all(sleeps(run.own(name)) for name in _OURS)
 
         wait_for(quiet, f"rest, and not {seen}")
         yield run

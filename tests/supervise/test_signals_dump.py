@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import signal
 from functools import partial
 from typing import TYPE_CHECKING
@@ -62,13 +63,14 @@ def test_it_tells_what_runs_what_is_waited_for_and_where_we_are(tmp_path: Path, 
             os.kill(run.own(target), signal.SIGQUIT)
             wait_for(partial(tells, kept, count), "the dump")
         dump = kept.read_text()
-        for told in ("polite  running", "slow", "that matches 'never comes'", "timers:\n  in 5", "in 69"):
+        for told in ("polite  running", "slow", "that matches 'never comes'"):
             assert told in dump
+        assert re.search(r"timers:\n  in [45]\d\d\.(.*\n)+?  in [56]\d\d\.", dump)
         assert f"supervisor (pid {run.own('orc-supervisor')}):\n" in dump
         assert (f"keeper (pid {run.popen.pid}):\n" in dump) == (target == "orc-keeper")
         assert ("in until_it_ends" in dump) == (target == "orc-keeper")
-        shown = run.stderr.replace("[orchestra] ", "")
-        assert dump.split(" ", 2)[2].splitlines()[0] in shown
+        head = dump.split(" ", 2)[2].splitlines()[0]
+        wait_for(lambda: head in run.stderr.replace("[orchestra] ", ""), "the same on the screen")
         run.send(signal.SIGINT)
         assert run.wait() == 130
         assert run.log("polite") == "up\nbye\n"
