@@ -5,9 +5,11 @@ from __future__ import annotations
 import os
 import shutil
 import signal
+import socket
 import tempfile
 import time
 import uuid
+from contextlib import ExitStack, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -23,6 +25,10 @@ _MARK = b"ORCHESTRA_RUN="
 # As long as Orchestra itself may take to end everything.
 _PATIENCE = 6.0
 
+# Domains of ROS that stand in tests, each in one module. Whoever looks for a free one takes none of them.
+_DOMAINS = range(20, 81)
+_HELD = pytest.StashKey[ExitStack]()
+
 hypothesis.settings.register_profile("steady", derandomize=True)
 
 
@@ -37,9 +43,21 @@ def pytest_configure(config: pytest.Config) -> None:
     # The control sockets of this session's runs, among which no other's are, nor those of the user.
     os.environ["XDG_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="orchestra-tests-")
     os.environ["ORCHESTRA_CACHE"] = f"{os.environ['XDG_RUNTIME_DIR']}/cache"
+    config.stash[_HELD] = ExitStack()
+    if not hasattr(config, "workerinput"):
+        _hold_domains(config.stash[_HELD])
 
 
-def pytest_unconfigure() -> None:
+def _hold_domains(held: ExitStack) -> None:
+    """Hold the locks of `orchestra.testing.domain` that no other session of tests on this machine holds already."""
+    for domain in _DOMAINS:
+        lock = held.enter_context(socket.socket(socket.AF_UNIX, socket.SOCK_DGRAM))
+        with suppress(OSError):
+            lock.bind(f"\0orchestra-ros-domain-{domain}")
+
+
+def pytest_unconfigure(config: pytest.Config) -> None:
+    config.stash[_HELD].close()
     shutil.rmtree(os.environ["XDG_RUNTIME_DIR"], ignore_errors=True)
 
 

@@ -59,7 +59,7 @@ def _taken_by_rclpy() -> list[bool]:
     done = subprocess.run(
         [sys.executable, str(_ORACLE)],
         input=lines,
-        env={**os.environ, "ROS_DOMAIN_ID": "38", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"},
+        env={**os.environ, "ROS_DOMAIN_ID": "46", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"},
         capture_output=True,
         text=True,
         check=True,

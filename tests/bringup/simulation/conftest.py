@@ -131,9 +131,3 @@ def start() -> Start:
 def listen() -> Callable[[int], AbstractContextManager[Ears]]:
     """Listen on a graph: `with listen(domain) as ears`."""
     return ears
-
-
-@pytest.fixture(scope="session")
-def domains() -> Iterator[int]:
-    """Domain ids that no other test uses."""
-    return iter(range(20, 30))

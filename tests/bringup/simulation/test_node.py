@@ -24,7 +24,7 @@ from bringup.world.messages import pose_of, ticks_of
 from orchestra.ros.interfaces import tf_message_type
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable
     from contextlib import AbstractContextManager
 
     Start = Callable[..., AbstractContextManager[Any]]
@@ -34,6 +34,7 @@ PARAMETERS = Path(bringup.__file__).parent / "params" / "simulation.yaml"
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 DRIVEN_TICKS = 200
 DURATION = 8
+DOMAIN = 27
 
 
 @dataclass(frozen=True)
@@ -48,18 +49,16 @@ class Outcome:
 
 
 @pytest.fixture(scope="module")
-def outcome(
-    start: Start, listen: Listen, domains: Iterator[int], tmp_path_factory: pytest.TempPathFactory
-) -> Outcome:
-    domain, picture = next(domains), tmp_path_factory.mktemp("run") / "run.png"
+def outcome(start: Start, listen: Listen, tmp_path_factory: pytest.TempPathFactory) -> Outcome:
+    picture = tmp_path_factory.mktemp("run") / "run.png"
     arguments = [
         *("-r", "__ns:=/fleet", "--params-file", str(PARAMETERS), "-p", f"duration:={DURATION}"),
         *("-p", "status_period:=0.5", "-p", f"picture:={picture}"),
         *("-p", "start_poses:=[-2, 1, 0, 2, -2, 1]"),
     ]
-    with listen(domain) as ears:
+    with listen(DOMAIN) as ears:
         driven = hear(ears)
-        with start(domain, *arguments) as run:
+        with start(DOMAIN, *arguments) as run:
             status, said = run.end()
         return Outcome(dict(ears.heard), status, said, picture, driven)
 

@@ -20,13 +20,14 @@ if TYPE_CHECKING:
     Listen = Callable[[int], AbstractContextManager[Any]]
     Ask = Callable[..., Any]
 
+DOMAIN = 28
+
 
 @pytest.fixture(scope="module")
-def client(start: Start, listen: Listen, domains: Iterator[int]) -> Iterator[AsyncParameterClient]:
+def client(start: Start, listen: Listen) -> Iterator[AsyncParameterClient]:
     """A client of a running node that was given `speed` as a whole number."""
-    domain = next(domains)
     arguments = ("-r", "__ns:=/fleet", "-p", "speed:=2", "-p", "status_period:=1000.0")
-    with listen(domain) as ears, start(domain, *arguments) as run:
+    with listen(DOMAIN) as ears, start(DOMAIN, *arguments) as run:
         client = AsyncParameterClient(ears.node, "/fleet/simulation")
         assert client.wait_for_services(60.0)
         yield client

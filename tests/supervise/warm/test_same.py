@@ -44,7 +44,7 @@ def test_the_world(tmp_path: Path) -> None:
             node(
                 "special",
                 WORLD,
-                environment={"GIVEN": "ä=1\n2", "TZ": "Asia/Tokyo", "PWD": None, "ROS_DOMAIN_ID": "61"},
+                environment={"GIVEN": "ä=1\n2", "TZ": "Asia/Tokyo", "PWD": None, "ROS_DOMAIN_ID": "62"},
                 cwd=str(tmp_path),
                 limits=Limits(nice=3, cores=(0,), rlimits={"nofile": (300, 400), "core": (0, 0)}),
             ),
