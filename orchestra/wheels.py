@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 DONE = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
 LIBRARY_PATH = "LD_LIBRARY_PATH"
+# A link of this name is in a folder that stands for those of the wheels (`supervise.libraries`).
+STAMP = ".wheels"
 
 
 _KNOWN: dict[str, tuple[str, ...]] = {}  # nobody installs wheels for a process that runs
@@ -53,5 +55,6 @@ def as_called(environment: Mapping[str, str]) -> Mapping[str, str]:
 
     called = {name: value for name, value in environment.items() if name not in {DONE, LIBRARY_PATH}}
     added = frozenset(library_folders(Path(sys.prefix)))
-    before = [entry for entry in environment.get(LIBRARY_PATH, "").split(":") if entry and entry not in added]
+    entries = filter(None, environment.get(LIBRARY_PATH, "").split(":"))
+    before = [entry for entry in entries if entry not in added and not os.path.islink(f"{entry}/{STAMP}")]  # noqa: PTH114
     return {**called, LIBRARY_PATH: ":".join(before)} if before else called

@@ -39,13 +39,14 @@ class Host:
 
     `prefix` is its installation, `path` the folder of its executables where it is a virtual environment, `libraries`
     the folders of the wheels' shared libraries (none where the wheels do not bootstrap), `ament` whether it has an
-    ament index.
+    ament index. One of `libraries` may stand for several that are `gathered` there.
     """
 
     prefix: str
     path: str | None
     libraries: tuple[str, ...]
     ament: bool
+    gathered: frozenset[str] = frozenset()
 
 
 def node_environment(
@@ -132,7 +133,7 @@ def _for_wheels(caller: Mapping[str, str], host: Host) -> dict[str, str]:
     """Do what `ros_wheels_bootstrapper` does, so that it need not start each interpreter a second time."""
     found: dict[str, str] = {}
     if host.libraries:
-        found[LIBRARY_PATH] = _joined(host.libraries, caller.get(LIBRARY_PATH))
+        found[LIBRARY_PATH] = _joined(host.libraries, caller.get(LIBRARY_PATH), host.gathered)
         found[DONE] = "1"
     if host.ament:
         # Last: packages that the user has sourced come before those of the wheels.
@@ -143,6 +144,6 @@ def _for_wheels(caller: Mapping[str, str], host: Host) -> dict[str, str]:
     return found
 
 
-def _joined(first: tuple[str, ...], rest: str | None) -> str:
-    entries = [entry for entry in (rest or "").split(":") if entry]
+def _joined(first: tuple[str, ...], rest: str | None, without: frozenset[str] = frozenset()) -> str:
+    entries = [entry for entry in (rest or "").split(":") if entry and entry not in without]
     return ":".join(dict.fromkeys([*first, *entries]))

@@ -13,7 +13,7 @@ from orchestra.logs.terminal_text import wants_colour
 from orchestra.supervise.environment import common_environment, described
 from orchestra.supervise.graph.discovery import quick_discovery
 from orchestra.supervise.graph.observation import Observers
-from orchestra.supervise.host import this_host
+from orchestra.supervise.libraries import host_of_run
 from orchestra.supervise.output.books import books
 from orchestra.supervise.output.console import Console
 from orchestra.supervise.reactions.questions import Questions
@@ -92,7 +92,7 @@ def surroundings(
 def _environment(
     run_directory: RunDirectory, run_id: str, *, colour: bool
 ) -> Callable[[Process | None], dict[str, str]]:
-    host, ros_logs = this_host(), str(run_directory.logs / "ros")
+    host, ros_logs = host_of_run(), str(run_directory.logs / "ros")
     caller = {**os.environ, **quick_discovery(os.environ, run_directory.path)}
 
     @cache

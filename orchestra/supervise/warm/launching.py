@@ -8,8 +8,8 @@ import sys
 from typing import TYPE_CHECKING, NamedTuple
 
 from orchestra.supervise.environment import node_environment
-from orchestra.supervise.host import this_host
 from orchestra.supervise.keeping.marks import PROCESS
+from orchestra.supervise.libraries import host_of_run
 from orchestra.supervise.process.spawn import spawn
 from orchestra.supervise.process.spec import Spec
 
@@ -31,7 +31,7 @@ class Launched(NamedTuple):
 def environment_of(run_id: str) -> dict[str, str]:
     """Return the environment of a server: what is the same for all nodes of a run."""
     environment = node_environment(
-        os.environ, this_host(), {}, log_folder="", colour=False, marks=(run_id, "")
+        os.environ, host_of_run(), {}, log_folder="", colour=False, marks=(run_id, "")
     )
     del environment[PROCESS]
     return environment
