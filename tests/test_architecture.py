@@ -21,7 +21,7 @@ _LONGEST_FUNCTION = 50
 
 # Each row may import from its own rooms and from the rows above it: the order of docs/design.md.
 _ROWS = (
-    ("fields", "dataclass", "errors", "location", "events", "nearest", "values", "wheels", "compiled"),
+    ("fields", "dataclass", "errors", "location", "events", "nearest", "values", "wheels", "compiled", "patterns"),
     ("settings", "witness"),
     ("description",),
     ("compat",),
@@ -40,7 +40,7 @@ _LEVELS = {room: level for level, row in enumerate(_ROWS) for room in row}
 _CLIENTS = {"cli", "tui", "testing"}  # they share a row, but know nothing of each other
 _SMALL_CORE = {
     *("orchestra.errors", "orchestra.location", "orchestra.events", "orchestra.nearest", "orchestra.values"),
-    *("orchestra.dataclass", "orchestra.fields", "orchestra.wheels"),
+    *("orchestra.dataclass", "orchestra.fields", "orchestra.wheels", "orchestra.patterns"),
     *(
         "orchestra.plan.model",
         "orchestra.plan.conditions",

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import re
 from typing import Any, Final
 
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Severity
 from orchestra.location import Span
+from orchestra.patterns import pattern
 
-_ROOM: Final = re.compile(r"\borchestra\.compat\.(?=\w)")
-_OBJECT: Final = re.compile(r"<(?:function )?(?:[\w<>]+\.)*([\w<>]+?)(?: object)? at 0x[0-9a-f]+>")
-_LOCAL: Final = re.compile(r"\b(?:\w+\.(?:<locals>\.)?)*<locals>\.")
-_INSTALLED: Final = re.compile(r" \((?:/|unknown location)[^)]*\)$")
+_ROOM: Final = pattern(r"\borchestra\.compat\.(?=\w)")
+_OBJECT: Final = pattern(r"<(?:function )?(?:[\w<>]+\.)*([\w<>]+?)(?: object)? at 0x[0-9a-f]+>")
+_LOCAL: Final = pattern(r"\b(?:\w+\.(?:<locals>\.)?)*<locals>\.")
+_INSTALLED: Final = pattern(r" \((?:/|unknown location)[^)]*\)$")
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,10 +8,10 @@ are nodes' are not looked for: the launch file gives them, and may give any.
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Final
 
 from orchestra.location import is_file
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 FOLDERS: Final = ("params", "config")
 _ENDINGS: Final = (".schema.json", ".schema.yaml", ".schema.yml")
 _DEFINITION: Final = "_parameters.yaml"
-_HUMP: Final = re.compile(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
+_HUMP: Final = pattern(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
 
 
 def schema_beside(share: str, names: tuple[str, ...]) -> str | None:

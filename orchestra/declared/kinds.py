@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from orchestra.declared.model import RosType
 
-FIXED: Final = re.compile(r"_fixed_(?P<size>\d+)$")
+FIXED: Final = pattern(r"_fixed_(?P<size>\d+)$")
 TYPES: Final[dict[str, RosType]] = {
     "bool": "bool",
     "int": "integer",

@@ -18,13 +18,14 @@ from pydantic_core import InitErrorDetails, PydanticCustomError
 from orchestra.description.source import Listed, Written, kind_of
 from orchestra.description.text import Constant, Items, Template, Words
 from orchestra.nearest import nearest
+from orchestra.patterns import pattern
 
 TRUE_WORDS = frozenset({"true", "1", "yes", "on"})
 FALSE_WORDS = frozenset({"false", "0", "no", "off"})
 # What is suggested for what is no flag.
 FLAG_WORDS = ("true", "false", "yes", "no", "on", "off")
 
-_WITH_UNIT = re.compile(r"([0-9]+(?:\.[0-9]+)?)\s*(ms|msec|s|sec|secs|seconds?|min|minutes?)", re.IGNORECASE)
+_WITH_UNIT = pattern(r"([0-9]+(?:\.[0-9]+)?)\s*(ms|msec|s|sec|secs|seconds?|min|minutes?)", re.IGNORECASE)
 _UNITS = {"ms": 0.001, "s": 1.0, "se": 1.0, "mi": 60.0}
 
 # The kind of a fault that is one of a key, not of what stands behind it.

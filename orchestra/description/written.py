@@ -6,11 +6,13 @@ import re
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+from orchestra.patterns import pattern
+
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-_SPECIAL = re.compile(r"([\\$])")
-_PIECE = re.compile(r"\\.|\$\(|.", re.DOTALL)
+_SPECIAL = pattern(r"([\\$])")
+_PIECE = pattern(r"\\.|\$\(|.", re.DOTALL)
 _IN_ARGUMENT = frozenset("'\"()")
 
 

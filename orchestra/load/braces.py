@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Final
 
 from orchestra.description.substitutions import ELSEWHERE, SIGNATURES
 from orchestra.errors import Code
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 _OLD: Final = ("arg", "find", "optenv")  # those of ROS 1
 # With an argument: a name alone, as `${HOME}`, is for a shell.
-_BRACED = re.compile(r"\$(?:\{([a-z][a-z-]*)(\s[^{}()\[\]]*)\}|\[([a-z][a-z-]*)(\s[^{}()\[\]]*)\])")
+_BRACED = pattern(r"\$(?:\{([a-z][a-z-]*)(\s[^{}()\[\]]*)\}|\[([a-z][a-z-]*)(\s[^{}()\[\]]*)\])")
 
 
 def warn_of_braces(text: str, spans: Callable[[int, int], Span], problems: Problems) -> None:

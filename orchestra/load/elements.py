@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.dataclass import dataclass, maker
 from orchestra.description.source import Keyed, Listed, Verbatim, Written
 from orchestra.location import Span
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -16,7 +17,7 @@ if TYPE_CHECKING:
     from orchestra.load.offsets import Source
 
 # Each piece of an attribute's source stands for one character of its value.
-_PIECE = re.compile(r"&[^;]*;|\r\n|.", re.DOTALL)
+_PIECE = pattern(r"&[^;]*;|\r\n|.", re.DOTALL)
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,10 +6,11 @@ UTF-8 comes first whatever is declared, as upstream: editors save UTF-8 and leav
 from __future__ import annotations
 
 import codecs
-import re
 from typing import Final
 
-DECLARED: Final = re.compile(rb"""\s*<\?xml\s[^>]*?\bencoding\s*=\s*["']([^"']*)["']""")
+from orchestra.patterns import pattern
+
+DECLARED: Final = pattern(rb"""\s*<\?xml\s[^>]*?\bencoding\s*=\s*["']([^"']*)["']""")
 # In this order: the mark of UTF-16 begins that of UTF-32.
 _WIDE: Final = {
     codecs.BOM_UTF32_LE: "utf-32",

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import re
 from bisect import bisect_right
 from functools import cached_property
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
 from orchestra.location import stretch
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -16,8 +16,8 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 _BREAKS = "\n\r\x85\u2028\u2029"
-_BREAK = re.compile(f"\r\n|[{_BREAKS}]")
-_PROPERTIES = re.compile(r"([!&]\S*\s+)*")
+_BREAK = pattern(f"\r\n|[{_BREAKS}]")
+_PROPERTIES = pattern(r"([!&]\S*\s+)*")
 _HEXADECIMAL = {"x": 2, "u": 4, "U": 8}
 
 

@@ -2,19 +2,19 @@
 
 from __future__ import annotations
 
-import re
 from functools import cache
 from typing import TYPE_CHECKING, Final
 
 from orchestra.description.substitutions import ELSEWHERE, SIGNATURES
 from orchestra.load.words import snake
 from orchestra.nearest import nearest
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 
-_WORD: Final = re.compile(r"[A-Za-z_]\w*")
+_WORD: Final = pattern(r"[A-Za-z_]\w*")
 
 
 def meant(name: str, arguments: Sequence[str]) -> str | None:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from typing import Final
 
-_HUMP = re.compile(r"(?<=[a-z0-9])(?=[A-Z])")
+from orchestra.patterns import pattern
+
+_HUMP = pattern(r"(?<=[a-z0-9])(?=[A-Z])")
 
 # Names of actions.
 ELSEWHERE: Final = {

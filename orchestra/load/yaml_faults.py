@@ -16,6 +16,7 @@ from orchestra.load.faults import Fault
 from orchestra.load.yaml_failure import Failure
 from orchestra.load.yaml_indentation import of_lines
 from orchestra.nearest import nearest
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,12 +24,12 @@ if TYPE_CHECKING:
     from orchestra.load.offsets import Source
 
 
-_PLAIN = re.compile(r"[^\s,\]}#](?:[^\n,\]}#]*[^\s,\]}#])?")
-_WORD_ALONE = re.compile(r"[ ]*(?:- )?([A-Za-z_][\w-]*)[ ]*$", re.MULTILINE)
-_COLON = re.compile(r":(?:\s|$)|\s#", re.MULTILINE)
-_ANCHOR = re.compile(r"&([^\s,\[\]{}]+)")
-_ALIAS = re.compile(r"\*([^\s,\[\]{}]*)")
-_CONTROL = re.compile("[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_PLAIN = pattern(r"[^\s,\]}#](?:[^\n,\]}#]*[^\s,\]}#])?")
+_WORD_ALONE = pattern(r"[ ]*(?:- )?([A-Za-z_][\w-]*)[ ]*$", re.MULTILINE)
+_COLON = pattern(r":(?:\s|$)|\s#", re.MULTILINE)
+_ANCHOR = pattern(r"&([^\s,\[\]{}]+)")
+_ALIAS = pattern(r"\*([^\s,\[\]{}]*)")
+_CONTROL = pattern("[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _QUOTES: Final = ("'", '"')
 _CLOSERS: Final = {"[": "]", "{": "}"}
 

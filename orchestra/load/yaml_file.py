@@ -7,7 +7,6 @@ files are read by `yaml_plain`, in one pass; what it leaves alone is read here, 
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Any
 
 import yaml
@@ -22,13 +21,14 @@ from orchestra.load.keys import spelled
 from orchestra.load.offsets import Source, source, spans_of
 from orchestra.load.reader import Reader
 from orchestra.load.yaml_plain import DASH, DEEPEST, NULL, PARSER
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from orchestra.location import Span
 
 _PLAIN_TAG = "tag:yaml.org,2002:str"
 _KNOWN_TAGS = frozenset({_PLAIN_TAG, "tag:yaml.org,2002:map", "tag:yaml.org,2002:seq"})
-_TAG = re.compile(r"![^\s,\[\]{}]*")
+_TAG = pattern(r"![^\s,\[\]{}]*")
 # How many values aliases may expand to beyond what is written.
 _MOST_VALUES = 100_000
 _VALUES_PER_CHARACTER = 4

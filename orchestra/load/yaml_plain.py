@@ -6,7 +6,6 @@ key that stands twice, whatever is wrong) is left to `yaml_file`, which gives th
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Any, Final
 
 import yaml
@@ -24,6 +23,7 @@ from yaml.events import (
 from orchestra.description.source import Keyed, Listed, Verbatim, Written
 from orchestra.load.offsets import spans_of
 from orchestra.location import inside, stretch
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 NULL: Final = frozenset({"", "~", "null", "Null", "NULL"})
 # What looks like a key and is an item of a list without its blank.
-DASH: Final = re.compile(r"-[A-Za-z]")
+DASH: Final = pattern(r"-[A-Za-z]")
 DEEPEST: Final = 100
 PARSER: Final[type[Any]] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
+
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-_UNFIT = re.compile(r"[^\w.#@+-]+")
+_UNFIT = pattern(r"[^\w.#@+-]+")
 _LONGEST_STEM = 120
 # A longer name stands out instead of moving every other line to the right.
 _WIDEST = 32

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-import re
 import sys
 import types
 import typing
@@ -15,13 +14,14 @@ from typing import Any, TypeAlias
 from orchestra.errors import Problem
 from orchestra.fields import fields, is_dataclass
 from orchestra.location import Location, Span, point
+from orchestra.patterns import pattern
 from orchestra.plan import model
 from orchestra.plan.json_text import text_of
 
 _SCALARS = frozenset({str, int, float, bool, type(None)})
 Read: TypeAlias = Callable[[Any], Any]
 
-_SURROGATE = re.compile("[\ud800-\udfff]")
+_SURROGATE = pattern("[\ud800-\udfff]")
 
 
 def dumps(plan: model.Plan, *, indent: int | None = None) -> str:

@@ -12,6 +12,8 @@ import re
 import sys
 from typing import TYPE_CHECKING
 
+from orchestra.patterns import pattern
+
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
@@ -22,13 +24,13 @@ FOLDER = "${run}/params"
 
 _INTEGERS = range(-(2**63), 2**63)
 _LONGEST_SIMPLE_KEY = 1000  # libyaml looks ahead 1024 characters for the colon
-_PLAIN_PATTERN = re.compile(r"/[A-Za-z0-9_/*]*")
-_PLAIN_NAME = re.compile(r"(?!(?i:y|n|yes|no|on|off|true|false|null)\Z)[A-Za-z_][A-Za-z0-9_./]*")
-_UNFIT = re.compile(r"[^A-Za-z0-9_#-]")
+_PLAIN_PATTERN = pattern(r"/[A-Za-z0-9_/*]*")
+_PLAIN_NAME = pattern(r"(?!(?i:y|n|yes|no|on|off|true|false|null)\Z)[A-Za-z_][A-Za-z0-9_./]*")
+_UNFIT = pattern(r"[^A-Za-z0-9_#-]")
 _ESCAPES = {'"': '\\"', "\\": "\\\\", "\n": "\\n", "\t": "\\t", "\r": "\\r"}
 # All that may not or should not stand for itself in double quotes: control characters, line breaks beyond ASCII,
 # byte order marks, noncharacters, and the two characters of the notation.
-_ESCAPED = re.compile('["\\\\\x00-\x1f\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff]')
+_ESCAPED = pattern('["\\\\\x00-\x1f\x7f-\x9f\u2028\u2029\ufeff\ufffe\uffff]')
 
 
 def render(process: Process) -> str:
@@ -43,9 +45,9 @@ def render(process: Process) -> str:
     return rendered(f"{process.namespace.rstrip('/')}/{process.name}", process.parameters)
 
 
-def rendered(pattern: str, parameters: Mapping[str, ParameterValue]) -> str:
+def rendered(node: str, parameters: Mapping[str, ParameterValue]) -> str:
     """Return the text of a parameter file with one section. Raises like `render`."""
-    lines = [f"{_key(pattern, _PLAIN_PATTERN)}:", f"  ros__parameters:{'' if parameters else ' {}'}"]
+    lines = [f"{_key(node, _PLAIN_PATTERN)}:", f"  ros__parameters:{'' if parameters else ' {}'}"]
     lines += [_entry(name, value) for name, value in parameters.items()]
     return "\n".join(lines) + "\n"
 

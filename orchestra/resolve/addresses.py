@@ -6,12 +6,13 @@ import re
 import socket
 from typing import Final
 
+from orchestra.patterns import pattern
 from orchestra.resolve.amounts import UnfitError
 
 _HERE: Final = "localhost"
 _PORTS: Final = range(1, 65536)
-_ADDRESS: Final = re.compile(r"(?:(?P<host>\[[^][\s]*\]|[^][\s:/@]*):)?(?P<port>[0-9]{1,9})")
-_URL: Final = re.compile(
+_ADDRESS: Final = pattern(r"(?:(?P<host>\[[^][\s]*\]|[^][\s:/@]*):)?(?P<port>[0-9]{1,9})")
+_URL: Final = pattern(
     r"(?:(?P<scheme>[A-Za-z][A-Za-z0-9+.-]*)://)?(?:[^\s/?#@]*@)?"
     r"(?P<host>\[[^][\s]*\]|[^][\s:/?#@]*)(?P<port>:[^\s/?#]*)?(?P<rest>(?:[/?#]\S*)?)"
 )

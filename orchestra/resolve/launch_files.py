@@ -18,19 +18,20 @@ from typing import TYPE_CHECKING
 from orchestra.errors import UsageError
 from orchestra.location import is_file
 from orchestra.nearest import nearest
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
     from orchestra.resolve.context import Packages
 
-_NAMED = re.compile(r".(\.launch|[._-]launch\.(py|xml|ya?ml))$")
-_KEY = re.compile(r"""^(\{\s*)?["']?launch["']?\s*:""", re.MULTILINE)
+_NAMED = pattern(r".(\.launch|[._-]launch\.(py|xml|ya?ml))$")
+_KEY = pattern(r"""^(\{\s*)?["']?launch["']?\s*:""", re.MULTILINE)
 _FUNCTION = "generate_launch_description"
 _BLOCKS = (ast.stmt, ast.excepthandler, ast.match_case)
 _MARKS = {
-    ".py": re.compile(rf"^\s*(async\s+)?def\s+{_FUNCTION}\b", re.MULTILINE),
-    ".xml": re.compile(r"<launch[\s>]"),
+    ".py": pattern(rf"^\s*(async\s+)?def\s+{_FUNCTION}\b", re.MULTILINE),
+    ".xml": pattern(r"<launch[\s>]"),
     ".yaml": _KEY,
     ".yml": _KEY,
 }

@@ -10,6 +10,7 @@ import re
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -21,12 +22,12 @@ _LONGEST_TOPIC_NAME = 247
 _WORDS = "only letters, digits and '_' are allowed"
 _PATHS = "only letters, digits, '_' and '/' are allowed"
 _DIGITS = frozenset("0123456789")
-_OF_A_SHELL = re.compile(r"\$(?:\{([A-Za-z_][A-Za-z0-9_]*)\}|([A-Za-z_][A-Za-z0-9_]*))")
-_SUBSTITUTION = re.compile(r"\{([^{}]*)\}")
+_OF_A_SHELL = pattern(r"\$(?:\{([A-Za-z_][A-Za-z0-9_]*)\}|([A-Za-z_][A-Za-z0-9_]*))")
+_SUBSTITUTION = pattern(r"\{([^{}]*)\}")
 # What nothing can be wrong with but its length and `__`; anything else is looked at closely.
-_PLAIN_WORD = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
-_PLAIN_PATH = re.compile(r"(?:/[A-Za-z_][A-Za-z0-9_]*)+")
-_PLAIN_TOPIC = re.compile(r"(?:~?/)?[A-Za-z_][A-Za-z0-9_]*(?:/[A-Za-z_][A-Za-z0-9_]*)*")
+_PLAIN_WORD = pattern(r"[A-Za-z_][A-Za-z0-9_]*")
+_PLAIN_PATH = pattern(r"(?:/[A-Za-z_][A-Za-z0-9_]*)+")
+_PLAIN_TOPIC = pattern(r"(?:~?/)?[A-Za-z_][A-Za-z0-9_]*(?:/[A-Za-z_][A-Za-z0-9_]*)*")
 
 
 @dataclass(frozen=True, slots=True)

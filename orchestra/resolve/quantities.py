@@ -7,6 +7,7 @@ from typing import Final
 
 from orchestra.description.source import shortened
 from orchestra.nearest import nearest
+from orchestra.patterns import pattern
 from orchestra.resolve.amounts import UnfitError
 
 UNLIMITED: Final = -1  # as RLIM_INFINITY of Python's resource
@@ -15,9 +16,9 @@ SIZES: Final = frozenset({"as", "core", "data", "fsize", "memlock", "msgqueue", 
 
 _LAST_CORE: Final = 8191  # Linux is built for 8192 at most
 _MOST: Final = 2**63 - 1
-_SIZE: Final = re.compile(r"([0-9]{1,20})(?:\.([0-9]{1,20}))?\s*([KMGT]?)(?:i?B)?", re.IGNORECASE)
+_SIZE: Final = pattern(r"([0-9]{1,20})(?:\.([0-9]{1,20}))?\s*([KMGT]?)(?:i?B)?", re.IGNORECASE)
 _POWERS: Final = {"": 0, "K": 1, "M": 2, "G": 3, "T": 4}
-_CORES: Final = re.compile(r"\s*([0-9]{1,20})\s*(?:-\s*([0-9]{1,20})\s*)?")
+_CORES: Final = pattern(r"\s*([0-9]{1,20})\s*(?:-\s*([0-9]{1,20})\s*)?")
 _WORDS: Final = ("unlimited", "infinity", "infinite", "inf", "none", "max")
 
 

@@ -11,6 +11,7 @@ from orchestra.description.text import span_of
 from orchestra.description.written import escaped
 from orchestra.errors import Code
 from orchestra.location import is_python
+from orchestra.patterns import pattern
 from orchestra.resolve.addresses import http_address, tcp_address
 from orchestra.resolve.amounts import UnfitError, amount, made, whole
 from orchestra.resolve.awaited import (
@@ -34,7 +35,7 @@ if TYPE_CHECKING:
 
 
 # A backslash that takes the meaning from nothing.
-_SINGLE: Final = re.compile(r"(?<!\\)((?:\\\\)*)\\(?![\\$]|$)")
+_SINGLE: Final = pattern(r"(?<!\\)((?:\\\\)*)\\(?![\\$]|$)")
 
 
 def readiness(written: Ready | None, run: Resolution) -> ResolvedReady | Poison | None:

@@ -10,6 +10,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from orchestra.dataclass import dataclass
+from orchestra.patterns import pattern
 from orchestra.resolve.names import (
     Fault,
     InvalidName,
@@ -24,9 +25,7 @@ if TYPE_CHECKING:
 
 Kind: TypeAlias = Literal["topic", "service", "node", "namespace"]
 
-_LEFT = re.compile(
-    r"(?:(?P<node>[^:/]*):(?!//))?(?P<scheme>rostopic://|rosservice://)?(?P<match>.*)", re.DOTALL
-)
+_LEFT = pattern(r"(?:(?P<node>[^:/]*):(?!//))?(?P<scheme>rostopic://|rosservice://)?(?P<match>.*)", re.DOTALL)
 _NAMES: Final = ("topic", "service")
 _KINDS: Final[dict[str | None, tuple[Kind, ...]]] = {
     None: _NAMES,

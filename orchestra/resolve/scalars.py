@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.description.source import shortened
 from orchestra.nearest import nearest
+from orchestra.patterns import pattern
 from orchestra.resolve.rcl import scalars as rcl
 from orchestra.resolve.yaml_scalars import QUOTE, Plain, by_core, by_pyyaml, read_scalars
 
@@ -33,8 +34,8 @@ _INTEGERS = range(-(2**63), 2**63)
 _WORDS: Final[dict[type, str]] = {bool: "boolean", int: "integer", float: "float", str: "text"}
 # Texts that YAML 1.1, YAML 1.2 and rcl read alike, and which need no parser: numbers that fit, and words that mean
 # nothing but themselves.
-_NUMBER: Final = re.compile(r"-?(?:0|[1-9][0-9]{0,17})(\.[0-9]{1,18})?")
-_WORD: Final = re.compile(r"[A-Za-z_/][A-Za-z0-9_/.-]{0,500}")
+_NUMBER: Final = pattern(r"-?(?:0|[1-9][0-9]{0,17})(\.[0-9]{1,18})?")
+_WORD: Final = pattern(r"[A-Za-z_/][A-Za-z0-9_/.-]{0,500}")
 _MEANT: Final = frozenset(
     ["y", "yes", "n", "no", "on", "off", "true", "false", "null", "nan", "inf", "infinity"]
 )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
@@ -11,8 +10,10 @@ from yaml.constructor import SafeConstructor
 from yaml.resolver import Resolver
 
 from orchestra.description.source import shortened
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
+    import re
     from collections.abc import Sequence
 
 Construct: TypeAlias = Callable[[yaml.ScalarEvent], Any]
@@ -101,11 +102,11 @@ _resolve: Final[Callable[..., str]] = Resolver().resolve
 _CONSTRUCTOR: Final = SafeConstructor()
 # YAML 1.2.2, 10.3.2 "Tag Resolution" of the core schema.
 _CORE: Final[tuple[tuple[re.Pattern[str], Callable[[str], Any]], ...]] = (
-    (re.compile(r"null|Null|NULL|~|"), lambda _: None),
-    (re.compile(r"true|True|TRUE|false|False|FALSE"), lambda text: text.lower() == "true"),
-    (re.compile(r"[-+]?[0-9]+"), int),
-    (re.compile(r"0o[0-7]+|0x[0-9a-fA-F]+"), lambda text: int(text, 0)),
-    (re.compile(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?"), float),
-    (re.compile(r"[-+]?\.(inf|Inf|INF)"), lambda text: float(text.replace(".", ""))),
-    (re.compile(r"\.(nan|NaN|NAN)"), lambda _: float("nan")),
+    (pattern(r"null|Null|NULL|~|"), lambda _: None),
+    (pattern(r"true|True|TRUE|false|False|FALSE"), lambda text: text.lower() == "true"),
+    (pattern(r"[-+]?[0-9]+"), int),
+    (pattern(r"0o[0-7]+|0x[0-9a-fA-F]+"), lambda text: int(text, 0)),
+    (pattern(r"[-+]?(\.[0-9]+|[0-9]+(\.[0-9]*)?)([eE][-+]?[0-9]+)?"), float),
+    (pattern(r"[-+]?\.(inf|Inf|INF)"), lambda text: float(text.replace(".", ""))),
+    (pattern(r"\.(nan|NaN|NAN)"), lambda _: float("nan")),
 )

@@ -12,17 +12,18 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from orchestra.dataclass import dataclass
 from orchestra.location import Span
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 MARK: Final = "orchestra:"
-_ASKED: Final = re.compile(r"(?:#+|<!--)\s*orchestra:\s*ignore\b(?:\s*\[([^\]\n]*)\])?")
-_BREAK: Final = re.compile("\r\n|[\n\r]")
-_YAML_BREAK: Final = re.compile("\r\n|[\n\r\x85\u2028\u2029]")
+_ASKED: Final = pattern(r"(?:#+|<!--)\s*orchestra:\s*ignore\b(?:\s*\[([^\]\n]*)\])?")
+_BREAK: Final = pattern("\r\n|[\n\r]")
+_YAML_BREAK: Final = pattern("\r\n|[\n\r\x85\u2028\u2029]")
 _EITHER: Final = ".launch"  # XML or YAML
-_CODE: Final = re.compile(r"[^\s,]+")
-_XML: Final = re.compile(
+_CODE: Final = pattern(r"[^\s,]+")
+_XML: Final = pattern(
     r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>|</?[A-Za-z_](?:[^\"'<>]++|\"[^\"]*+\"|'[^']*+')*+>", re.DOTALL
 )
 

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from pathlib import Path
 from typing import TypeAlias
 
+from orchestra.patterns import pattern
+
 Sources: TypeAlias = Callable[[str, int], str | None]
 
-_BREAK = re.compile("\r\n|[\n\r\x85\u2028\u2029]")  # the breaks that YAML's parsers count
+_BREAK = pattern("\r\n|[\n\r\x85\u2028\u2029]")  # the breaks that YAML's parsers count
 
 
 def from_files(given: dict[str, str] | None = None) -> Sources:

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-import re
 import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.compat.seam import connection
 from orchestra.nearest import nearest
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-_NAME = re.compile(r"[a-zA-Z0-9][a-zA-Z0-9_-]+")
+_NAME = pattern(r"[a-zA-Z0-9][a-zA-Z0-9_-]+")
 
 
 class PackageNotFoundError(KeyError):

@@ -7,7 +7,6 @@ A comparison of constants is meant: that is how people switch something off.
 from __future__ import annotations
 
 import ast
-import re
 import warnings
 from typing import TYPE_CHECKING, Final
 
@@ -16,6 +15,7 @@ from orchestra.description.text import Call, Opaque, Words
 from orchestra.errors import Code
 from orchestra.location import Span
 from orchestra.nearest import nearest
+from orchestra.patterns import pattern
 from orchestra.resolve.substitutions.equality import equal
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 _EQUALITIES: Final = {"equals": True, "not-equals": False}
 _BY_CONFIGURATION: Final = {"LaunchConfigurationEquals": True, "LaunchConfigurationNotEquals": False}
-_PLACE: Final = re.compile("\ue000([0-9]+)\ue001")
+_PLACE: Final = pattern("\ue000([0-9]+)\ue001")
 
 
 @dataclass(frozen=True, slots=True)

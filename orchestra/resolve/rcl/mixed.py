@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from collections import Counter
 from typing import TYPE_CHECKING, Final
 
 from orchestra.nearest import nearest
+from orchestra.patterns import pattern
 from orchestra.resolve.rcl.scalars import typed
 
 if TYPE_CHECKING:
@@ -15,8 +15,8 @@ if TYPE_CHECKING:
     from orchestra.values import Scalar
 
 _FEWEST: Final = 3  # of two items either may be the odd one: it is the second
-_WHOLE: Final = re.compile(r"[-+]?(?:0|[1-9][0-9]*)")
-_POINTED: Final = re.compile(r"([-+]?(?:0|[1-9][0-9]*))\.0*")
+_WHOLE: Final = pattern(r"[-+]?(?:0|[1-9][0-9]*)")
+_POINTED: Final = pattern(r"([-+]?(?:0|[1-9][0-9]*))\.0*")
 _BOOLEANS: Final = ("true", "false")
 _TYPES: Final = (bool, int, float)
 

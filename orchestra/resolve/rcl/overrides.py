@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING
 
 import yaml
 
 from orchestra.dataclass import dataclass
+from orchestra.patterns import pattern
 from orchestra.resolve.rcl.table import counting
 from orchestra.resolve.rcl.values import LOADER, scalar
 from orchestra.values import ParameterValue
@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 # What rcl's lexer takes for words: `__` begins no word, `___` stands in none; possessive, so that no name is slow.
 _WORD = r"(?!__)[A-Za-z_](?:(?!___)[A-Za-z0-9_])*+"
 _PART = rf"(?:/|{_WORD})++"
-_NAME = re.compile(rf"{_PART}(?:\.{_PART})*+")
-_NODE = re.compile(r"(?!__)[A-Za-z_](?:(?!__)[A-Za-z0-9_])*+")
+_NAME = pattern(rf"{_PART}(?:\.{_PART})*+")
+_NODE = pattern(r"(?!__)[A-Za-z_](?:(?!__)[A-Za-z0-9_])*+")
 
 
 @dataclass(frozen=True, slots=True)

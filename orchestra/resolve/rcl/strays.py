@@ -16,6 +16,7 @@ from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.location import Location, Span
 from orchestra.nearest import nearest
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -24,8 +25,8 @@ SECTION_KEY: Final = "ros__parameters"
 
 _NODE_DEPTH: Final = 2  # inside the file's mapping, inside that of a key of it
 _UNPREFIXED: Final = ("parameter", "parameters", "params")
-_COLON: Final = re.compile(r"([^\s:\[\]{}]+):(\S+)")
-_MISSPELT: Final = re.compile(r"ros[_-]*p[a-z]{1,4}m[a-z]{0,6}", re.IGNORECASE)
+_COLON: Final = pattern(r"([^\s:\[\]{}]+):(\S+)")
+_MISSPELT: Final = pattern(r"ros[_-]*p[a-z]{1,4}m[a-z]{0,6}", re.IGNORECASE)
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Final
 from orchestra.dataclass import dataclass
 from orchestra.description.source import shortened
 from orchestra.errors import Code
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -24,19 +25,19 @@ if TYPE_CHECKING:
 
 _LETTERS: Final = frozenset("yYnN")
 _NULLS: Final = frozenset({"~", "null", "Null", "NULL"})
-_NO_NUMBER: Final = re.compile(r"(?P<sign>[-+]?)\.?(?P<word>inf(?:inity)?|nan)(?:\(\w*\))?", re.IGNORECASE)
-_AS_YAML: Final = re.compile(r"[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)")
+_NO_NUMBER: Final = pattern(r"(?P<sign>[-+]?)\.?(?P<word>inf(?:inity)?|nan)(?:\(\w*\))?", re.IGNORECASE)
+_AS_YAML: Final = pattern(r"[-+]?\.(?:inf|Inf|INF)|\.(?:nan|NaN|NAN)")
 _NOT_FINITE: Final = {"nan": ".nan", "inf": ".inf", "-inf": "-.inf"}
-_ZEROS: Final = re.compile(r"(?P<sign>[-+]?)0+(?P<digits>[1-9][0-9]*)")
-_GROUPED: Final = re.compile(r"[-+]?[0-9]+(?:_[0-9]+)+(?:\.[0-9_]*)?")
-_HALF_QUOTED: Final = re.compile(r"""[^\s"']+["']""")
-_WHOLE: Final = re.compile(r"[-+]?[0-9]+")
-_PREFIXED: Final = re.compile(r"[-+]?0(?:o(?P<octal>[0-7]+)|b(?P<binary>[01]+))")
+_ZEROS: Final = pattern(r"(?P<sign>[-+]?)0+(?P<digits>[1-9][0-9]*)")
+_GROUPED: Final = pattern(r"[-+]?[0-9]+(?:_[0-9]+)+(?:\.[0-9_]*)?")
+_HALF_QUOTED: Final = pattern(r"""[^\s"']+["']""")
+_WHOLE: Final = pattern(r"[-+]?[0-9]+")
+_PREFIXED: Final = pattern(r"[-+]?0(?:o(?P<octal>[0-7]+)|b(?P<binary>[01]+))")
 
 
 _NOT_PLAIN: Final = ("'", '"', "!", "&", "|", ">", "")
 _OPENING: Final = {"]": "[", "}": "{"}
-_BREAK: Final = re.compile("\r\n|[\r\n\x85\u2028\u2029]")
+_BREAK: Final = pattern("\r\n|[\r\n\x85\u2028\u2029]")
 
 
 @dataclass(frozen=True, slots=True)

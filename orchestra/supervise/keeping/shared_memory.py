@@ -13,9 +13,10 @@ from __future__ import annotations
 
 import fcntl
 import os
-import re
 import time
 from contextlib import contextmanager, suppress
+
+from orchestra.patterns import pattern
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
 _FOLDER = "/dev/shm"  # noqa: S108 - where Linux has POSIX shared memory (shm_overview(7))
 # What is removed together has one stem.
 _STEM = r"fastrtps_(?:[0-9a-f]{16}|port[0-9]+)"
-_OURS = re.compile(rf"(?:sem\.)?({_STEM})(?:_mutex|_el|_sl)?")
+_OURS = pattern(rf"(?:sem\.)?({_STEM})(?:_mutex|_el|_sl)?")
 _LOCKS = ("_el", "_sl")
 # How long a file without a lock must have been there, in seconds.
 _SETTLED = 2.0

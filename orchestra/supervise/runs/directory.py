@@ -5,13 +5,13 @@ from __future__ import annotations
 import fcntl
 import itertools
 import os
-import re
 import time
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.fields import replace
+from orchestra.patterns import pattern
 from orchestra.supervise.runs import identity
 from orchestra.supervise.runs.registry import folders, living
 from orchestra.supervise.runs.running import LOCK, RUNNING, is_locked, state_path
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 # Old runs that are kept, the current one included.
 KEPT_RUNS = 20
-_UNFIT = re.compile(r"[^A-Za-z0-9_.-]+")
+_UNFIT = pattern(r"[^A-Za-z0-9_.-]+")
 # How long a run waits for another that is choosing its name, in seconds.
 _NAMING_PATIENCE, _NAMING_PAUSE = 2.0, 0.01
 

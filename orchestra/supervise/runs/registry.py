@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
+from orchestra.patterns import pattern
 from orchestra.supervise.runs import identity
 from orchestra.supervise.runs.identity import Identity
 from orchestra.supervise.runs.running import LOCK, abandoned, is_locked, unfinished
@@ -14,7 +14,7 @@ from orchestra.supervise.runs.running import LOCK, abandoned, is_locked, unfinis
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-_OURS = re.compile(r"\d{8}-\d{6}-(.+)")
+_OURS = pattern(r"\d{8}-\d{6}-(.+)")
 
 
 @dataclass(frozen=True, slots=True)
