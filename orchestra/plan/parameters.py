@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.resolve.model import (
+        ParameterSource,
         Resolved,
         ResolvedComponent,
         ResolvedProcess,
@@ -68,9 +69,9 @@ def parameters_of(process: ResolvedProcess, sections: Sections, problems: Proble
 def _plain(process: ResolvedProcess, own: str) -> Parameters | None:
     """Return the parameters of a node where each is written once, for it alone; None where it takes a closer look.
 
-    In Python all of them may have one place, so that what was read for one is taken for what was read for all.
+    In Python several may have one place, so that what was read for one is taken for what was read for all.
     """
-    if own == EVERY_NODE or is_python(process.location):
+    if own == EVERY_NODE or (is_python(process.location) and not _are_apart(process.parameters)):
         return None
     values: dict[str, ParameterValue] = {}
     written: dict[str, tuple[Candidate, ...]] = {}
@@ -82,6 +83,15 @@ def _plain(process: ResolvedProcess, own: str) -> Parameters | None:
         through = candidates.passage(source.through)
         written[source.name] = (candidates.new_candidate(source.value, source.location, True, rule, through),)
     return Parameters(values, written)
+
+
+def _are_apart(sources: Sequence[ParameterSource]) -> bool:
+    """Return whether values have places of their own, as far as that can be told without working the places out.
+
+    Those of arguments differ by their paths, and from all others.
+    """
+    paths = [getattr(source.location.span, "path", None) for source in sources]
+    return len(set(paths)) == len(paths)
 
 
 def check_given(resolved: Resolved, problems: Problems) -> None:
