@@ -266,7 +266,8 @@ def test_an_observer_that_is_killed_is_replaced_and_deactivates_the_node(tmp_pat
         first = run.own("orc-observer")
         os.kill(first, signal.SIGKILL)
         wait_for(lambda: run.own("orc-observer") != first, "another observer")
-        assert "observer: ended (SIGKILL); it is started again" in run.stderr
+        told = "observer: ended (SIGKILL); it is started again"
+        wait_for(lambda: told in run.stderr, told)
         # Whether it knows the node already or not: this is a defined end.
         run.send(signal.SIGINT)
         assert run.wait() == 130
