@@ -129,7 +129,7 @@ def test_the_terminal_is_given_back_between_two_runs_of_the_process(tmp_path: Pa
         begun(terminal)
         terminal.type(b"\r")
         run.await_event("process_exited", "asking")
-        assert modes(terminal) == ECHO
+        wait_for(lambda: modes(terminal) == ECHO, "the terminal to be given back")
         terminal.type(b"\x03")
         assert run.wait() == 130
 
@@ -204,7 +204,7 @@ def test_a_terminal_that_is_closed_is_the_end_of_the_input_where_the_run_goes_on
         await_text(terminal, b"half")
         os.close(terminal.ours)
         run.await_event("process_exited", "asking")
-        assert "'half'" in run.log("asking")
+        wait_for(lambda: "'half'" in run.log("asking"), "what it has read")
         assert run.popen.poll() is None
         run.send(signal.SIGTERM)
         assert run.wait() == 143
