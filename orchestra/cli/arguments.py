@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 import sys
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra import pipeline
@@ -17,6 +16,7 @@ from orchestra.cli.glance.walk import declared
 from orchestra.cli.inputs import file_and_inputs
 from orchestra.dataclass import dataclass
 from orchestra.errors import DescriptionError, Problems
+from orchestra.fields import replace
 from orchestra.location import displayed
 from orchestra.resolve.packages import InstalledPackages
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.cli import boundary, severities
@@ -13,6 +12,7 @@ from orchestra.cli.leaving import contained
 from orchestra.cli.parser import CommandParser
 from orchestra.cli.problems.formats import FORMATS
 from orchestra.errors import Severity, UsageError
+from orchestra.fields import replace
 
 if TYPE_CHECKING:
     from argparse import Namespace

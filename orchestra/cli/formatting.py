@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import difflib
 import sys
-from dataclasses import field
 from enum import Enum, auto
 from typing import TYPE_CHECKING
 
@@ -12,6 +11,7 @@ from orchestra.cli import boundary
 from orchestra.cli.targets import kind_of
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
+from orchestra.fields import field
 from orchestra.formatting.formatted import formatted
 from orchestra.formatting.refusal import NotFormatted
 from orchestra.formatting.replacing import replace

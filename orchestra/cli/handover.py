@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.cli import inputs
@@ -11,6 +10,7 @@ from orchestra.cli.boundary import Telling, guarded
 from orchestra.cli.run_options import run_options
 from orchestra.cli.starting import started
 from orchestra.errors import DescriptionError, Severity
+from orchestra.fields import replace
 from orchestra.supervise.keeping.marks import RUN
 from orchestra.supervise.resolver import document
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import os
 import sys
 from contextlib import nullcontext
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.cli import boundary, launch_prefix, leaving, severities
 from orchestra.errors import DescriptionError, Problems, Severity, UsageError
+from orchestra.fields import replace
 from orchestra.witness.observing import observer
 from orchestra.witness.variables import ObservedEnvironment
 
@@ -69,10 +69,10 @@ def inputs_of(words: Sequence[str], options: Namespace) -> Inputs:
         given = pipeline.inputs_from(words, environment=os.environ, params_files=options.params_file)
         environment = ObservedEnvironment(given.environment, watching)
     if watching.active:
-        given = dataclasses.replace(given, environment=environment)
+        given = replace(given, environment=environment)
     debug, noninteractive = getattr(options, "debug", False), getattr(options, "noninteractive", True)
     weights = severities.given(options)
-    return dataclasses.replace(given, debug=debug, noninteractive=noninteractive, severity=weights)
+    return replace(given, debug=debug, noninteractive=noninteractive, severity=weights)
 
 
 def plan_from(options: Namespace, *, launching: bool) -> Plan:
@@ -84,7 +84,7 @@ def plan_from(options: Namespace, *, launching: bool) -> Plan:
 
     file, given = file_and_inputs(options)
     with nullcontext() if launching else leaving.contained():
-        plan = pipeline.make_plan(file, dataclasses.replace(given, launching=launching))
+        plan = pipeline.make_plan(file, replace(given, launching=launching))
     if options.strict and plan.problems:
         raise DescriptionError(as_errors(plan.problems))
     return plan
@@ -122,4 +122,4 @@ def warnings_text(problems: tuple[Problem, ...], options: Namespace) -> str:
 
 def as_errors(problems: tuple[Problem, ...]) -> tuple[Problem, ...]:
     """Return the problems, warnings turned into errors."""
-    return tuple(dataclasses.replace(problem, severity=Severity.ERROR) for problem in problems)
+    return tuple(replace(problem, severity=Severity.ERROR) for problem in problems)

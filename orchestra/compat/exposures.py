@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import field
 from typing import Any
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 
 
 @dataclass(slots=True)

@@ -7,12 +7,12 @@ lost: code that uses it stops in silence, as its fault has been told.
 from __future__ import annotations
 
 import sysconfig
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.faulty_call import FaultyCall
 from orchestra.compat.place import Place, here, is_own
 from orchestra.compat.syntax_trees import Tree, is_dealt_with
+from orchestra.fields import replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import ast
 import re
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -13,6 +12,7 @@ from orchestra.compat.place import Argument
 from orchestra.compat.source_text import quoted_in, text_at
 from orchestra.compat.syntax_trees import tree_of
 from orchestra.errors import Code
+from orchestra.fields import replace
 from orchestra.nearest import nearest
 
 if TYPE_CHECKING:

@@ -17,7 +17,6 @@ from __future__ import annotations
 
 import signal
 from collections.abc import Mapping
-from dataclasses import fields
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.control import protocol
@@ -27,6 +26,7 @@ from orchestra.control.selection import UnmatchedError, select
 from orchestra.control.subscribers import Subscribers
 from orchestra.control.waiting import Waiting
 from orchestra.dataclass import dataclass
+from orchestra.fields import fields
 from orchestra.supervise.operation import Operation, Standing
 
 if TYPE_CHECKING:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import tempfile
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -20,6 +19,7 @@ from orchestra.convert.writers import WRITERS
 from orchestra.dataclass import dataclass
 from orchestra.description.launch import Description
 from orchestra.errors import DescriptionError, UsageError
+from orchestra.fields import replace
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

@@ -9,7 +9,6 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from contextlib import contextmanager
-from dataclasses import field
 from importlib.util import decode_source
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -20,6 +19,7 @@ from orchestra.dataclass import dataclass
 from orchestra.description.entity import Action
 from orchestra.description.text import Template
 from orchestra.errors import DescriptionError, Problems
+from orchestra.fields import field
 from orchestra.load.encodings import decoded
 from orchestra.load.files import load
 from orchestra.resolve.command_line import inputs_from

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import field
-
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.location import Span
 
 

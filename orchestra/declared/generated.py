@@ -8,7 +8,6 @@ generate_parameter_library (YAML syntax, mapped parameters, validators).
 
 from __future__ import annotations
 
-from dataclasses import field, replace
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.dataclass import dataclass
@@ -19,6 +18,7 @@ from orchestra.declared.kinds import FIXED, NONE, TYPES, is_leaf, is_type
 from orchestra.declared.model import Declarations, Parameter, RosType
 from orchestra.declared.rules import objections
 from orchestra.errors import Code, Problems
+from orchestra.fields import field, replace
 from orchestra.nearest import is_slip, nearest
 
 if TYPE_CHECKING:

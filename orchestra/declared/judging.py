@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from itertools import product
 from typing import TYPE_CHECKING
 
@@ -14,6 +13,7 @@ from orchestra.declared.model import Declarations, Fault, Parameter
 from orchestra.declared.rules import objections
 from orchestra.declared.texts import shown, types_of
 from orchestra.declared.typing_of_values import is_taken, rewritten, type_of
+from orchestra.fields import replace
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping

@@ -10,12 +10,12 @@ distance of allowed values from `minimum`.
 from __future__ import annotations
 
 import re
-from dataclasses import field
 from typing import TYPE_CHECKING, Any, Final, get_args
 
 from orchestra.dataclass import dataclass
 from orchestra.declared.model import Declarations, Parameter, RosType, Undeclared
 from orchestra.declared.rules import OneOf, Range, Rule, Size, Unique
+from orchestra.fields import field
 
 if TYPE_CHECKING:
     from collections.abc import Mapping

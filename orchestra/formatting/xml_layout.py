@@ -5,10 +5,10 @@ An element with text in it is taken over as it stands: blanks may mean something
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.formatting.lines import Line, Tail, joined, shifted
 from orchestra.formatting.xml_tree import Element, Part, Piece, parsed
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import re
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.formatting.lines import Line, Tail, joined
 from orchestra.formatting.yaml_nodes import File
 

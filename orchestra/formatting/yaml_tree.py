@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator
-from dataclasses import field
 from typing import Any, TypeAlias
 
 import yaml
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.formatting.refusal import NotFormatted
 from orchestra.formatting.yaml_comments import comments_between
 from orchestra.formatting.yaml_nodes import Document, File, Mapping, Node, Scalar, Sequence

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from dataclasses import field
 from typing import TYPE_CHECKING, Any
 
 from orchestra.dataclass import dataclass, maker
 from orchestra.description.source import Keyed, Listed, Verbatim, Written
+from orchestra.fields import field
 from orchestra.location import Span
 from orchestra.patterns import pattern
 

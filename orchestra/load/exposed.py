@@ -5,11 +5,11 @@ What parses them is code of theirs, which hands back objects; these stand in the
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.seam import is_connected
 from orchestra.errors import Problems
+from orchestra.fields import replace
 
 if TYPE_CHECKING:
     from orchestra.description.entity import Action

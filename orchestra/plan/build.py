@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import maker
+from orchestra.fields import replace
 from orchestra.plan.awaited import life, readiness
 from orchestra.plan.checks.table import check_all
 from orchestra.plan.command import command

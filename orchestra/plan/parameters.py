@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
+from orchestra.fields import field
 from orchestra.location import is_python
 from orchestra.nearest import nearest
 from orchestra.plan import candidates

@@ -6,9 +6,9 @@ Such a plan says the same wherever it is made, so that it can be committed and c
 from __future__ import annotations
 
 import re
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from orchestra.fields import replace
 from orchestra.plan.digest import digest
 from orchestra.plan.relocated import rewritten
 

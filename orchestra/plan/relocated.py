@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-import dataclasses
 from typing import TYPE_CHECKING, Any, TypeVar
+
+from orchestra.fields import fields, is_dataclass, replace
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -32,12 +33,12 @@ def _rewritten(value: Any, change: Callable[[str], str]) -> Any:  # noqa: ANN401
         changed = {_rewritten(key, change): _rewritten(item, change) for key, item in value.items()}
         same = all(map(_same, changed, value)) and all(map(_same, changed.values(), value.values()))
         return value if same else changed
-    if dataclasses.is_dataclass(value) and type(value).__module__.startswith("orchestra."):
+    if is_dataclass(value) and type(value).__module__.startswith("orchestra."):
         record: Any = value
-        fields = {entry.name: getattr(record, entry.name) for entry in dataclasses.fields(record)}
-        changed = {name: _rewritten(item, change) for name, item in fields.items()}
-        same = all(map(_same, changed.values(), fields.values()))
-        return value if same else dataclasses.replace(record, **changed)
+        values = {entry.name: getattr(record, entry.name) for entry in fields(record)}
+        changed = {name: _rewritten(item, change) for name, item in values.items()}
+        same = all(map(_same, changed.values(), values.values()))
+        return value if same else replace(record, **changed)
     return value
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import field
 from typing import Any, Literal, NamedTuple, Protocol, TypeAlias
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.values import ParameterValue
 
 Fact: TypeAlias = Literal[

@@ -16,11 +16,11 @@ import signal
 import subprocess
 import sys
 import time
-from dataclasses import field
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.resolve.command_reaper import children, kill, set_subreaper
 from orchestra.resolve.context import CommandResult
 

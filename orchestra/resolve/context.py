@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from collections.abc import Set as AbstractSet
-from dataclasses import field
 from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias
 
 from orchestra.dataclass import dataclass, maker
 from orchestra.description.text import Opaque
 from orchestra.errors import Problems
+from orchestra.fields import field
 from orchestra.location import Location, Span
 
 if TYPE_CHECKING:

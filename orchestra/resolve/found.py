@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import Any
 
 from orchestra.dataclass import dataclass
 from orchestra.description.entity import Conditional
 from orchestra.errors import Problems
+from orchestra.fields import field
 from orchestra.location import Location
 from orchestra.resolve.model import ResolvedArgument, ResolvedComponent, ResolvedProcess, ResolvedSkip
 from orchestra.resolve.occasions import Occasion

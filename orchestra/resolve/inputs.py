@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
 from typing import Final
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.location import Span
 
 ASSIGNED: Final = ":="

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol
 
 from orchestra.description.fields import FLAG_WORDS
 from orchestra.errors import Code
+from orchestra.fields import replace
 from orchestra.location import is_python
 from orchestra.nearest import nearest
 from orchestra.resolve.booleans import boolean

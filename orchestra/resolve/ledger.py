@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import field
-
 from orchestra.dataclass import dataclass
 from orchestra.description.entity import Conditional
+from orchestra.fields import field
 from orchestra.location import Location
 
 

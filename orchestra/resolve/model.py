@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
 from typing import Any, Literal, TypeAlias
 
 from orchestra.dataclass import dataclass, maker
+from orchestra.fields import field
 from orchestra.location import Location, Span
 from orchestra.resolve.awaited import ResolvedAlive, ResolvedReady
 from orchestra.resolve.context import Read, Value

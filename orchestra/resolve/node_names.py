@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
+from orchestra.fields import replace
 from orchestra.resolve.context import Evaluated, Poison
 from orchestra.resolve.names import mended, node_name_fault
 from orchestra.resolve.refusals import refuse_value

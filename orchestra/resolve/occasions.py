@@ -7,10 +7,10 @@ they are kept open; `settling` makes triggers of them when the visit is over.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import field
 from typing import Any, Literal, TypeAlias
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.location import Location
 from orchestra.resolve.reactions import TriggeredAction
 from orchestra.values import EventName

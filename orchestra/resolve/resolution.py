@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
-from dataclasses import field, replace
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from orchestra.dataclass import dataclass
@@ -12,6 +11,7 @@ from orchestra.description.entity import Action
 from orchestra.description.fields import FLAG_WORDS
 from orchestra.description.launch import Description
 from orchestra.errors import Code, Problems
+from orchestra.fields import field, replace
 from orchestra.location import Location, Span
 from orchestra.nearest import nearest
 from orchestra.resolve.booleans import boolean

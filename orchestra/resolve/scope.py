@@ -10,11 +10,11 @@ inner scope ends. So a description costs as much as it is long, however much is 
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import field, replace
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
+from orchestra.fields import field, replace
 from orchestra.location import Location, Span
 from orchestra.resolve.context import POISON, Evaluated, Read, Setter, Value, new_read
 from orchestra.resolve.ledger import Ledger

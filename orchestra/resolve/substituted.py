@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from bisect import bisect_right
 from collections.abc import Callable
-from dataclasses import field, replace
 from typing import TYPE_CHECKING, TypeAlias
 
 from orchestra.dataclass import dataclass
 from orchestra.description.text import Words
 from orchestra.errors import Problems
+from orchestra.fields import field, replace
 from orchestra.load.grammar import parse_template
 from orchestra.load.offsets import Source, source
 from orchestra.resolve.context import Value

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
 from typing import Final
 
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Severity
+from orchestra.fields import field
 from orchestra.nearest import nearest
 from orchestra.settings.globs import covers
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import os
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.errors import Code, Problems
+from orchestra.fields import replace
 from orchestra.location import Span, displayed, point
 from orchestra.nearest import nearest
 from orchestra.settings.model import LEVELS, Override, Settings, code_meant

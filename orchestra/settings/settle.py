@@ -5,11 +5,11 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 from collections.abc import Set as AbstractSet
-from dataclasses import field, replace
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems, Severity
+from orchestra.fields import field, replace
 from orchestra.settings.comments import Ignore, ignores
 from orchestra.settings.find import Finder
 from orchestra.settings.model import LASTING, OFF, Settings, code_meant

@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import re
 import tomllib
-from dataclasses import field
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.location import Span
 
 if TYPE_CHECKING:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import os
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra import pipeline
 from orchestra.errors import DescriptionError
+from orchestra.fields import replace
 from orchestra.testing.launching import file_of
 
 if TYPE_CHECKING:

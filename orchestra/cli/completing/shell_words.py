@@ -6,9 +6,8 @@ the middle of a word of the shell: in `world:=m` it is `m` (bash manual, "Progra
 
 from __future__ import annotations
 
-from dataclasses import field
-
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 
 _SPECIAL = frozenset("\\\"'`$&;()<>|*?[]{}!# \t\n")
 _BLANKS = " \t\n"

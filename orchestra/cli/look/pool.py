@@ -15,10 +15,10 @@ import sys
 import time
 import traceback
 from contextlib import suppress
-from dataclasses import field
 from typing import TYPE_CHECKING, Any, Final, Generic, TypeVar
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.resolve.command_reaper import end_with_parent
 
 if TYPE_CHECKING:

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, NamedTuple
 
 from orchestra.compat.seam import connection, is_connected
 from orchestra.errors import Problems
+from orchestra.fields import replace
 from orchestra.load.files import PYTHON, load
 from orchestra.witness.looking import signature
 from orchestra.witness.observing import observer

@@ -7,7 +7,6 @@ in the repository, and unlike an archive it leaves no file out.
 from __future__ import annotations
 
 import contextlib
-import dataclasses
 import os
 import subprocess
 import tempfile
@@ -18,6 +17,7 @@ from typing import TYPE_CHECKING
 from orchestra.cli.planning import sources
 from orchestra.dataclass import dataclass
 from orchestra.errors import DescriptionError, RunError, UsageError
+from orchestra.fields import replace
 from orchestra.location import is_file
 from orchestra.plan.portable import redigested
 from orchestra.plan.relocated import rewritten
@@ -88,7 +88,7 @@ def made(revision: Revision, words: Sequence[str], options: Namespace) -> Made:
             except DescriptionError as error:
                 raise UsageError(_told(error, label)) from None
     plan = rewritten(found.plan, lambda text: text.replace(str(copy), str(revision.root)))
-    return dataclasses.replace(found, plan=redigested(plan), label=" ".join([label, *words]))
+    return replace(found, plan=redigested(plan), label=" ".join([label, *words]))
 
 
 def _told(error: DescriptionError, label: str) -> str:

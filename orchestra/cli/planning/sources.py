@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import dataclasses
 import os
 import re
 from pathlib import Path
@@ -12,6 +11,7 @@ from orchestra import pipeline
 from orchestra.cli import inputs, launch_prefix, leaving
 from orchestra.dataclass import dataclass
 from orchestra.errors import DescriptionError, Problems, UsageError
+from orchestra.fields import field, replace
 from orchestra.location import displayed, is_file
 from orchestra.plan import codec
 from orchestra.plan.model import Plan
@@ -38,7 +38,7 @@ class Made:
     plan: Plan
     label: str
     file: str | None
-    files: dict[str, bytes] = dataclasses.field(default_factory=dict)
+    files: dict[str, bytes] = field(default_factory=dict)
 
 
 def made(options: Namespace) -> Made:
@@ -64,9 +64,7 @@ def from_file(
     problems = Problems()
     with (
         leaving.contained(),
-        pipeline.opened(
-            file, dataclasses.replace(given, launching=False), problems, packages=packages
-        ) as launch,
+        pipeline.opened(file, replace(given, launching=False), problems, packages=packages) as launch,
     ):
         if launch is None or problems.errors:
             raise DescriptionError(problems.ordered)

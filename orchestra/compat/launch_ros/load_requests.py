@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import field
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -11,6 +10,7 @@ from orchestra.compat.launch_ros.utilities.evaluate_parameters import evaluate_p
 from orchestra.compat.launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
 from orchestra.compat.launch_ros.utilities.to_parameters_list import to_parameters_list
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 
 if TYPE_CHECKING:
     from collections.abc import Iterable

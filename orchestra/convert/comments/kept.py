@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import field
-
 from orchestra.convert.tree import NONE, Notes
 from orchestra.dataclass import dataclass
 from orchestra.description.entity import Entity
+from orchestra.fields import field
 
 
 @dataclass(slots=True)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import field
 from typing import Any
 
 from orchestra.dataclass import dataclass
 from orchestra.declared.common import is_common
+from orchestra.fields import field
 
 
 @dataclass(frozen=True, slots=True)

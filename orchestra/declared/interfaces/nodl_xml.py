@@ -7,7 +7,6 @@ An `interface` holds `node`s with `name` and `executable`; in them are `topic`, 
 
 from __future__ import annotations
 
-from dataclasses import field
 from pathlib import Path
 from typing import Final
 from xml.parsers import expat
@@ -16,6 +15,7 @@ from orchestra.dataclass import dataclass
 from orchestra.declared.interfaces.model import Endpoint, EndpointKind, Interface, Qos
 from orchestra.declared.interfaces.words import full_type, policy
 from orchestra.errors import Code, Problems
+from orchestra.fields import field
 from orchestra.location import Location, Span, displayed, point
 from orchestra.nearest import nearest
 

@@ -7,11 +7,11 @@ namespace, one whose name is that of the node mistyped. What is missing without 
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING, TypeAlias
 
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code
+from orchestra.fields import field
 from orchestra.location import Location
 from orchestra.plan.ids import node_name
 from orchestra.resolve.model import FileParameters, ResolvedProcess

@@ -5,10 +5,10 @@ Namespaces are groups, processes, components and triggers are nodes, and what wa
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.plan.reactions import (
     ChangeStateAction,
     LoadAction,

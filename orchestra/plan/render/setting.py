@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
-from dataclasses import field
 from typing import TypeAlias
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 
 Paint: TypeAlias = Callable[[str, str], str]
 

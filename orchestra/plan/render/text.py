@@ -7,10 +7,10 @@ The same plan always gives the same text.
 from __future__ import annotations
 
 import shlex
-from dataclasses import field
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.location import Span
 from orchestra.plan.model import Process
 from orchestra.plan.render.details import labelled, process_details, process_kind, scalar

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
+from orchestra.fields import replace
 from orchestra.resolve.occasions import Occasion, OpenEvent
 
 if TYPE_CHECKING:

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from orchestra.fields import replace
 from orchestra.resolve.occasions import Occasion, OpenEvent
 from orchestra.resolve.python.calling import user_code
 from orchestra.resolve.python.deferral import copied

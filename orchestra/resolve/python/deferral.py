@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import copy
-import dataclasses
 from typing import TYPE_CHECKING, Any, Literal
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import fields, replace
 from orchestra.location import Location
 from orchestra.resolve.context import Context
 from orchestra.resolve.ledger import Ledger
@@ -51,7 +51,7 @@ def put_off(deferred: Deferred, location: Location, run: Resolution) -> None:
 def defer(deferred: Deferred, location: Location, run: Resolution) -> int:
     """Keep code for later; return the number under which it is kept."""
     scope = copied(run.scope)
-    context = dataclasses.replace(
+    context = replace(
         run.context, variables=scope, environment=scope.environment, parameters=scope.parameter_texts
     )
     run.found.kept.append(Kept(deferred, location, scope, context, run.frames))
@@ -61,7 +61,7 @@ def defer(deferred: Deferred, location: Location, run: Resolution) -> int:
 def copied(scope: Scope) -> Scope:
     """Return a scope that is changed without the other, and whose reads and writes are nobody else's."""
     other = copy.copy(scope)
-    for entry in dataclasses.fields(scope):
+    for entry in fields(scope):
         value = getattr(scope, entry.name)
         if isinstance(value, dict | list):
             setattr(other, entry.name, copy.copy(value))

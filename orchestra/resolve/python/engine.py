@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.explanation import told
@@ -18,6 +17,7 @@ from orchestra.description.actions.stacks import (
     PushLaunchConfigurations,
 )
 from orchestra.errors import Code, Problems
+from orchestra.fields import replace
 from orchestra.location import Location
 from orchestra.resolve.arguments import lacking
 from orchestra.resolve.context import Value

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
 from importlib.metadata import entry_points
 from typing import TYPE_CHECKING, Any, Final
 
@@ -10,6 +9,7 @@ from orchestra.compat.launch_ros.actions.node import Node
 from orchestra.compat.seam import connection
 from orchestra.compat.text import normalized
 from orchestra.errors import Code
+from orchestra.fields import replace
 from orchestra.resolve.python.calling import user_code
 
 if TYPE_CHECKING:

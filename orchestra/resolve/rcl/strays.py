@@ -7,13 +7,13 @@ is missing, at the key that lacks it, and of a line that is indented too little 
 from __future__ import annotations
 
 import re
-from dataclasses import field
 from typing import TYPE_CHECKING, Final
 
 import yaml
 
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
+from orchestra.fields import field
 from orchestra.location import Location, Span
 from orchestra.nearest import nearest
 from orchestra.patterns import pattern

@@ -8,10 +8,10 @@ Source: `rcl_yaml_param_parser` (`parse_key`, `parse_value`), rclpy and rclcpp f
 from __future__ import annotations
 
 from bisect import insort
-from dataclasses import field
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.resolve.rcl.sections import Entry
 
 if TYPE_CHECKING:

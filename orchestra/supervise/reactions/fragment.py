@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import json
 from collections import Counter
-from dataclasses import replace
 from graphlib import CycleError, TopologicalSorter
 from typing import TYPE_CHECKING, Any
 
 from orchestra.dataclass import dataclass
 from orchestra.errors import Problem, Severity
+from orchestra.fields import replace
 from orchestra.location import Location
 from orchestra.plan import codec
 from orchestra.plan.model import Component, Process
