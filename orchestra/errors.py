@@ -11,18 +11,18 @@ Everything else stops by raising:
 
 from __future__ import annotations
 
-import re
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
 from orchestra.fields import field
 from orchestra.location import Location, Span
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
-_BREAKS = re.compile(r"\s*[\n\r\x0b\x0c\x85\u2028\u2029]\s*")
+_BREAKS = pattern(r"\s*[\n\r\x0b\x0c\x85\u2028\u2029]\s*")
 
 
 class Severity(StrEnum):
@@ -172,6 +172,11 @@ class Problems:
         for problem in map(amended, found.values()):
             if problem is not None:
                 self.report(problem)
+
+    def forget(self, code: Code, first: int) -> None:
+        """Forget the problems of a code but for those among the first so many."""
+        found = enumerate(self._found.items())
+        self._found = {key: known for at, (key, known) in found if at < first or known.code is not code}
 
     def __iter__(self) -> Iterator[Problem]:
         return iter(self._found.values())

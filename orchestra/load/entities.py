@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import field
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from pydantic import ValidationError
 
@@ -12,6 +11,7 @@ from orchestra.description.actions import model_of
 from orchestra.description.launch import Description, Launch
 from orchestra.description.source import Keyed, Listed, Written, kind_of, texts_in
 from orchestra.errors import Code
+from orchestra.fields import field
 from orchestra.load.elements import Tagged, beginning_of, emptied
 from orchestra.load.exposed import exposed_action, exposes_action
 from orchestra.load.keys import action_meant, spelled
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from orchestra.description.entity import Action, Entity
     from orchestra.location import Span
 
+PARAMETERS: Final = "this is a parameter file, not a launch file"
+_SECTION: Final = "ros__parameters"
 _EntityT = TypeVar("_EntityT", bound="Entity")
 
 
@@ -31,6 +33,9 @@ def describe(tree: Any, path: str, file: str, reader: Reader) -> Description | N
     if not isinstance(tree, Keyed):
         message = "a launch file is a mapping with the key 'launch'"
         reader.error(Code.WRONG_TYPE, message, beginning_of(tree, tree.span))
+        return None
+    if "launch" not in tree and any(map(_has_parameters, tree.values())):
+        reader.error(Code.MISSING_KEY, PARAMETERS, beginning_of(tree, tree.span))
         return None
     root = reader.keys(frozenset({"launch"}), tree, frozenset({"launch"}))
     if "launch" not in root:
@@ -199,6 +204,15 @@ def _with_children(content: Keyed, children: tuple[Action, ...]) -> Keyed:
     built.keys_at, built.lossy, built.meant = content.keys_at, content.lossy, content.meant
     built["children"] = children
     return built
+
+
+def _has_parameters(content: Any, deep: int = 3) -> bool:  # noqa: ANN401 - a tree
+    """Return whether a mapping is that of a node in a parameter file, or of namespaces so deep at most."""
+    if not isinstance(content, Keyed):
+        return False
+    return _SECTION in content or (
+        deep > 0 and any(_has_parameters(inner, deep - 1) for inner in content.values())
+    )
 
 
 def _is_action(name: str) -> bool:

@@ -23,6 +23,7 @@ from orchestra.load.parts import Parts
 from orchestra.load.repeated import known_template, placed
 from orchestra.load.signatures import excess, lack, meant, usage
 from orchestra.location import Span
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -32,13 +33,13 @@ if TYPE_CHECKING:
 # How deep substitutions may nest: far more than anybody writes, far from the interpreter's recursion limit.
 DEEPEST: Final = 50
 
-_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
-_KEPT_QUOTES = re.compile(r"""(['"])([^'" ()$\\]*)\1(?=[ )])""")
-_ESCAPE = re.compile(r"\\(.)", re.DOTALL)
+_NAME = pattern(r"[A-Za-z][A-Za-z0-9_-]*")
+_KEPT_QUOTES = pattern(r"""(['"])([^'" ()$\\]*)\1(?=[ )])""")
+_ESCAPE = pattern(r"\\(.)", re.DOTALL)
 _QUOTES = ("'", '"')
 # Characters without a meaning anywhere, and those without one outside an argument or in a quoted one.
-_PLAIN = re.compile(r"""[^$\\'" ()]+""")
-_QUOTED_PLAIN = re.compile(r"""[^$\\'"]+""")
+_PLAIN = pattern(r"""[^$\\'" ()]+""")
+_QUOTED_PLAIN = pattern(r"""[^$\\'"]+""")
 
 
 def parse_template(
@@ -80,6 +81,7 @@ class _Reader:
     problems: Problems
     at: int = 0
     faults: int = 0
+    crowded: int | None = None  # where the last one with too many arguments begins
     lost: bool = False  # an unterminated quote or too deep a nesting took the rest of the text
     others: bool = True  # who has added substitutions to the language is asked
 
@@ -98,7 +100,7 @@ class _Reader:
 
         A faulty one gives the substitutions among its arguments instead of itself.
         """
-        start, before = self.at, self.faults
+        start, before, told = self.at, self.faults, len(self.problems)
         if depth >= DEEPEST:
             self.fault(start, start + 2, f"substitutions are nested more than {DEEPEST} deep")
             self.at, self.lost = len(self.text), True
@@ -113,8 +115,8 @@ class _Reader:
             last = self.at
         if self.here == ")":
             self.at += 1
-        elif not self.lost:
-            self.fault(start, start + 2, "this substitution is not closed: a ')' is missing")
+        else:
+            self.not_closed(start, told, depth)
         call = Call(name, tuple(arguments), self.spans(start, self.at))
         known = len(self.problems)
         if name not in SIGNATURES:
@@ -127,6 +129,19 @@ class _Reader:
         if self.faults == before:
             return (call,)
         return tuple(part for argument in arguments for part in argument.parts if isinstance(part, Call))
+
+    def not_closed(self, start: int, told: int, depth: int) -> None:
+        """Report a substitution without an end, behind so many problems.
+
+        What else seems wrong within it follows from that: one with too many arguments has the end of this one.
+        """
+        if not self.lost:
+            self.problems.forget(Code.SUBSTITUTION_SYNTAX, told)
+            begin = self.crowded if self.crowded is not None and self.crowded > start else start
+            self.fault(begin, begin + 2, "this substitution is not closed: a ')' is missing")
+        line = self.text.find("\n", start)
+        if not depth and line >= 0:  # a file is read as one text: its other lines stay what they are
+            self.at, self.lost = line, False
 
     def name(self, start: int, within: str) -> tuple[str, Span | None]:
         """Read the name of a substitution; the span is None where it is malformed."""
@@ -232,7 +247,7 @@ class _Reader:
         if told := lack(name, number):
             self.fault(start, self.at, told, notes=notes)
         elif told := excess(name, number):
-            phrase = SIGNATURES[name].phrase
+            self.crowded, phrase = start, SIGNATURES[name].phrase
             self.fault(
                 first, last, told, suggestion=self.in_quotes(first, last) if phrase else None, notes=notes
             )

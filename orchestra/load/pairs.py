@@ -26,6 +26,17 @@ def written_list(key: str, content: Any) -> str | None:  # noqa: ANN401 - a tree
     return shortened(f"{key}: [{_items(content, _LISTS[key])}]", _LONGEST)
 
 
+def written_as_list(content: Any) -> str | None:  # noqa: ANN401 - a tree
+    """Return the list that a flow mapping of nothing but keys was meant to be, as `{a, b}`; None for anything else."""
+    if not isinstance(content, Keyed) or not content or min(content.keys_at.values()) <= content.span:
+        return None
+    if not all(isinstance(value, Written) and value.null for value in content.values()):
+        return None
+    span = content.span
+    keys = [_value(Written(key, at, lambda _first, _last: span)) for key, at in content.keys_at.items()]
+    return f"[{', '.join(keys)}]"
+
+
 def written_item(known: AbstractSet[str], content: Keyed) -> tuple[tuple[str, str], str] | None:
     """Return the keys that an item lacks which has a name as its only key, and how it is written.
 

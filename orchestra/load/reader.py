@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import re
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from orchestra.dataclass import dataclass
@@ -12,12 +10,14 @@ from orchestra.description.fields import STRAY_KEY
 from orchestra.description.source import Keyed, Listed, Verbatim, Written, kind_of
 from orchestra.description.text import Template, new_template, new_words
 from orchestra.errors import Code, Problems
+from orchestra.fields import replace
 from orchestra.load.braces import warn_of_braces
 from orchestra.load.elements import beginning_of, noun
 from orchestra.load.grammar import parse_template, sound_template, unescaped
 from orchestra.load.keys import known_keys
-from orchestra.load.pairs import written_list
+from orchestra.load.pairs import written_as_list, written_list
 from orchestra.location import Location, Span
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
@@ -34,7 +34,7 @@ _WANTED = {
     "tuple_type": "a list",
 }
 _QUOTES = ("'", '"')
-_HALF_QUOTED = re.compile(r"""[^\s"']*[^\s"'0-9]["']""")
+_HALF_QUOTED = pattern(r"""[^\s"']*[^\s"'0-9]["']""")
 _LISTS = ("list_type", "tuple_type")
 
 
@@ -131,7 +131,7 @@ class Reader:
             message = "expected at least one item, found none"
         else:
             message = error["msg"]
-        suggestion = error.get("ctx", {}).get("suggestion")
+        suggestion = error.get("ctx", {}).get("suggestion") or written_as_list(error["input"])
         instead = written_list(str(place[-1]), error["input"]) if kind in _LISTS else None
         notes = () if instead is None else (f"it is written {instead}",)
         head, value = _way(mapping, place)

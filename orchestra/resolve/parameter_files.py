@@ -3,21 +3,22 @@
 from __future__ import annotations
 
 import os
-from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code, Problems, Severity
+from orchestra.fields import replace
 from orchestra.location import displayed
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import FileParameters
+from orchestra.resolve.other_kinds import refused_as_parameters
 from orchestra.resolve.paths import beside, existing_file, folder_of, near_path
 from orchestra.resolve.rcl.files import read_parameter_file, read_plain_file
 from orchestra.resolve.rcl.sections import included
 from orchestra.resolve.rcl.strays import SECTION_KEY
 from orchestra.resolve.substituted import Back, Reads, placed_back, substituted
-from orchestra.witness.once import once
+from orchestra.witness.once import once, real
 
 if TYPE_CHECKING:
     from orchestra.description.text import Template
@@ -105,7 +106,7 @@ def read_file(
     text = _text(path, location, run)
     if text is None:
         return None
-    file = once(("displayed", path, os.getcwd()), lambda: displayed(path))  # noqa: PTH109 - pathlib is slow
+    file = once(("displayed", path, os.getcwd()), lambda: displayed(path, real))  # noqa: PTH109 - pathlib is slow
     chain = (location.span, *location.included_from)
     back: Back | None = None
     reads: Reads = ()
@@ -116,6 +117,8 @@ def read_file(
         text, back, reads = evaluated
     bare = plain and SECTION_KEY not in text
     sections, found = _read(text, file, bare=bare)
+    if not sections and refused_as_parameters(path, text, location, run):
+        return None
     for problem in found:
         span = back(problem.span) if back is not None and problem.span is not None else problem.span
         run.problems.report(replace(problem, span=span, included_from=(*problem.included_from, *chain)))

@@ -8,12 +8,12 @@ that means is for the caller to say (upstream makes it one empty word).
 
 from __future__ import annotations
 
-from dataclasses import field
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
 from orchestra.description.text import Words
 from orchestra.errors import Code
+from orchestra.fields import field
 from orchestra.location import Span
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.evaluate import evaluate, perform
@@ -54,10 +54,29 @@ def _split(template: Template, context: Context) -> tuple[Value, ...] | Poison:
         return POISON
     splitter.end()
     for span, told in splitter.faults:
-        context.problems.error(Code.SUBSTITUTION_SYNTAX, told, context.at(span))
+        _report(told, span, context)
     return (
         POISON if splitter.faults else tuple(Value(word, context.at(span)) for word, span in splitter.words)
     )
+
+
+def _report(told: str, span: Span, context: Context) -> None:
+    """Report a fault; a warning of the quote in question, which nothing opens, gives way to it with its place."""
+    problems = context.problems
+    warned = [
+        known
+        for known in problems
+        if known.code is Code.SURPRISING_SCALAR and known.span is not None and _is_within(span, known.span)
+    ]
+    problems.amend(lambda known: None if known in warned else known)
+    place, instead = (warned[0].span or span, warned[0].suggestion) if warned else (span, None)
+    problems.error(Code.SUBSTITUTION_SYNTAX, told, context.at(place), suggestion=instead)
+
+
+def _is_within(span: Span, whole: Span) -> bool:
+    begin, end = (span.line, span.column), (span.end_line, span.end_column)
+    around = (whole.line, whole.column), (whole.end_line, whole.end_column)
+    return span.file == whole.file and around[0] <= begin and end <= around[1]
 
 
 @dataclass(slots=True)

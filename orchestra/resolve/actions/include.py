@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
+from orchestra.fields import replace
 from orchestra.load.files import PYTHON, has_format, unknown_format
 from orchestra.location import displayed, is_python
 from orchestra.resolve.arguments import Given, settle
@@ -15,6 +15,7 @@ from orchestra.resolve.declarations import check_twice
 from orchestra.resolve.dependencies import dependencies
 from orchestra.resolve.interpret import visit_file
 from orchestra.resolve.mentions import is_fixed
+from orchestra.resolve.other_kinds import refuse_included_parameters
 from orchestra.resolve.paths import existing_file, may_come
 from orchestra.resolve.python.calling import user_code
 from orchestra.resolve.python.deferral import Deferred, put_off
@@ -53,6 +54,8 @@ def visit(action: Include, run: Resolution) -> None:
             path = None
         description = _description(path, action, run) if path is not None else None
         if path is None or description is None:
+            if path is not None and isinstance(value, Value):
+                refuse_included_parameters(path, value.location, run)
             run.scope.ledger.incomplete = True
             continue
         with run.scope.nested() if run.flag(action.scoped) is True else nullcontext():

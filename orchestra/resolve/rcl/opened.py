@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import field
-
 import yaml
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.location import Location
 from orchestra.resolve.rcl.sections import Entry
 from orchestra.values import Scalar
@@ -43,3 +42,9 @@ class OpenList:
     written: list[yaml.Event] = field(default_factory=list)
     sound: bool = True
     inner: Location | None = None
+
+    def take(self, item: Scalar, event: yaml.ScalarEvent) -> None:
+        """Take an item; behind an inner list they begin anew."""
+        self.items = [] if self.items is None else self.items
+        self.items.append(item)
+        self.written.append(event)

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 import copy
-from dataclasses import field, replace
 from typing import TYPE_CHECKING
 
 import yaml
 
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
+from orchestra.fields import field, replace
 from orchestra.location import Location, Span
+from orchestra.resolve.rcl.hollow import Hollow
 from orchestra.resolve.rcl.joined import Joined, joined
 from orchestra.resolve.rcl.opened import OpenList, OpenParameter, OpenSection
 from orchestra.resolve.rcl.patterns import instead, pattern_fault
@@ -19,7 +20,7 @@ from orchestra.resolve.rcl.strays import SECTION_KEY, Key, Strays, is_misspelt_s
 from orchestra.resolve.rcl.values import scalar, span_of_events, terminated
 
 if TYPE_CHECKING:
-    from orchestra.values import ParameterValue, Scalar
+    from orchestra.values import ParameterValue
 
 _NESTED = "a parameter cannot be a list of lists"
 _NO_KEY, _NO_DOCUMENT = "a key must not be empty", "rcl does not take an empty document"
@@ -56,10 +57,11 @@ class Reader:
     lists: list[OpenList] = field(default_factory=list)
     emptied: Location | None = None
     strays: Strays = field(init=False)
+    hollow: Hollow = field(init=False)
     found: list[OpenSection] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.strays = Strays(self.problems)
+        self.strays, self.hollow = Strays(self.problems), Hollow(self.problems)
 
     def sections(self) -> tuple[Section, ...]:
         """Return the sections read so far."""
@@ -137,6 +139,7 @@ class Reader:
             self.surprise(
                 f"'{name}' stands inside itself: it is read as the parameter '{whole}'", self.at(event)
             )
+        self.hollow.key(name, self.depth)
         self.parameter = OpenParameter(whole, slot, self.at(event))
 
     def value(self, event: yaml.ScalarEvent) -> None:
@@ -147,23 +150,14 @@ class Reader:
         try:
             read = scalar(event)
         except ValueError:
-            tag = event.tag if event.tag is not None and event.tag.startswith("!") else None
-            at = self.at(event) if self.lists or tag else self.parameter.key
-            self.error(f"the parameter '{self.parameter.name}' has no value", at, tag and f"'{tag}'")
+            self.hollow.value(self.parameter, event, self.at(event), listed=bool(self.lists))
             self.drop()
             return
         if self.lists:
-            self.item(read, event)
+            self.lists[-1].take(read, event)
         else:
             self.emit(read, self.at(event))
             self.expects_key = True
-
-    def item(self, read: Scalar, event: yaml.ScalarEvent) -> None:
-        """Take an item of a list."""
-        current = self.lists[-1]
-        current.items = [] if current.items is None else current.items
-        current.items.append(read)
-        current.written.append(event)
 
     def drop(self) -> None:
         """Leave out the value at hand, which has been reported."""
@@ -197,6 +191,7 @@ class Reader:
         section = self.inside and self.depth == self.node.count + 3
         if self.inside and not section and self.parameter is not None:
             self.emit(None, self.at(event), opens=True)
+            self.hollow.mapping(event, self.depth)
         self.fresh = not section
         self.expects_key = True
 
@@ -215,6 +210,7 @@ class Reader:
         elif self.depth == self.node.count + 1:
             self.node.shrink()
         self.strays.end(self.depth)
+        self.hollow.end(event, self.depth, self.at)
         self.depth -= 1
         self.keys.pop()
         self.key_places.pop()
