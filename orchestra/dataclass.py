@@ -15,7 +15,7 @@ from reprlib import recursive_repr
 
 from orchestra.fields import UNWRITTEN, ForLibrary, fields, own_fields
 
-__all__ = ["dataclass", "maker"]
+__all__ = ["changer", "dataclass", "maker"]
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -272,4 +272,22 @@ def maker(cls: Callable[P, T]) -> Callable[P, T]:
     words = [_parameter(item, known) for item in items if item.init]
     exec("\n ".join([f"def make({', '.join(words)}):", *lines]), known)  # noqa: S102 - names of fields, which are identifiers
     made: Callable[P, T] = known["make"]
+    return made
+
+
+def changer(cls: Callable[..., T], name: str) -> Callable[[T, Any], T]:
+    """Return what makes an object like another one but for one field, as `replace` does, in a tenth of the time.
+
+    It is compiled, so that it pays where many objects are made anew; for classes as `maker` is.
+    """
+    frozen: Any = cls
+    slots = {"__slots__": frozen.__slots__, "__setattr__": object.__setattr__}
+    known: dict[str, Any] = {"_new": object.__new__, "_cls": cls}
+    known["_open"] = type(f"_Open{frozen.__name__}", frozen.__bases__, slots)
+    items: Any = fields(frozen)
+    lines = ["made = _new(_open)", f"made.{name} = value"]
+    lines += [f"made.{item.name} = record.{item.name}" for item in items if item.name != name]
+    lines += ["made.__class__ = _cls", "return made"]
+    exec("\n ".join(["def change(record, value):", *lines]), known)  # noqa: S102 - names of fields, which are identifiers
+    made: Callable[[T, Any], T] = known["change"]
     return made

@@ -6,10 +6,12 @@ A file of many nodes has the same few texts in it time and again.
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING, Final, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 from orchestra.description.text import Call, Words, new_call, new_template, new_words
 from orchestra.errors import Problems
+from orchestra.load.plain_calls import Part as _Part
+from orchestra.load.plain_calls import Shape, plain_shape
 from orchestra.location import Span
 
 if TYPE_CHECKING:
@@ -24,25 +26,6 @@ if TYPE_CHECKING:
 _SHORT: Final = 300
 
 
-class Shape(NamedTuple):
-    """A template without a place: offsets in the text stand for spans."""
-
-    parts: tuple[_Part, ...]
-    raw: str
-    begin: int
-    end: int
-    quoted: bool
-
-
-class _Part(NamedTuple):
-    """Words, or a call: its name, and its arguments."""
-
-    text: str
-    arguments: tuple[Shape, ...] | None
-    begin: int
-    end: int
-
-
 def known_template(text: str, parse: Parse) -> Shape | None:
     """Return what the template of a text looks like; None where there is something to tell of it."""
     return _known(text, parse) if len(text) <= _SHORT else None
@@ -50,6 +33,9 @@ def known_template(text: str, parse: Parse) -> Shape | None:
 
 @lru_cache(maxsize=1024)
 def _known(text: str, parse: Parse) -> Shape | None:
+    plain = plain_shape(text)
+    if plain is not None:
+        return plain
     found = Problems()
     template = parse(text, _columns, found)
     return None if len(found) else _shape(template)

@@ -38,11 +38,13 @@ class Targets:
             full = node_name(process)
             if full is not None:
                 self.nodes.setdefault(full, []).append(identity)
-            for name in {identity, process.label or process.executable}:
-                self.names.setdefault(name, []).append(identity)
+            called = process.label or process.executable
+            self.names.setdefault(identity, []).append(identity)
+            if called != identity:
+                self.names.setdefault(called, []).append(identity)
             for label in process.labels:
                 self.labels.setdefault(label, []).append(identity)
-            for action in {id(outer) for outer in process.around}:
+            for action in {id(outer) for outer in process.around} if process.around else ():
                 self.actions.setdefault(action, []).append(identity)
 
 
@@ -50,6 +52,8 @@ def dependencies(
     process: ResolvedProcess, identity: str, targets: Targets, problems: Problems
 ) -> tuple[Dependency, ...]:
     """Return what a process waits for. What is not there is reported, unless the process may do without it."""
+    if not process.depends_on:
+        return ()
     edges: dict[tuple[str, str], Dependency] = {}
     for written in process.depends_on:
         found = _found(written, process, targets)

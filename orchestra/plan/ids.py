@@ -45,7 +45,7 @@ def base_identity(process: ResolvedProcess | ResolvedComponent) -> str:
     elif process.kind == "process":
         return process.label or process.executable
     else:
-        unnamed = process.label or Path(process.executable).name
+        unnamed = process.label or (Path(process.executable).name if process.name is None else "")
     return full_name(namespace, process.name.text if process.name is not None else unnamed)
 
 

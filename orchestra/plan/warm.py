@@ -9,10 +9,11 @@ from __future__ import annotations
 
 import os
 import sys
-from dataclasses import replace
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from orchestra.plan.model import Warm
+from orchestra.dataclass import changer
+from orchestra.fields import replace
+from orchestra.plan.model import Process, Warm
 from orchestra.plan.startup import is_read_at_startup
 from orchestra.resolve.runnable import program_on_path
 from orchestra.witness.once import once
@@ -20,7 +21,7 @@ from orchestra.witness.once import once
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-    from orchestra.plan.model import Plan, Process
+    from orchestra.plan.model import Plan
 
 NOT_WANTED = "the description says so"
 # What begins with the interpreter, or before it, and would watch the server instead of the node.
@@ -33,6 +34,7 @@ _OF_MEMORY = ("as", "data", "stack", "memlock")
 _BEGINNING = 65536  # bytes of a script in which it is looked for what it imports
 _LONGEST_NAME = 15  # of a process (prctl(2), PR_SET_NAME)
 _ENV = "/usr/bin/env"
+_MANY = 50  # processes, from which on it pays to compile what changes them
 
 
 class Program(NamedTuple):
@@ -56,10 +58,15 @@ def warmed(plan: Plan, environment: Mapping[str, str]) -> Plan:
     """Return the plan with `warm` in each process; `environment` is the one in which it is started."""
     general = _general(environment)
     programs: dict[tuple[str, ...], Program | str] = {}
+    change = changer(Process, "warm") if len(plan.processes) > _MANY else _changed
     processes = tuple(
-        replace(process, warm=_of(process, environment, general, programs)) for process in plan.processes
+        change(process, _of(process, environment, general, programs)) for process in plan.processes
     )
     return replace(plan, processes=processes)
+
+
+def _changed(process: Process, warm: Warm) -> Process:
+    return replace(process, warm=warm)
 
 
 def _of(

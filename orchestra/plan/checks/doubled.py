@@ -38,7 +38,7 @@ def check_doubled(resolved: Resolved, plan: Plan, problems: Problems) -> None:
             continue
         own = [item for item in node.parameters if not item.everywhere and not is_python(item.location)]
         inline = [item for item in own if isinstance(item, InlineParameter)]
-        told = {item.name for item in inline if item.location.span in losing}
+        told = {item.name for item in inline if item.location.span in losing} if losing else set()
         _check_values(inline, told, problems)
         if inline and len(own) > len(inline):
             _check_files(own, node_name(node), sections, told, problems)
