@@ -40,6 +40,12 @@ COMMANDS: Final[dict[str, Command]] = {
         "orchestra.cli.schema",
         "print the JSON Schema of files, or capture that of a running node",
     ),
+    "node": Command("orchestra.cli.ros.node", "show the nodes that run, and what they have"),
+    "topic": Command("orchestra.cli.ros.topic", "show topics and their messages, publish some"),
+    "service": Command("orchestra.cli.ros.service", "show services and call them"),
+    "param": Command("orchestra.cli.ros.param", "show and set parameters of running nodes"),
+    "action": Command("orchestra.cli.ros.action", "show actions and send goals to them"),
+    "lifecycle": Command("orchestra.cli.ros.lifecycle", "show and change the states of lifecycle nodes"),
     "completion": Command(
         "orchestra.cli.completion", "print what makes a shell complete these command lines"
     ),

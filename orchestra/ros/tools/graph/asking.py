@@ -1,0 +1,81 @@
+"""Calling services of nodes, within a time."""
+
+from __future__ import annotations
+
+import time
+from typing import TYPE_CHECKING, Any
+
+from orchestra.errors import RunError
+from orchestra.ros.observer.service import Service
+from orchestra.ros.tools.graph.names import absolute, nodes, services, unknown
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from orchestra.ros.tools.graph.joining import Graph
+
+
+class Deadline:
+    """The one time, in seconds, that all questions of a command have together; None for no end."""
+
+    def __init__(self, seconds: float | None) -> None:
+        self.seconds = seconds
+        self._until = None if seconds is None else time.monotonic() + seconds
+
+    @property
+    def left(self) -> float | None:
+        """How much of it is left."""
+        return None if self._until is None else max(0.0, self._until - time.monotonic())
+
+    def __str__(self) -> str:
+        return f"{self.seconds:g} s"
+
+
+def ask(
+    graph: Graph,
+    kind: Any,  # noqa: ANN401 - a class of an untyped package
+    service: str,
+    request: Any,  # noqa: ANN401 - as above
+    deadline: Deadline,
+    *,
+    repeat: bool = True,
+    asking: Callable[[], None] = lambda: None,
+) -> Any:  # noqa: ANN401 - as above
+    """Return the response of a service; `repeat` says that a question does no harm twice, `asking` is told before it.
+
+    Raises `RunError` where the service is not there, or does not answer, in time.
+    """
+    client = Service(graph.node, kind, service)
+    answers: list[Any] = []
+    try:
+        if not graph.wait(lambda: client.ready, deadline.left):
+            known = [name for name, _ in services(graph, every=False)]
+            if service in known:
+                raise RunError(f"the service {service} was not reached within {deadline}")
+            raise unknown("service", service, known)
+        asking()
+        client.ask(request, answers.append, repeat=repeat)
+
+        def answered() -> bool:
+            client.look()
+            return bool(answers)
+
+        if not graph.wait(answered, deadline.left):
+            raise RunError(f"the service {service} did not answer within {deadline}")
+    finally:
+        client.close()
+    if answers[0] is None:
+        raise RunError(f"the service {service} has failed")
+    return answers[0]
+
+
+def node_there(graph: Graph, name: str, deadline: Deadline, *, every: bool = True) -> str:
+    """Return the full name of a node that is there, waiting for it. Raises `RunError`."""
+    full = absolute(name)
+
+    def seen() -> bool:
+        return full in nodes(graph, every=every)
+
+    if not graph.found(seen) and not graph.wait(seen, deadline.left):
+        raise unknown("node", full, nodes(graph))
+    return full

@@ -1,0 +1,110 @@
+"""Knows when all of the graph has been seen.
+
+On this machine, with Fast DDS: when there are as many participants as ports of participants, and the nodes of each are
+known. Then what is seen must stay as it is for a moment, because the endpoints of a node are learned one by one. Where
+participants on other machines may answer, or with another middleware, the moment is longer, since nothing tells.
+"""
+
+from __future__ import annotations
+
+import os
+import time
+from typing import TYPE_CHECKING, Any, Final
+
+from rclpy.utilities import get_rmw_implementation_identifier
+
+from orchestra.ros.tools.graph.ports import own_port, ports_here
+from orchestra.ros.tools.graph.rollcall import RollCall
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from rclpy.node import Node
+
+# How long what is seen must stay as it is, in seconds: where participants are counted, and where they are not.
+_QUIET: Final = 0.1
+_QUIET_UNCOUNTED: Final = 0.5
+# After this time, a participant that names no node is taken to have none.
+_NAMELESS: Final = 0.5
+_CALL_AGAIN: Final = 0.4
+_DISCOVERY: Final = "ros_discovery_info"  # each participant of ROS publishes there which nodes it has
+_UNKNOWN: Final = "_NODE_NAME_UNKNOWN_"
+_OF_NODES: Final = ("/parameter_events", "/rosout")
+_PREFIX, _HOST = 12, 4
+
+
+class Attendance:
+    """Who is there of those who should be."""
+
+    def __init__(self, node: Node) -> None:
+        self._node = node
+        self._domain = node.context.get_domain_id()
+        self._counted = get_rmw_implementation_identifier() == "rmw_fastrtps_cpp"
+        alone = os.environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").upper() == "LOCALHOST"
+        self._quiet = _QUIET if self._counted and alone else _QUIET_UNCOUNTED
+        self._seen: Any = None
+        self._since = time.monotonic()
+        self._call: RollCall | None = None
+        self._called = -_CALL_AGAIN
+        self._nameless: tuple[frozenset[bytes], float] = (frozenset(), 0.0)
+
+    def settled(self, seen: Any) -> bool:  # noqa: ANN401 - whatever is looked for
+        """Tell whether nobody is missing, and this has been seen long enough."""
+        now = time.monotonic()
+        if seen != self._seen or not self._complete(now):
+            self._seen, self._since = seen, now
+        return now - self._since >= self._quiet
+
+    def close(self) -> None:
+        """End the roll call."""
+        if self._call is not None:
+            self._call.close()
+            self._call = None
+
+    def _complete(self, now: float) -> bool:
+        if not self._counted:
+            return True
+        ports = ports_here(self._domain)
+        found = self._participants()
+        own = self._own()
+        if not own:
+            return False
+        if len({one for one in found if one[:_HOST] == own[:_HOST]}) < len(ports):
+            self._call_missing(own, ports, now)
+            return False
+        self.close()
+        nameless = found - self._named()
+        if nameless != self._nameless[0]:
+            self._nameless = (frozenset(nameless), now)
+        return not nameless or now - self._nameless[1] > _NAMELESS
+
+    def _call_missing(self, own: bytes, ports: dict[int, str], now: float) -> None:
+        port = own_port(ports)
+        if port is None or now - self._called < _CALL_AGAIN:
+            return
+        if self._call is not None:
+            self._call.close()
+        self._call, self._called = RollCall(own[:_HOST], port), now
+        self._call.call(one for one in ports if one != port)
+
+    def _participants(self) -> frozenset[bytes]:
+        """Return the identities of the participants of which endpoints are known."""
+        endpoints = self._node.get_publishers_info_by_topic(_DISCOVERY, no_mangle=True)
+        return frozenset(bytes(endpoint.endpoint_gid[:_PREFIX]) for endpoint in endpoints)
+
+    def _named(self) -> frozenset[bytes]:
+        """Return those of which nodes are known."""
+        ask: Callable[[str], Any] = self._node.get_publishers_info_by_topic
+        return frozenset(
+            bytes(endpoint.endpoint_gid[:_PREFIX])
+            for topic in _OF_NODES
+            for endpoint in ask(topic)
+            if endpoint.node_name != _UNKNOWN
+        )
+
+    def _own(self) -> bytes:
+        """Return our own identity, nothing until it is known."""
+        for endpoint in self._node.get_publishers_info_by_topic(_OF_NODES[0]):
+            if endpoint.node_name == self._node.get_name():
+                return bytes(endpoint.endpoint_gid[:_PREFIX])
+        return b""

@@ -1,0 +1,103 @@
+"""A hidden node of ours in the graph, for as long as a command lasts."""
+
+from __future__ import annotations
+
+import os
+import time
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, Final, TypeVar
+
+import rclpy
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter
+from rclpy.signals import SignalHandlerOptions
+
+from orchestra.ros.tools.graph.attendance import Attendance
+
+if TYPE_CHECKING:
+    from argparse import Namespace
+    from collections.abc import Callable, Iterator
+
+    from rclpy.node import Node
+
+_SeenT = TypeVar("_SeenT")
+
+SPIN_TIME: Final = 3.5
+# rclpy hears of a signal between two waits.
+_PAUSE: Final = 0.1
+_LOOK: Final = 0.005
+# No log file: it would be a new one for each command.
+_ARGUMENTS: Final = ("--ros-args", "--disable-external-lib-logs")
+
+
+class Graph:
+    """What our node sees of the graph; `spin_time` is the longest time in seconds to wait until all of it is seen."""
+
+    def __init__(self, node: Node, spin_time: float) -> None:
+        self.node = node
+        self._began = time.monotonic()
+        self._spin_time = spin_time
+        self._attendance = Attendance(node)
+        self._executor = SingleThreadedExecutor(context=node.context)
+        self._executor.add_node(node)
+
+    def spin(self, seconds: float = _PAUSE) -> None:
+        """Let what has come in be heard, and wait for it at most so long."""
+        self._executor.spin_once(timeout_sec=min(seconds, _PAUSE))
+
+    def wait(self, holds: Callable[[], Any], seconds: float | None) -> bool:
+        """Wait until something holds, without end where no time is given; return whether it does."""
+        until = None if seconds is None else time.monotonic() + seconds
+        while not holds():
+            left = _PAUSE if until is None else until - time.monotonic()
+            if left <= 0:
+                return False
+            self.spin(left)
+        return True
+
+    def found(self, look: Callable[[], _SeenT]) -> _SeenT:
+        """Return the first that is seen and counts as true, else what is seen once all of the graph is."""
+        while not (seen := look()):
+            if self._is_whole(lambda: seen):
+                return look()
+        return seen
+
+    def whole(self, look: Callable[[], _SeenT]) -> _SeenT:
+        """Return what is seen once all of the graph is, and it stays as it is."""
+        while True:
+            seen = look()
+            if self._is_whole(lambda seen=seen: seen):  # type: ignore[misc]
+                return seen
+
+    def _is_whole(self, seen: Callable[[], Any]) -> bool:
+        """Tell whether nobody is missing and nothing changes any more; a moment passes otherwise."""
+        if self._attendance.settled(seen()) or time.monotonic() - self._began > self._spin_time:
+            return True
+        time.sleep(_LOOK)
+        return False
+
+    def close(self) -> None:
+        """Take back what was said to others to make them known."""
+        self._attendance.close()
+
+
+@contextmanager
+def joined(options: Namespace) -> Iterator[Graph]:
+    """Join the graph with a hidden node."""
+    rclpy.init(args=list(_ARGUMENTS), signal_handler_options=SignalHandlerOptions.NO)
+    try:
+        clock = [Parameter("use_sim_time", value=True)] if getattr(options, "use_sim_time", False) else []
+        node = rclpy.create_node(
+            getattr(options, "node_name", None) or f"_orchestra_{os.getpid()}",
+            start_parameter_services=False,
+            enable_rosout=False,
+            parameter_overrides=clock,
+        )
+        graph = Graph(node, float(getattr(options, "spin_time", SPIN_TIME)))
+        try:
+            yield graph
+        finally:
+            graph.close()
+            node.destroy_node()
+    finally:
+        rclpy.try_shutdown()

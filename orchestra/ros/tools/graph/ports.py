@@ -1,0 +1,47 @@
+"""Which participants this machine has in a domain, by the ports on which they hear of each other.
+
+Source: DDSI-RTPS 2.5, 9.6.2.4: the participant with the number n of a domain d hears of others on the UDP port
+7400 + 250 d + 10 + 2 n, and of messages on the next one. Fast DDS keeps to it unless its profiles say otherwise. Only
+where both are bound it is a participant: in the domains from 102 on, sockets of any program may come to have one.
+"""
+
+from __future__ import annotations
+
+import os
+from contextlib import suppress
+from pathlib import Path
+from typing import Final
+
+_BASE: Final = 7400
+_PER_DOMAIN: Final = 250
+_FIRST: Final = 10
+# The columns of /proc/net/udp (proc(5)): local address, inode.
+_LOCAL, _INODE = 1, 9
+
+
+def participants_ports(domain: int, table: str) -> dict[int, str]:
+    """Return the ports of participants of a domain in the text of /proc/net/udp, with the inode of each socket."""
+    first = _BASE + _PER_DOMAIN * domain + _FIRST
+    bound: dict[int, str] = {}
+    for line in table.splitlines()[1:]:
+        columns = line.split()
+        bound[int(columns[_LOCAL].rpartition(":")[2], 16)] = columns[_INODE]
+    theirs = range(first, first + _PER_DOMAIN - _FIRST, 2)
+    return {port: bound[port] for port in theirs if port in bound and port + 1 in bound}
+
+
+def ports_here(domain: int) -> dict[int, str]:
+    """Return those of this machine; none where it does not tell."""
+    try:
+        return participants_ports(domain, Path("/proc/self/net/udp").read_text("ascii"))
+    except OSError:
+        return {}
+
+
+def own_port(ports: dict[int, str]) -> int | None:
+    """Return the port that this process listens on."""
+    ours = set()
+    for descriptor in os.scandir("/proc/self/fd"):
+        with suppress(OSError):  # closed since
+            ours.add(os.readlink(descriptor.path))  # noqa: PTH115 - a text, as fast as it comes
+    return next((port for port, inode in ports.items() if f"socket:[{inode}]" in ours), None)
