@@ -12,7 +12,7 @@ import signal
 import sys
 
 import rclpy
-from lifecycle_msgs.msg import State as StateMessage  # type: ignore[import-untyped]  # as every ROS package
+from lifecycle_msgs.msg import State as StateMessage
 from rclpy.lifecycle import LifecycleNode, State, TransitionCallbackReturn
 from rclpy.signals import SignalHandlerOptions
 

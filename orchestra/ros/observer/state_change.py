@@ -12,7 +12,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
-from lifecycle_msgs.srv import ChangeState, GetState  # type: ignore[import-untyped]  # as every ROS package
+from lifecycle_msgs.srv import ChangeState, GetState
 
 from orchestra.ros.observer.order import OFTEN
 from orchestra.ros.observer.service import Service

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lifecycle_msgs.msg import TransitionEvent  # type: ignore[import-untyped]  # as every ROS package
+from lifecycle_msgs.msg import TransitionEvent
 
 if TYPE_CHECKING:
     from rclpy.node import Node

@@ -10,8 +10,8 @@ from __future__ import annotations
 import time
 from typing import TYPE_CHECKING, Any
 
-from lifecycle_msgs.msg import TransitionEvent  # type: ignore[import-untyped]  # as every ROS package
-from lifecycle_msgs.srv import GetState  # type: ignore[import-untyped]  # as above
+from lifecycle_msgs.msg import TransitionEvent
+from lifecycle_msgs.srv import GetState
 
 from orchestra.ros.observer.order import OFTEN
 from orchestra.ros.observer.service import Service
