@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from orchestra.compat.launch.substitution import Substitution
-from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
+from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution, text_of
 from orchestra.compat.wrong import WrongType
 from orchestra.description.text import new_template, new_words
 from orchestra.description.written import escaped
@@ -24,16 +24,18 @@ Sub: TypeAlias = str | Substitution | Iterable[str | Substitution]
 def normalized(subs: Sub) -> list[Substitution]:
     """Return a list of substitutions. Raises `TypeError` for anything else, as upstream."""
     if isinstance(subs, str):
-        return [TextSubstitution(text=subs)]
+        return [text_of(subs)]
     if isinstance(subs, Substitution):
         return [subs]
     if type(subs) is not list and not isinstance(subs, Iterable):
         raise WrongType(_wrong(subs), subs)
-    return [_one(item) for item in subs]
+    return [item if isinstance(item, Substitution) else _one(item) for item in subs]
 
 
 def template(subs: Sub, span: Span, *, quoted: bool = False) -> Template:
     """Return the template of some substitutions; those without a place of their own are at `span`."""
+    if isinstance(subs, list | tuple) and len(subs) == 1 and type(subs[0]) is TextSubstitution:
+        subs = subs[0].text
     if type(subs) is str:
         return new_template((new_words(subs, span),) if subs else (), escaped(subs), span, quoted)
     try:
@@ -51,9 +53,7 @@ def template(subs: Sub, span: Span, *, quoted: bool = False) -> Template:
 
 def _one(item: Any) -> Substitution:
     if isinstance(item, str):
-        return TextSubstitution(text=item)
-    if isinstance(item, Substitution):
-        return item
+        return text_of(item)
     raise WrongType(_wrong(item), item)
 
 

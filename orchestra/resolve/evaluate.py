@@ -21,8 +21,9 @@ def evaluate(template: Template, context: Context) -> Evaluated:
     parts = template.parts
     if len(parts) == 1 and type(parts[0]) is Words and not template.faulty:
         return new_value(parts[0].text, new_location(template.span, context.included_from), verbatim=True)
-    if template.constant is not None and not template.faulty:
-        return new_value(template.constant, context.at(template.span), verbatim=True)
+    constant = template.constant if len(parts) != 1 else None
+    if constant is not None and not template.faulty:
+        return new_value(constant, context.at(template.span), verbatim=True)
     texts: list[str] = []
     poisoned = template.faulty
     with context.variables.tracing() as reads:

@@ -10,6 +10,7 @@ from orchestra.dataclass import dataclass
 from orchestra.description.entity import Action
 from orchestra.description.fields import FLAG_WORDS
 from orchestra.description.launch import Description
+from orchestra.description.text import Words
 from orchestra.errors import Code, Problems
 from orchestra.fields import field, replace
 from orchestra.location import Location, Span
@@ -161,6 +162,10 @@ class Resolution:
 
     def text(self, template: Template | None) -> str | Poison | None:
         """Return what a text comes to."""
+        if template is not None and len(template.parts) == 1 and not template.faulty:
+            part = template.parts[0]
+            if type(part) is Words:
+                return part.text
         value = self.evaluate(template)
         return value.text if isinstance(value, Value) else value
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import shlex
+from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -40,6 +41,14 @@ if TYPE_CHECKING:
     from orchestra.resolve.resolution import Resolution
 
 
+# What an action may say of how its process runs, and the variables that say it for all.
+_settings = attrgetter(
+    *("env", "env_only", "depends_on", "launch_prefix", "shell", "cwd", "emulate_tty", "on_exit"),
+    *("respawn", "respawn_delay", "respawn_max_retries", "restart", "required", "success_exit_codes"),
+    *("ready", "alive", "stop", "sigterm_timeout", "sigkill_timeout", "limits", "stdin", "warm"),
+)
+_NOTHING = ((), None, (), *((None,) * 19))
+_FOR_ALL = ("launch-prefix", "launch-prefix-filter", "emulate_tty", "sigterm_timeout", "sigkill_timeout")
 _HIGHEST_STATUS = 255
 _HIGHEST_SIGNAL = 64
 
@@ -68,12 +77,60 @@ class Program:
 
 def add_process(action: Running, program: Program, run: Resolution) -> int:
     """Add a process to what has been found: it starts with the run, or with the timer around it. Return its index."""
-    process = _resolved(action, program, run)
+    process = (_as_it_is if _says_nothing(action, run) else _resolved)(action, program, run)
     if run.occasion is not None:
         run.occasion.do.append(ResolvedStart(len(run.found.processes), process.location))
     run.found.processes.append(process)
     _tell(process, run)
     return len(run.found.processes) - 1
+
+
+def _says_nothing(action: Running, run: Resolution) -> bool:
+    """Return whether nothing is said about how a process runs, neither at it nor for all: most are such."""
+    return _settings(action) == _NOTHING and run.scope.variables.keys().isdisjoint(_FOR_ALL)
+
+
+def _as_it_is(action: Running, program: Program, run: Resolution) -> ResolvedProcess:
+    """Return the process of an action that says nothing of how it runs: `_resolved` gives the same, in more time."""
+    location = run.at(action.span)
+    places = output(action.output, run, location)
+    return new_process(
+        kind=program.kind,
+        package=program.package,
+        executable=program.executable,
+        name=program.name,
+        namespace=program.namespace,
+        label=program.label,
+        program=program.words,
+        arguments=program.arguments,
+        ros_arguments=program.ros_arguments,
+        prefix=(),
+        shell=False,
+        cwd=None,
+        environment=dict(run.scope.changes),
+        parameters=program.parameters,
+        remaps=program.remaps,
+        output=None if isinstance(places, Poison) else places,
+        emulate_tty=None,
+        restart=None,
+        required=False,
+        shutdown_on_exit=False,
+        success_exit_codes=None,
+        ready=None,
+        alive=None,
+        stop=None,
+        depends_on=run.frame.depends_on,
+        labels=run.frame.labels,
+        location=location,
+        conditional=_is_conditional(action, run),
+        faulty=isinstance(places, Poison) or program.faulty or action.faulty,
+        autostart=program.autostart,
+        through=program.through,
+        params_schema=program.params_schema,
+        share=program.share,
+        origin=action.origin,
+        around=run.around,
+    )
 
 
 def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedProcess:
@@ -135,7 +192,9 @@ def _is_conditional(action: Running, run: Resolution) -> bool:
 
 def name_in_launch(process: ResolvedProcess, index: int) -> str:
     """Return the name that upstream has for a process: its label, with a number that counts all processes."""
-    return f"{process.label or Path(process.executable).name}-{index + 1}"
+    called = process.label or process.executable
+    name = called if process.label or called.isidentifier() else Path(called).name
+    return f"{name}-{index + 1}"
 
 
 def words_of(process: ResolvedProcess) -> list[str]:

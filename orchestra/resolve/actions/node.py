@@ -17,8 +17,11 @@ from orchestra.resolve.remapping import remaps
 from orchestra.resolve.running import Program, add_process, texts
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from orchestra.description.actions.node import Node
     from orchestra.description.text import Template
+    from orchestra.resolve.context import Read
     from orchestra.resolve.model import Kind
     from orchestra.resolve.resolution import Resolution
 
@@ -52,11 +55,10 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
     if isinstance(name, Value) and isinstance(namespace, Poison):
         run.found.lost.add(name.text)  # its full name is not known
         name = POISON
-    with run.scope.tracing() as more:
-        arguments, ros_arguments = texts(action.args, run), texts(action.ros_args, run)
+    arguments, ros_arguments, more = _arguments(action, run)
     own, whole = parameters(action.param, run)
     rules, regular = remaps(action.remap, run)
-    schema = params_schema(action.params_schema, run)
+    schema = None if action.params_schema is None else params_schema(action.params_schema, run)
     values = (package, executable, label, words, name, namespace, arguments, ros_arguments, autostart, schema)
     program = Program(
         kind=kind,
@@ -80,6 +82,17 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
     if not program.faulty and run.nodes_are_extended():
         program = _extended(program, action, run)
     return add_process(action, program, run)
+
+
+def _arguments(
+    action: Node, run: Resolution
+) -> tuple[tuple[str, ...] | Poison, tuple[str, ...] | Poison, Sequence[Read]]:
+    """Return the arguments and the ROS arguments, and what was read for them."""
+    if action.args is None and action.ros_args is None:
+        return (), (), ()
+    with run.scope.tracing() as reads:
+        arguments, ros_arguments = texts(action.args, run), texts(action.ros_args, run)
+    return arguments, ros_arguments, reads
 
 
 def _tell(origin: Any, program: Program) -> None:  # noqa: ANN401 - any object

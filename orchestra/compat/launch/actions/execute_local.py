@@ -185,22 +185,23 @@ class ExecuteLocal(ModelledAction):
         """Return the fields that the models of all processes share, without the name."""
         span, at, ending = self._place.span, self._place.at, self.__ending()
         explained = ending is not None and ending._has_reason
-        fields = {
-            "shell": scalar(self.__shell, at("shell")) if self.__shell else None,
-            "emulate_tty": optional(self.__emulate_tty, at("emulate_tty")),
-            "output": _output_field(self.__output, at("output")),
-            "on_exit": template("shutdown", span) if ending is not None and not explained else None,
-            "required": scalar(value=True, span=span) if explained else None,
-            "respawn": scalar(self.__respawn, at("respawn")) if self.__respawn else None,
-            "respawn_delay": optional(_delay(self.__respawn_delay), at("respawn_delay")),
-            "respawn_max_retries": None
-            if self.__respawn_max_retries == -1
-            else scalar(self.__respawn_max_retries, at("respawn_max_retries")),
-            **{name: optional(value, at(name)) for name, value in self.__timeouts.items()},
+        given = {
+            "shell": self.__shell or None,
+            "emulate_tty": self.__emulate_tty,
+            "respawn": self.__respawn or None,
+            "respawn_delay": _delay(self.__respawn_delay),
+            "respawn_max_retries": None if self.__respawn_max_retries == -1 else self.__respawn_max_retries,
+            **self.__timeouts,
         }
-        given = {name: value for name, value in fields.items() if value is not None}
-        extensions = self._extension_fields(self.__extensions)
-        return self.process_description._fields(self._place) | given | extensions
+        found = self.process_description._fields(self._place)
+        found |= {name: scalar(value, at(name)) for name, value in given.items() if value is not None}
+        if self.__output is not None:
+            found["output"] = _output_field(self.__output, at("output"))
+        if explained:
+            found["required"] = scalar(value=True, span=span)
+        elif ending is not None:
+            found["on_exit"] = template("shutdown", span)
+        return found | self._extension_fields(self.__extensions) if self.__extensions else found
 
     def _extension_fields(self, extensions: Mapping[str, Any]) -> dict[str, Any]:
         """Return the fields for Orchestra's own keywords. Kinds of nodes take more of them."""
@@ -281,7 +282,7 @@ def _normalized_output(output: Sub | Mapping[str, Any] | None) -> Any:
 def _output_field(output: Any, span: Span) -> Any:
     """Return where the output goes: a word, or places by stream."""
     if not isinstance(output, dict):
-        return None if output is None else template(output, span)
+        return template(output, span)
     return {stream: _places(places, within(span, stream)) for stream, places in output.items()}
 
 

@@ -146,13 +146,14 @@ class Executable(Refusing):
 
     def _fields(self, place: Place) -> dict[str, Any]:
         """Return the fields of a model that say the same, without the command line and the label."""
-        found = {
-            "launch_prefix": None if self.__prefix is None else template(self.__prefix, place.at("prefix")),
-            "cwd": None if self.cwd is None else template(self.cwd, place.at("cwd")),
-            "env": pairs(self.additional_env or (), place.at("additional_env")),
-            "env_only": None if self.env is None else pairs(self.env, place.at("env")),
-        }
-        return {name: value for name, value in found.items() if value is not None}
+        found: dict[str, Any] = {"env": pairs(self.additional_env or (), place.at("additional_env"))}
+        if self.__prefix is not None:
+            found["launch_prefix"] = template(self.__prefix, place.at("prefix"))
+        if self.cwd is not None:
+            found["cwd"] = template(self.cwd, place.at("cwd"))
+        if self.env is not None:
+            found["env_only"] = pairs(self.env, place.at("env"))
+        return found
 
 
 def _normalized_pairs(items: Mapping[Sub, Sub] | None) -> _Pairs | None:

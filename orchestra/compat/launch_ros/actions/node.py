@@ -90,7 +90,9 @@ class Node(ExecuteProcess):
         self.__expanded_node_namespace = self.UNSPECIFIED_NODE_NAMESPACE
         self.__expanded_remappings: list[tuple[str, str]] | None = None
         self.__final_node_name: str | None = None
-        super().__init__(cmd=self.__words(), name=exec_name, **kwargs)
+        words_of_its_own = self.__words()
+        self._word_count = len(words_of_its_own)
+        super().__init__(cmd=words_of_its_own, name=exec_name, **kwargs)
 
     @staticmethod
     def parse_nested_parameters(params: Iterable[Any], parser: Any) -> list[Any]:
@@ -219,7 +221,7 @@ class Node(ExecuteProcess):
 
     def __ros_words(self) -> tuple[Template, ...] | None:
         """Return the ROS arguments, with what users have appended to `cmd` since, which ends with `--ros-args`."""
-        appended = self.process_description.cmd[len(self.__words()) :]
+        appended = self.process_description.cmd[self._word_count :]
         if self.__ros_arguments is None and not appended:
             return None
         words = enumerate((*(self.__ros_arguments or ()), *appended))
