@@ -20,9 +20,9 @@ if TYPE_CHECKING:
     from typing import TextIO
 
 
-# What models and look-ups import when they are first used. While somebody watches, an import reads the folders of the
+# What look-ups import when they are first used. While somebody watches, an import reads the folders of the
 # import path, and a plan would depend on everything that comes and goes there.
-_WANTED = ("array", "encodings.utf_8_sig", "pydantic.dataclasses", "socket", "unicodedata")
+_WANTED = ("array", "encodings.utf_8_sig", "socket", "unicodedata")
 _MOST = 32 * 1024 * 1024  # bytes that all plans may take together
 
 

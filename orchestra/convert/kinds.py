@@ -67,9 +67,7 @@ _SPELLED: Final = {"launch_prefix": "launch-prefix"}
 
 
 def _metadata(model: type[Entity], field: str) -> Iterator[Any]:
-    info = model.model_fields[field]
-    yield from info.metadata
-    yield from _annotated(info.annotation)
+    yield from _annotated(model.model_fields[field].annotation)
 
 
 def _annotated(annotation: Any) -> Iterator[Any]:  # noqa: ANN401 - a part of a description, whatever it is

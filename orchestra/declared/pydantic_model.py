@@ -15,6 +15,7 @@ from orchestra.declared.shape import Level, level, ros_types
 from orchestra.declared.structured import faults_with, undeclared
 from orchestra.declared.texts import nearest_text
 from orchestra.declared.typing_of_values import rewritten
+from orchestra.description.plugins import keep_away
 from orchestra.errors import Code
 
 if TYPE_CHECKING:
@@ -26,6 +27,8 @@ if TYPE_CHECKING:
     from orchestra.errors import Problems
     from orchestra.resolve.model import NamedSchema
     from orchestra.values import ParameterValue
+
+keep_away()
 
 _QUOTED = re.compile(r"'([^']*)'")
 _OF_TYPES = re.compile(r".*_(type|parsing|from_float)$")

@@ -9,34 +9,28 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from functools import cache
-from typing import Any, Protocol, Self, TypeVar
-
-from pydantic import (
-    BaseModel,
-    ConfigDict,
-    Field,
-    ModelWrapValidatorHandler,
-    ValidationError,
-    ValidationInfo,
-    model_validator,
-)
-from pydantic_core import ErrorDetails, PydanticCustomError
+from typing import TYPE_CHECKING, Any, Protocol, Self, TypeVar
 
 from orchestra.description.conflict import Conflict
+from orchestra.description.core import PydanticCustomError, ValidationError
 from orchestra.description.fields import Flag
-from orchestra.description.plugins import keep_away
+from orchestra.description.model import Model, field
 from orchestra.description.source import Keyed
 from orchestra.description.text import Template
 from orchestra.errors import Problem
 from orchestra.location import Span
 
-REPORTED = "reported"
+if TYPE_CHECKING:
+    from pydantic_core import ErrorDetails
+    from pydantic_core.core_schema import ValidationInfo
 
-keep_away()
+    from orchestra.description.structure import Schema, Schemas
+
+REPORTED = "reported"
 
 _EntityT = TypeVar("_EntityT", bound="Entity")
 
-_set_beside: Callable[[BaseModel, dict[str, Any]], None] = vars(BaseModel)["__pydantic_private__"].__set__
+_set_beside: Callable[[Model, dict[str, Any]], None] = vars(Model)["__pydantic_private__"].__set__
 
 
 class FaultReader(Protocol):
@@ -55,13 +49,8 @@ class FaultReader(Protocol):
         """Report keys that cannot stand together."""
 
 
-class Entity(BaseModel):
+class Entity(Model):
     """Something a user writes: an action, or a part of one."""
-
-    # A model is made ready when it is first used: few of them are, in one file.
-    model_config = ConfigDict(
-        frozen=True, extra="forbid", arbitrary_types_allowed=True, populate_by_name=True, defer_build=True
-    )
 
     @classmethod
     def at(
@@ -77,7 +66,7 @@ class Entity(BaseModel):
         `faults` are what was wrong with values that have been left out. Raises `ValidationError`.
         """
         # As the constructor does, without its detours.
-        entity: Self = cls.__pydantic_validator__.validate_python(values)
+        entity: Self = cls.validator.validate_python(values)
         _set_beside(
             entity,
             {"span": span, "origin": origin, "faults": faults}
@@ -88,10 +77,7 @@ class Entity(BaseModel):
 
     @property
     def _beside(self) -> dict[str, Any]:
-        """What is known of the entity beside what was written: pydantic keeps it, compares and copies it.
-
-        Private attributes that pydantic knows of by name would take longer to make than all fields together.
-        """
+        """What is known of the entity beside what was written; it is compared and copied with it."""
         beside = self.__pydantic_private__
         if beside is None:
             beside = {}
@@ -148,12 +134,23 @@ class Entity(BaseModel):
         del keys
         return cls.required_keys()
 
-    @model_validator(mode="wrap")
     @classmethod
-    def _read(cls, data: Any, handler: ModelWrapValidatorHandler[Self], info: ValidationInfo) -> Self:  # noqa: ANN401 - whatever stands in the file
+    def completed(cls, data: Any) -> Any:  # noqa: ANN401 - whatever stands in the file
+        """Return the values of an entity with those that others stand for."""
+        return data
+
+    @classmethod
+    def structure(cls, schemas: Schemas) -> Schema:
+        """Return the schema of an entity."""
+        function = {"type": "with-info", "function": cls._read}
+        return {"type": "function-wrap", "function": function, "schema": super().structure(schemas)}
+
+    @classmethod
+    def _read(cls, data: Any, handler: Callable[[Any], Self], info: ValidationInfo) -> Self:  # noqa: ANN401 - whatever stands in the file
         reader: FaultReader | None = info.context
-        if not isinstance(data, Keyed):  # no loader; or pydantic, which hands recursive models on twice
-            return handler(data) if reader is not None else _sound(handler(data))
+        if not isinstance(data, Keyed):  # no loader
+            made = handler(cls.completed(data))
+            return made if reader is not None else _sound(made)
         if reader is None:
             raise TypeError("mappings are read with a loader as the validation context")
         if data.read is not None and isinstance(data.read, cls):
@@ -162,11 +159,12 @@ class Entity(BaseModel):
         mapping = data if data.keys() <= known else reader.keys(known, data, cls.required_beside(data))
         faulty = mapping.lossy
         try:
-            entity = handler(dict(mapping))
+            entity = handler(cls.completed(dict(mapping)))
         except ValidationError as error:
             faulty = True
             wrong = reader.faults(mapping, _details(error))
-            entity = _without(wrong, mapping, cls.required_beside(mapping), handler)
+            required = cls.required_beside(mapping)
+            entity = _without(wrong, mapping, required, lambda values: handler(cls.completed(values)))
         if (conflict := entity.conflict()) is not None:
             if not faulty:
                 reader.conflict(mapping, conflict)
@@ -179,10 +177,10 @@ class Entity(BaseModel):
 class Conditional(Entity):
     """What is left out where its condition says so."""
 
-    if_: Flag | None = Field(
+    if_: Flag | None = field(
         default=None, alias="if", description="Carry the action out only if this is true."
     )
-    unless: Flag | None = Field(default=None, description="Carry the action out only if this is false.")
+    unless: Flag | None = field(default=None, description="Carry the action out only if this is false.")
 
     def conflict(self) -> Conflict | None:
         """Return a conflict between the two conditions."""
@@ -210,7 +208,7 @@ def _without(
     wrong: set[str],
     mapping: Keyed,
     required: frozenset[str],
-    handler: ModelWrapValidatorHandler[_EntityT],
+    handler: Callable[[Any], _EntityT],
 ) -> _EntityT:
     """Read the entity again without the keys whose faults have been reported."""
     values = {key: value for key, value in mapping.items() if key not in wrong}

@@ -10,15 +10,17 @@ import math
 import re
 from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
-from typing import Annotated, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Protocol, TypeAlias
 
-from pydantic import PlainValidator, ValidationError, ValidationInfo, WithJsonSchema
-from pydantic_core import InitErrorDetails, PydanticCustomError
-
+from orchestra.description.core import PydanticCustomError, ValidationError
+from orchestra.description.marks import Plain, Told
 from orchestra.description.source import Listed, Written, kind_of
 from orchestra.description.text import Constant, Items, Template, Words
 from orchestra.nearest import nearest
 from orchestra.patterns import pattern
+
+if TYPE_CHECKING:
+    from pydantic_core.core_schema import ValidationInfo
 
 TRUE_WORDS = frozenset({"true", "1", "yes", "on"})
 FALSE_WORDS = frozenset({"false", "0", "no", "off"})
@@ -180,15 +182,15 @@ def _item(
 
 def placed_in(place: tuple[int | str, ...], error: PydanticCustomError, value: object) -> ValidationError:
     """Return a fault of a part of a value: of the item or the key at the end of a way into it."""
-    return ValidationError.from_exception_data("part", [InitErrorDetails(type=error, loc=place, input=value)])
+    return ValidationError.from_exception_data("part", [{"type": error, "loc": place, "input": value}])
 
 
-Text: TypeAlias = Annotated[Template, PlainValidator(_text), WithJsonSchema(_TEXT)]
-Literal: TypeAlias = Annotated[Template, PlainValidator(_literal), WithJsonSchema(_TEXT)]
+Text: TypeAlias = Annotated[Template, Plain(_text), Told(_TEXT)]
+Literal: TypeAlias = Annotated[Template, Plain(_literal), Told(_TEXT)]
 Flag: TypeAlias = Annotated[
     Template,
-    PlainValidator(constant_of("true or false", _is_flag, FLAG_WORDS)),
-    WithJsonSchema(
+    Plain(constant_of("true or false", _is_flag, FLAG_WORDS)),
+    Told(
         {
             "type": ["boolean", "integer", "string"],
             "minimum": 0,
@@ -200,28 +202,22 @@ Flag: TypeAlias = Annotated[
 ]
 Seconds: TypeAlias = Annotated[
     Template,
-    PlainValidator(constant_of("a number of seconds", _is_duration, meant=_seconds_of)),
-    WithJsonSchema(
-        {"anyOf": [{"type": "number", "minimum": 0}, {"type": "string", "pattern": r"\$\(|^[0-9.eE+-]+$"}]}
-    ),
+    Plain(constant_of("a number of seconds", _is_duration, meant=_seconds_of)),
+    Told({"anyOf": [{"type": "number", "minimum": 0}, {"type": "string", "pattern": r"\$\(|^[0-9.eE+-]+$"}]}),
 ]
 Integer: TypeAlias = Annotated[
     Template,
-    PlainValidator(constant_of("a whole number", _is_integer)),
-    WithJsonSchema({"anyOf": [{"type": "integer"}, {"type": "string", "pattern": r"\$\(|^[+-]?[0-9]+$"}]}),
+    Plain(constant_of("a whole number", _is_integer)),
+    Told({"anyOf": [{"type": "integer"}, {"type": "string", "pattern": r"\$\(|^[+-]?[0-9]+$"}]}),
 ]
-AnyValue: TypeAlias = Annotated[
-    Value | tuple[Value, ...], PlainValidator(_any_value), WithJsonSchema(_TEXT_OR_LIST)
-]
+AnyValue: TypeAlias = Annotated[Value | tuple[Value, ...], Plain(_any_value), Told(_TEXT_OR_LIST)]
 # Words of a command: a text that is split as a shell would, or a list of which each item is exactly one word.
-Argv: TypeAlias = Annotated[
-    Template | tuple[Template, ...], PlainValidator(text_or_list), WithJsonSchema(_TEXT_OR_LIST)
-]
+Argv: TypeAlias = Annotated[Template | tuple[Template, ...], Plain(text_or_list), Told(_TEXT_OR_LIST)]
 
 
-def worded(*words: str) -> WithJsonSchema:
+def worded(*words: str) -> Told:
     """Return what an editor is told of a field for one of a few words."""
-    return WithJsonSchema({"anyOf": [{"enum": list(words)}, _SUBSTITUTION]})
+    return Told({"anyOf": [{"enum": list(words)}, _SUBSTITUTION]})
 
 
 def word(

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from pydantic import Field
-
 from orchestra.dataclass import dataclass
 from orchestra.description.entity import Action, Entity
 from orchestra.description.fields import Literal
+from orchestra.description.model import field
 from orchestra.description.nested import Children
 from orchestra.description.text import Template
 
@@ -14,8 +13,8 @@ from orchestra.description.text import Template
 class Launch(Entity):
     """What stands below `launch`, where it is more than a list of actions."""
 
-    deprecated: Literal | None = Field(default=None, description="Why the file is not to be used any more.")
-    children: Children = Field(description="The actions.")
+    deprecated: Literal | None = field(default=None, description="Why the file is not to be used any more.")
+    children: Children = field(description="The actions.")
 
 
 @dataclass(frozen=True, slots=True)

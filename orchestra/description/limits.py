@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated, TypeAlias
 
-from pydantic import Field, PlainValidator, WithJsonSchema
-
 from orchestra.description.conflict import Conflict
 from orchestra.description.entity import Entity
 from orchestra.description.fields import Flag, Text, text_or_list, word, worded
+from orchestra.description.marks import Plain, Told
+from orchestra.description.model import field
 from orchestra.description.ranges import NICE, PRIORITY
 from orchestra.description.text import Template
 
@@ -21,8 +21,8 @@ _LIMIT = rf"({_AMOUNT}|unlimited)"
 
 Cores: TypeAlias = Annotated[
     Template | tuple[Template, ...],
-    PlainValidator(text_or_list),
-    WithJsonSchema(
+    Plain(text_or_list),
+    Told(
         {
             "anyOf": [
                 _NUMBER,
@@ -34,65 +34,65 @@ Cores: TypeAlias = Annotated[
 ]
 Size: TypeAlias = Annotated[
     Text,
-    WithJsonSchema({"anyOf": [_NUMBER, {"type": "string", "pattern": rf"\$\(|^{_AMOUNT}$"}]}),
+    Told({"anyOf": [_NUMBER, {"type": "string", "pattern": rf"\$\(|^{_AMOUNT}$"}]}),
 ]
 SizeOrUnlimited: TypeAlias = Annotated[
     Text,
-    WithJsonSchema({"anyOf": [_NUMBER, {"type": "string", "pattern": rf"\$\(|^{_LIMIT}$"}]}),
+    Told({"anyOf": [_NUMBER, {"type": "string", "pattern": rf"\$\(|^{_LIMIT}$"}]}),
 ]
 Rlimit: TypeAlias = Annotated[
     Text,
-    WithJsonSchema({"anyOf": [_NUMBER, {"type": "string", "pattern": rf"\$\(|^{_LIMIT}(:{_LIMIT})?$"}]}),
+    Told({"anyOf": [_NUMBER, {"type": "string", "pattern": rf"\$\(|^{_LIMIT}(:{_LIMIT})?$"}]}),
 ]
 
 
 class Rlimits(Entity):
     """Limits of getrlimit(2): a number, `unlimited`, or soft and hard limit with a colon between them."""
 
-    as_: Rlimit | None = Field(default=None, alias="as", description="Address space, in bytes.")
-    core: Rlimit | None = Field(default=None, description="Size of a core file, in bytes.")
-    cpu: Rlimit | None = Field(default=None, description="Time on a processor, in seconds.")
-    data: Rlimit | None = Field(default=None, description="Data segment, in bytes.")
-    fsize: Rlimit | None = Field(default=None, description="Size of a file that it writes, in bytes.")
-    memlock: Rlimit | None = Field(default=None, description="Memory that it keeps from swapping, in bytes.")
-    msgqueue: Rlimit | None = Field(default=None, description="POSIX message queues of its user, in bytes.")
-    nice: Rlimit | None = Field(default=None, description="20 minus the least `nice` that it may set.")
-    nofile: Rlimit | None = Field(default=None, description="Open files, one more than the highest number.")
-    nproc: Rlimit | None = Field(default=None, description="Processes and threads of its user.")
-    rss: Rlimit | None = Field(default=None, description="Resident memory, in bytes; Linux ignores it.")
-    rtprio: Rlimit | None = Field(default=None, description="Highest real-time priority that it may set.")
-    rttime: Rlimit | None = Field(
+    as_: Rlimit | None = field(default=None, alias="as", description="Address space, in bytes.")
+    core: Rlimit | None = field(default=None, description="Size of a core file, in bytes.")
+    cpu: Rlimit | None = field(default=None, description="Time on a processor, in seconds.")
+    data: Rlimit | None = field(default=None, description="Data segment, in bytes.")
+    fsize: Rlimit | None = field(default=None, description="Size of a file that it writes, in bytes.")
+    memlock: Rlimit | None = field(default=None, description="Memory that it keeps from swapping, in bytes.")
+    msgqueue: Rlimit | None = field(default=None, description="POSIX message queues of its user, in bytes.")
+    nice: Rlimit | None = field(default=None, description="20 minus the least `nice` that it may set.")
+    nofile: Rlimit | None = field(default=None, description="Open files, one more than the highest number.")
+    nproc: Rlimit | None = field(default=None, description="Processes and threads of its user.")
+    rss: Rlimit | None = field(default=None, description="Resident memory, in bytes; Linux ignores it.")
+    rtprio: Rlimit | None = field(default=None, description="Highest real-time priority that it may set.")
+    rttime: Rlimit | None = field(
         default=None, description="Real-time work without a pause, in microseconds."
     )
-    sigpending: Rlimit | None = Field(default=None, description="Signals that may be queued for its user.")
-    stack: Rlimit | None = Field(default=None, description="Stack, in bytes.")
+    sigpending: Rlimit | None = field(default=None, description="Signals that may be queued for its user.")
+    stack: Rlimit | None = field(default=None, description="Stack, in bytes.")
 
 
 class Limits(Entity):
     """What a process may use, and where it runs; what is not said stays as it is inherited."""
 
-    cores: Cores | None = Field(
+    cores: Cores | None = field(
         default=None, description="Logical processors that it may run on: a list, or ranges as `0-3,6`."
     )
-    exclusive: Flag | None = Field(
+    exclusive: Flag | None = field(
         default=None, description="Whether no other process of the run is given these cores."
     )
-    nice: Annotated[Template, NICE] | None = Field(
+    nice: Annotated[Template, NICE] | None = field(
         default=None, description="Nice value, from -20 (first) to 19 (last)."
     )
-    scheduler: Annotated[Template, PlainValidator(word(*SCHEDULERS)), worded(*SCHEDULERS)] | None = Field(
+    scheduler: Annotated[Template, Plain(word(*SCHEDULERS)), worded(*SCHEDULERS)] | None = field(
         default=None, description="Scheduling policy; `fifo` and `rr` are the real-time ones."
     )
-    priority: Annotated[Template, PRIORITY] | None = Field(
+    priority: Annotated[Template, PRIORITY] | None = field(
         default=None, description="Real-time priority from 1 to 99, for `fifo` and `rr`."
     )
-    memory: Size | None = Field(
+    memory: Size | None = field(
         default=None, description="Most memory of it and all it starts: bytes, or as `512M`, `2G`."
     )
-    memory_lock: SizeOrUnlimited | None = Field(
+    memory_lock: SizeOrUnlimited | None = field(
         default=None, description="Memory that it may keep from swapping: a size, or `unlimited`."
     )
-    rlimits: Rlimits | None = Field(default=None, description="Limits of getrlimit(2), by their names.")
+    rlimits: Rlimits | None = field(default=None, description="Limits of getrlimit(2), by their names.")
 
     def conflict(self) -> Conflict | None:
         """Return which keys cannot stand without or beside another."""

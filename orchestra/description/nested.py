@@ -4,15 +4,14 @@ from __future__ import annotations
 
 from typing import Annotated, TypeAlias
 
-from pydantic import Field, InstanceOf, WithJsonSchema
-
 from orchestra.description.entity import Action
 from orchestra.description.fields import AnyValue
+from orchestra.description.marks import Instance, NotEmpty, Told
 
 ForEach: TypeAlias = Annotated[
     dict[str, AnyValue],
-    Field(min_length=1),
-    WithJsonSchema(
+    NotEmpty(),
+    Told(
         {
             "type": "object",
             "minProperties": 1,
@@ -23,4 +22,4 @@ ForEach: TypeAlias = Annotated[
         }
     ),
 ]
-Children: TypeAlias = Annotated[tuple[InstanceOf[Action], ...], WithJsonSchema({"type": "array"})]
+Children: TypeAlias = Annotated[tuple[Annotated[Action, Instance()], ...], Told({"type": "array"})]

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, TypeAlias
+from typing import TYPE_CHECKING, Annotated, Any, TypeAlias
 
-from pydantic import PlainValidator, ValidationError, ValidationInfo, WithJsonSchema
-from pydantic_core import PydanticCustomError
-
+from orchestra.description.core import PydanticCustomError, ValidationError
 from orchestra.description.fields import STRAY_KEY, items_of, placed_in, word
+from orchestra.description.marks import Plain, Told
 from orchestra.description.text import Template
 from orchestra.nearest import nearest
+
+if TYPE_CHECKING:
+    from pydantic_core.core_schema import ValidationInfo
 
 OUTPUTS = ("screen", "log", "both", "own_log", "full")
 STREAMS = ("stdout", "stderr", "both")
@@ -67,6 +69,4 @@ def _places(value: object, info: ValidationInfo) -> tuple[Template, ...]:
     return (_place(value, info),)
 
 
-Output: TypeAlias = Annotated[
-    Template | dict[str, tuple[Template, ...]], PlainValidator(_output), WithJsonSchema(_SCHEMA)
-]
+Output: TypeAlias = Annotated[Template | dict[str, tuple[Template, ...]], Plain(_output), Told(_SCHEMA)]

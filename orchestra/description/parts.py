@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import Annotated, TypeAlias
 
-from pydantic import Field, PlainValidator
-
 from orchestra.description.conflict import Conflict
 from orchestra.description.entity import Entity
 from orchestra.description.fields import AnyValue, Flag, Seconds, Text, word, worded
+from orchestra.description.marks import Plain
+from orchestra.description.model import field
 from orchestra.description.ranges import BUDGET, GROWTH, SHARE
 from orchestra.description.text import Template
 
@@ -68,37 +68,37 @@ _POLICIES_ELSEWHERE = {
 }
 
 TypeWord: TypeAlias = Annotated[
-    Template, PlainValidator(word(*VALUE_TYPES, elsewhere=_TYPES_ELSEWHERE)), worded(*VALUE_TYPES)
+    Template, Plain(word(*VALUE_TYPES, elsewhere=_TYPES_ELSEWHERE)), worded(*VALUE_TYPES)
 ]
 
 
 class Pair(Entity):
     """A name and a value."""
 
-    name: Text = Field(description="The name.")
-    value: Text = Field(description="The value.")
+    name: Text = field(description="The name.")
+    value: Text = field(description="The value.")
 
 
 class Remap(Entity):
     """One remapping rule of a topic, a service or an action."""
 
-    from_: Text = Field(alias="from", description="The name that the node uses.")
-    to: Text = Field(description="The name that it shall use instead.")
+    from_: Text = field(alias="from", description="The name that the node uses.")
+    to: Text = field(description="The name that it shall use instead.")
 
 
 class Param(Entity):
     """A parameter: a name with a value, a name with nested parameters, or a file (`from`)."""
 
-    name: Text | None = Field(
+    name: Text | None = field(
         default=None, description="Name of the parameter, or of the level above `param`."
     )
-    value: AnyValue | None = Field(default=None, description="A scalar or a list of scalars of one type.")
-    type: TypeWord | None = Field(
+    value: AnyValue | None = field(default=None, description="A scalar or a list of scalars of one type.")
+    type: TypeWord | None = field(
         default=None, description="Read the value as this type instead of by its looks."
     )
-    param: tuple[Param, ...] | None = Field(default=None, description="Nested parameters.")
-    from_: Text | None = Field(default=None, alias="from", description="A parameter file.")
-    allow_substs: Flag | None = Field(default=None, description="Whether `$(...)` in the file is evaluated.")
+    param: tuple[Param, ...] | None = field(default=None, description="Nested parameters.")
+    from_: Text | None = field(default=None, alias="from", description="A parameter file.")
+    allow_substs: Flag | None = field(default=None, description="Whether `$(...)` in the file is evaluated.")
 
     def conflict(self) -> Conflict | None:
         """Return what keeps this from being one of the three forms."""
@@ -125,19 +125,17 @@ class Override(Param):
 class DependsOn(Entity):
     """Something that must have come about before this process starts."""
 
-    node: Text | None = Field(
+    node: Text | None = field(
         default=None, description="A node, by its name seen from this node's namespace."
     )
-    process: Text | None = Field(default=None, description="A process, by its name.")
-    label: Text | None = Field(default=None, description="Every process of the include with this label.")
+    process: Text | None = field(default=None, description="A process, by its name.")
+    label: Text | None = field(default=None, description="Every process of the include with this label.")
     condition: (
-        Annotated[
-            Template, PlainValidator(word(*CONDITIONS, elsewhere=_CONDITIONS_ELSEWHERE)), worded(*CONDITIONS)
-        ]
+        Annotated[Template, Plain(word(*CONDITIONS, elsewhere=_CONDITIONS_ELSEWHERE)), worded(*CONDITIONS)]
         | None
-    ) = Field(default=None, description="What is waited for; `started` where nothing is said.")
-    timeout: Seconds | None = Field(default=None, description="How long to wait, in seconds.")
-    required: Flag | None = Field(
+    ) = field(default=None, description="What is waited for; `started` where nothing is said.")
+    timeout: Seconds | None = field(default=None, description="How long to wait, in seconds.")
+    required: Flag | None = field(
         default=None,
         description="Whether it starts only then; else it starts too once that cannot come about.",
     )
@@ -154,23 +152,23 @@ class DependsOn(Entity):
 class Restart(Entity):
     """When an ended process is started again."""
 
-    policy: Annotated[
-        Template, PlainValidator(word(*POLICIES, elsewhere=_POLICIES_ELSEWHERE)), worded(*POLICIES)
-    ] = Field(description="`no`, after a failure alone, or whenever it ends.")
-    delay: Seconds | None = Field(default=None, description="Least delay before a new start, in seconds.")
-    max_delay: Seconds | None = Field(
+    policy: Annotated[Template, Plain(word(*POLICIES, elsewhere=_POLICIES_ELSEWHERE)), worded(*POLICIES)] = (
+        field(description="`no`, after a failure alone, or whenever it ends.")
+    )
+    delay: Seconds | None = field(default=None, description="Least delay before a new start, in seconds.")
+    max_delay: Seconds | None = field(
         default=None, description="What the growing delay stops at, in seconds."
     )
-    min_uptime: Seconds | None = Field(
+    min_uptime: Seconds | None = field(
         default=None, description="A run this long resets the delay, in seconds."
     )
-    growth: Annotated[Template, GROWTH] | None = Field(
+    growth: Annotated[Template, GROWTH] | None = field(
         default=None, description="Factor from one delay to the next; 2 where absent."
     )
-    jitter: Annotated[Template, SHARE] | None = Field(
+    jitter: Annotated[Template, SHARE] | None = field(
         default=None, description="Share of a delay that is added at random, at most; from 0 to 1."
     )
-    budget: Annotated[Template, BUDGET] | None = Field(
+    budget: Annotated[Template, BUDGET] | None = field(
         default=None, description="How often it may start again; for ever where absent."
     )
 
@@ -178,8 +176,8 @@ class Restart(Entity):
 class Stop(Entity):
     """How a process is ended."""
 
-    signal: Text | None = Field(default=None, description="First signal; SIGINT where absent.")
-    timeout: Seconds | None = Field(default=None, description="Seconds until SIGTERM follows.")
-    kill_timeout: Seconds | None = Field(
+    signal: Text | None = field(default=None, description="First signal; SIGINT where absent.")
+    timeout: Seconds | None = field(default=None, description="Seconds until SIGTERM follows.")
+    kill_timeout: Seconds | None = field(
         default=None, description="Seconds from SIGTERM until SIGKILL follows."
     )

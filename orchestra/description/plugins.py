@@ -1,9 +1,9 @@
-"""Keeps plug-ins of pydantic away from the models.
+"""Keeps plug-ins of pydantic away where Orchestra makes models of it.
 
 They are for those who want to see what becomes of data, which is not what a launch file is. To look for them, pydantic
-reads the metadata of every distribution that is installed: 30 ms of the processor beside the wheels of ROS, a third of
-what all models take to be made, and as much again for the library that reads it. The variable that turns them off
-(PYDANTIC_DISABLE_PLUGINS) would be one of the nodes' environment too, so the module that looks is never imported.
+reads the metadata of every distribution that is installed: 30 ms of the processor beside the wheels of ROS, and as much
+again for the library that reads it. The variable that turns them off (PYDANTIC_DISABLE_PLUGINS) would be one of the
+nodes' environment too, so the module that looks is never imported.
 """
 
 from __future__ import annotations

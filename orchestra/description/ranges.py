@@ -5,13 +5,13 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
-from pydantic_core import CoreSchema, core_schema
-
 from orchestra.dataclass import dataclass
 from orchestra.description.fields import constant_of
+from orchestra.description.marks import read_with
 
 if TYPE_CHECKING:
     from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+    from pydantic_core import CoreSchema
 
 
 @dataclass(frozen=True, slots=True)
@@ -38,10 +38,9 @@ class Range:
         return None if self.above and number == self.least else number
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:  # noqa: ANN401 - pydantic's own signature
-        """Return how pydantic reads it."""
+        """Return how the core reads it."""
         del source, handler
-        check = constant_of(self.wanted, lambda text: self.read(text) is not None)
-        return core_schema.with_info_plain_validator_function(check)
+        return read_with(constant_of(self.wanted, lambda text: self.read(text) is not None))
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler

@@ -10,6 +10,7 @@ from orchestra.description.actions import ACTIONS, model_of
 from orchestra.description.alternatives import told_apart
 from orchestra.description.launch import Launch
 from orchestra.description.rules import with_hyphens, with_rules
+from orchestra.description.twins import twin
 
 _DRAFT = "https://json-schema.org/draft/2020-12/schema"
 _ROOT_KEYS: dict[str, dict[str, Any]] = {
@@ -102,7 +103,7 @@ def _schema_of(name: str) -> dict[str, Any]:
     """Return the schema of an action, keys that may be left out without their null."""
     model = model_of(name)
     assert model is not None  # noqa: S101 - the name is from the table
-    schema = model.model_json_schema(schema_generator=_WithoutTitles, ref_template="#/$defs/{model}")
+    schema = twin(model).model_json_schema(schema_generator=_WithoutTitles, ref_template="#/$defs/{model}")
     for entry in (schema, *schema.get("$defs", {}).values()):
         entry.pop("title", None)
         for key, value in entry.get("properties", {}).items():

@@ -4,14 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from pydantic_core import CoreSchema, core_schema
-
 from orchestra.dataclass import dataclass
 from orchestra.description.source import Keyed, Written
 from orchestra.description.text import Template
 
 if TYPE_CHECKING:
     from pydantic import GetCoreSchemaHandler, GetJsonSchemaHandler
+    from pydantic_core import CoreSchema
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,8 +20,10 @@ class Short:
     key: str
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:  # noqa: ANN401 - pydantic's own signature
-        """Return how pydantic reads it."""
-        return core_schema.no_info_before_validator_function(self._whole, handler(source))
+        """Return how the core reads it."""
+        function = {"type": "no-info", "function": self._whole}
+        read: CoreSchema = {"type": "function-before", "function": function, "schema": handler(source)}
+        return read
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
-from pydantic import ValidationError
-
 from orchestra.dataclass import dataclass
 from orchestra.description.actions import model_of
+from orchestra.description.core import ValidationError
 from orchestra.description.launch import Description, Launch
 from orchestra.description.source import Keyed, Listed, Written, kind_of, texts_in
 from orchestra.errors import Code

@@ -7,12 +7,12 @@ import pkgutil
 from typing import TYPE_CHECKING
 
 import pytest
-from pydantic import ValidationError
 
 from orchestra.description import actions
 from orchestra.description.actions import ACTIONS, model_of
 from orchestra.description.actions.let import Let
 from orchestra.description.conditions import Ready
+from orchestra.description.core import ValidationError
 from orchestra.description.entity import Action, Entity
 from orchestra.description.fields import FALSE_WORDS, TRUE_WORDS
 from orchestra.description.parts import Param

@@ -7,8 +7,8 @@ import sys
 
 _SCRIPT = """
 import sys
-from orchestra.description.launch import Launch
-Launch.model_rebuild(force=True)
+from orchestra.description.schema import launch_schema
+launch_schema()
 print("importlib.metadata" in sys.modules)
 from pydantic.plugin import _schema_validator
 from pydantic import BaseModel

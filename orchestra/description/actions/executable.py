@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from pydantic import Field
-
 from orchestra.description.fields import Argv
+from orchestra.description.model import field
 from orchestra.description.running import Running
 
 
 class Executable(Running):
     """Start any program."""
 
-    cmd: Argv = Field(
+    cmd: Argv = field(
         description="The command line, split as a shell would; substituted values are not split."
     )

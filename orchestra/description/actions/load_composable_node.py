@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from pydantic import Field
-
 from orchestra.description.components import ComposableNode
 from orchestra.description.entity import Action
 from orchestra.description.fields import Text
+from orchestra.description.model import field
 
 
 class LoadComposableNode(Action):
@@ -15,5 +14,5 @@ class LoadComposableNode(Action):
     Where Python names the container by the action that starts it, `target` is an `Opaque` of that action.
     """
 
-    target: Text = Field(description="Full name of the container's node.")
-    composable_node: tuple[ComposableNode, ...] = Field(description="The components, in order.")
+    target: Text = field(description="Full name of the container's node.")
+    composable_node: tuple[ComposableNode, ...] = field(description="The components, in order.")

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Collection
 from typing import Annotated, Any
 
-from pydantic import Field, PlainValidator, model_validator
-
 from orchestra.description.conflict import Conflict
 from orchestra.description.fields import Argv, Text, word, worded
+from orchestra.description.marks import Plain
+from orchestra.description.model import field
 from orchestra.description.parts import Param, Remap
 from orchestra.description.running import Running
 from orchestra.description.text import Template
@@ -21,34 +21,34 @@ INSTEAD = ("module", "script")
 class Node(Running):
     """Start a ROS node."""
 
-    pkg: Text | None = Field(default=None, description="Package of the executable.")
-    exec: Text | None = Field(description="Executable in the package; without `pkg` a program.")
-    module: Text | None = Field(
+    pkg: Text | None = field(default=None, description="Package of the executable.")
+    exec: Text | None = field(description="Executable in the package; without `pkg` a program.")
+    module: Text | None = field(
         default=None,
         description="Python module that is run as `python -m` does, instead of `pkg` and `exec`.",
     )
-    script: Text | None = Field(
+    script: Text | None = field(
         default=None, description="Python file that is run, relative to the launch file, instead of `exec`."
     )
-    namespace: Text | None = Field(
+    namespace: Text | None = field(
         default=None, description="Namespace; a relative one is put below the pushed one."
     )
-    exec_name: Text | None = Field(default=None, description="Label of the process.")
-    args: Argv | None = Field(default=None, description="Arguments of the program.")
-    ros_args: Argv | None = Field(default=None, description="More arguments after --ros-args.")
-    param: tuple[Param, ...] = Field(
+    exec_name: Text | None = field(default=None, description="Label of the process.")
+    args: Argv | None = field(default=None, description="Arguments of the program.")
+    ros_args: Argv | None = field(default=None, description="More arguments after --ros-args.")
+    param: tuple[Param, ...] = field(
         default=(), description="Parameters and parameter files, later ones win."
     )
-    params_schema: Text | None = Field(
+    params_schema: Text | None = field(
         default=None,
         description="What declares its parameters: a JSON Schema file, a definition file of"
         " generate_parameter_library, or a pydantic model (`module:Class`).",
     )
-    lifecycle: Annotated[Template, PlainValidator(word(*REACHED)), worded(*REACHED)] | None = Field(
+    lifecycle: Annotated[Template, Plain(word(*REACHED)), worded(*REACHED)] | None = field(
         default=None,
         description="The state that a lifecycle node is brought to, and back to when it restarts.",
     )
-    remap: tuple[Remap, ...] = Field(default=(), description="Remappings, the first that matches counts.")
+    remap: tuple[Remap, ...] = field(default=(), description="Remappings, the first that matches counts.")
 
     def conflict(self) -> Conflict | None:
         """Return a second thing to start; an executable that is not known stands for none."""
@@ -69,9 +69,8 @@ class Node(Running):
             else required
         )
 
-    @model_validator(mode="before")
     @classmethod
-    def _without_exec(cls, data: Any) -> Any:  # noqa: ANN401 - whatever stands in the file
+    def completed(cls, data: Any) -> Any:  # noqa: ANN401 - whatever stands in the file
         """Let a node be without `exec` that starts something else."""
         if isinstance(data, dict) and "exec" not in data and any(data.get(key) for key in INSTEAD):
             return {**data, "exec": None}

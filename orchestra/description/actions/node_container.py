@@ -4,22 +4,21 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from pydantic import Field
-
 from orchestra.description.actions.node import Node
 from orchestra.description.components import ComposableNode
 from orchestra.description.fields import Text
+from orchestra.description.model import field
 
 
 class NodeContainer(Node):
     """Start a component container and load components into it."""
 
-    exec: Text = Field(description="Executable in the package; without `pkg` a program.")
+    exec: Text = field(description="Executable in the package; without `pkg` a program.")
     # A container is no program in Python: these keys are not its own.
     module: ClassVar[None] = None  # type: ignore[misc]
     script: ClassVar[None] = None  # type: ignore[misc]
-    name: Text = Field(description="Name of the container's own node.")
-    namespace: Text | None = Field(description="Namespace; a relative one is put below the pushed one.")
-    composable_node: tuple[ComposableNode, ...] = Field(
+    name: Text = field(description="Name of the container's own node.")
+    namespace: Text | None = field(description="Namespace; a relative one is put below the pushed one.")
+    composable_node: tuple[ComposableNode, ...] = field(
         default=(), description="Components to load as soon as the container takes orders, in order."
     )

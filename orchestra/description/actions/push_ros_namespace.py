@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from pydantic import Field
-
 from orchestra.description.entity import Action
 from orchestra.description.fields import Text
+from orchestra.description.model import field
 
 
 class PushRosNamespace(Action):
     """Put every node that follows in this scope below a namespace; an absolute one replaces what was pushed."""
 
-    namespace: Text = Field(description="The namespace; a relative one is put below the one pushed before.")
+    namespace: Text = field(description="The namespace; a relative one is put below the one pushed before.")

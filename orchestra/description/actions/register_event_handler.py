@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from pydantic import InstanceOf  # noqa: TC002 - pydantic evaluates the annotations
+from typing import Annotated
 
 from orchestra.description.entity import Action
 from orchestra.description.handlers import Handler
+from orchestra.description.marks import Instance
 
 
 class RegisterEventHandler(Action):
     """From here on an event handler waits, before those that wait already; it may look for several events."""
 
-    handlers: tuple[InstanceOf[Handler], ...]
+    handlers: tuple[Annotated[Handler, Instance()], ...]

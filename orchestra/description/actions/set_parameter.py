@@ -2,23 +2,22 @@
 
 from __future__ import annotations
 
-from pydantic import Field
-
 from orchestra.description.conflict import Conflict
 from orchestra.description.entity import Action
 from orchestra.description.fields import AnyValue, Text
+from orchestra.description.model import field
 from orchestra.description.parts import Param, TypeWord
 
 
 class SetParameter(Action):
     """Set a parameter of every node that follows in this scope."""
 
-    name: Text = Field(description="Name of the parameter, or of the level above `param`.")
-    value: AnyValue | None = Field(default=None, description="A scalar or a list of scalars of one type.")
-    type: TypeWord | None = Field(
+    name: Text = field(description="Name of the parameter, or of the level above `param`.")
+    value: AnyValue | None = field(default=None, description="A scalar or a list of scalars of one type.")
+    type: TypeWord | None = field(
         default=None, description="Read the value as this type instead of by its looks."
     )
-    param: tuple[Param, ...] | None = Field(default=None, description="Nested parameters.")
+    param: tuple[Param, ...] | None = field(default=None, description="Nested parameters.")
 
     def conflict(self) -> Conflict | None:
         """Return what keeps this from being a value or a group of values."""

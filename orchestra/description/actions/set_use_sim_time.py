@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from pydantic import Field
-
 from orchestra.description.entity import Action
 from orchestra.description.fields import Flag
+from orchestra.description.model import field
 
 
 class SetUseSimTime(Action):
     """Let `ros_timer` go by simulated time. Nodes are not concerned: they take `set_parameter`."""
 
-    value: Flag = Field(description="Whether it goes by simulated time.")
+    value: Flag = field(description="Whether it goes by simulated time.")

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from pydantic import Field
-
 from orchestra.description.entity import Action
 from orchestra.description.fields import Text
+from orchestra.description.model import field
 
 
 class Shutdown(Action):
     """End the run."""
 
-    reason: Text | None = Field(default=None, description="Why, for the log.")
+    reason: Text | None = field(default=None, description="Why, for the log.")

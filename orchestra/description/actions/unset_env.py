@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from pydantic import Field
-
 from orchestra.description.entity import Action
 from orchestra.description.fields import Text
+from orchestra.description.model import field
 
 
 class UnsetEnv(Action):
     """Remove an environment variable for every process that follows in this scope."""
 
-    name: Text = Field(description="Name of the variable.")
+    name: Text = field(description="Name of the variable.")

@@ -5,8 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
-from pydantic import ValidationError
-
 from orchestra.compat import faults
 from orchestra.compat.building import model_of
 from orchestra.compat.explanation import told
@@ -19,6 +17,7 @@ from orchestra.compat.misplaced import misplaced
 from orchestra.compat.place import Argument
 from orchestra.compat.refusing import is_lost
 from orchestra.compat.wrong import WrongType
+from orchestra.description.core import ValidationError
 from orchestra.errors import Code
 from orchestra.location import displayed, point
 from orchestra.resolve.python.calling import user_code
