@@ -71,6 +71,19 @@ def stretch(whole: Whole, begin: int, end: int) -> Span:
     return span
 
 
+def stretches(span: Span, skipped: int = 0) -> Callable[[int, int], Span]:
+    """Return what gives parts of a span that was made of offsets, by offsets from so far behind its beginning."""
+    whole, begin, _ = span._offsets  # type: ignore[attr-defined] # noqa: SLF001 - its own module
+    begin += skipped
+
+    def part(first: int, last: int) -> Span:
+        span = _new(Span)
+        _set_offsets(span, (whole, begin + first, begin + last))
+        return span
+
+    return part
+
+
 def inside(span: Span, first: int, last: int) -> Span:
     """Return a part of a span that was made of offsets, by offsets from its beginning."""
     whole, begin, _ = span._offsets  # type: ignore[attr-defined] # noqa: SLF001 - its own module
@@ -111,13 +124,16 @@ def is_python(place: Span | Location) -> bool:
     return span.file.endswith(".py")
 
 
-def displayed(path: str) -> str:
-    """Return the path as it is shown to people: relative where it is below the working directory."""
+def displayed(path: str, real: Callable[[str], str] = os.path.realpath) -> str:
+    """Return the path as it is shown to people: relative where it is below the working directory.
+
+    `real` tells where a path leads to.
+    """
     try:
-        absolute = os.path.realpath(path)
+        absolute = real(path)
     except ValueError:  # no file can have such a name, as one with NUL
         return path
-    prefix = os.path.join(os.path.realpath(os.getcwd()), "")  # noqa: PTH118, PTH109 - pathlib is slow to import
+    prefix = os.path.join(real(os.getcwd()), "")  # noqa: PTH118, PTH109 - pathlib is slow to import
     return absolute.removeprefix(prefix)
 
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import gc
 import os
 from contextlib import contextmanager
-from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.seam import connected
 from orchestra.errors import Code, DescriptionError, Problem, Problems
+from orchestra.fields import replace
 from orchestra.load.files import load
 from orchestra.location import displayed, is_python, point
 from orchestra.plan.build import build
@@ -26,7 +26,7 @@ from orchestra.resolve.resolve import begin, carry_through, outcome
 from orchestra.resolve.single import single_node
 from orchestra.settings.find import without_settings
 from orchestra.settings.settle import settle
-from orchestra.witness.once import once
+from orchestra.witness.once import once, real
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -118,7 +118,7 @@ def opened(
             run = begin(inputs, problems, load=load, packages=packages, run_command=run_command)
             description = load(path, problems, ())
             if isolation.remaining is not None:  # code of the file may have changed it
-                take_environment(run, point(displayed(path)))
+                take_environment(run, point(displayed(path, real)))
             launch = None
             if description is not None:
                 resolved = _symbolic(carry_through(description, run), isolation.files)
@@ -156,7 +156,7 @@ def _point_into_code(problems: Problems) -> None:
 def _warn_of_remaining(path: str, isolation: Isolation, problems: Problems) -> None:
     """Tell what code of the launch files has begun that is no part of the plan."""
     if isolation.remaining is not None:
-        for told, span in isolation.remaining.told(point(displayed(path))):
+        for told, span in isolation.remaining.told(point(displayed(path, real))):
             problems.warning(Code.USER_CODE, told, span)
 
 

@@ -11,7 +11,6 @@ import os
 import sys
 import sysconfig
 from contextlib import contextmanager
-from importlib.abc import Loader, MetaPathFinder
 from importlib.machinery import ModuleSpec
 from importlib.util import find_spec
 from pathlib import Path
@@ -23,7 +22,10 @@ from orchestra.compat.borrowed import borrowing
 from orchestra.compat.place import is_own
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
+    from importlib.abc import Loader, MetaPathFinder
+else:  # nobody asks for what they add, and they import some thirty modules
+    Loader = MetaPathFinder = object
 
 _INSTALLED: Final = tuple(
     os.path.realpath(sysconfig.get_path(name)) for name in ("stdlib", "platstdlib", "purelib", "platlib")
@@ -72,10 +74,11 @@ class _Finder(MetaPathFinder):
 
 
 @contextmanager
-def served() -> Iterator[None]:
+def served(untouched: Callable[[], bool] = lambda: False) -> Iterator[None]:
     """Serve the names for a while; afterwards the modules of this process are as they were.
 
-    What launch files have imported is forgotten where it is the users' own: the next one begins anew.
+    What launch files have imported is forgotten where it is the users' own: the next one begins anew. `untouched` tells
+    whether no code of theirs has run.
     """
     finder = _Finder()
     before = dict(sys.modules)
@@ -91,7 +94,8 @@ def served() -> Iterator[None]:
         sys.dont_write_bytecode = bytecode
         if sys.modules != before:
             _forget_new(before)
-        pristine.restore()
+        if not untouched():
+            pristine.restore()
 
 
 def _forget_new(before: dict[str, ModuleType]) -> None:

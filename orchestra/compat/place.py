@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 from orchestra.dataclass import dataclass
 from orchestra.fields import field
 from orchestra.location import FIELDS, Span, displayed
+from orchestra.witness.once import real
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -158,7 +159,7 @@ def shown(file: str) -> str:
 
 @lru_cache(maxsize=4096)
 def _shown(file: str, _working_directory: str) -> str:
-    return displayed(file)
+    return displayed(file, real)
 
 
 def _positions(code: CodeType, index: int) -> _Positions:

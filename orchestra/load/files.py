@@ -12,7 +12,7 @@ from orchestra.load.encodings import UndecodableError, decoded
 from orchestra.load.entities import describe
 from orchestra.load.reader import Reader
 from orchestra.location import Location, Span, displayed, point
-from orchestra.witness.once import once
+from orchestra.witness.once import once, real
 
 if TYPE_CHECKING:
     from orchestra.description.launch import Description
@@ -41,7 +41,7 @@ def load(
         from orchestra.load import python_file  # noqa: PLC0415
 
         return python_file.read(path, problems, included_from)
-    file = once(("displayed", path, os.getcwd()), lambda: displayed(path))  # noqa: PTH109 - pathlib is slow
+    file = once(("displayed", path, os.getcwd()), lambda: displayed(path, real))  # noqa: PTH109 - pathlib is slow
     reader = Reader(problems, included_from)
     at = included_from[0] if included_from else point(file)
     location = Location(at, included_from[1:])

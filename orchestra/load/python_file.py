@@ -10,7 +10,6 @@ import linecache
 import os
 import sys
 from contextlib import contextmanager
-from dataclasses import replace
 from functools import lru_cache
 from importlib.machinery import ModuleSpec
 from types import CodeType, CoroutineType, FunctionType, ModuleType
@@ -26,9 +25,11 @@ from orchestra.description.actions.opaque import OpaqueAction
 from orchestra.description.launch import Description
 from orchestra.description.text import Template, Words
 from orchestra.errors import Code, Problems, Severity
+from orchestra.fields import replace
 from orchestra.load.tested import description_in
 from orchestra.location import Location, displayed, point
 from orchestra.nearest import nearest
+from orchestra.witness.once import real
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -44,7 +45,7 @@ _OTHERS: Final = (".xml", ".yaml", ".yml")
 def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Description | None:
     """Run a launch file and return what it describes. What goes wrong is reported; None where nothing comes of it."""
     linecache.checkcache(path)
-    file = displayed(path)
+    file = displayed(path, real)
     at = point(file)
     reason = _unreadable(path)
     if reason is not None:

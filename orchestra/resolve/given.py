@@ -25,7 +25,7 @@ def given_sections(run: Resolution) -> tuple[GivenSections, ...]:
     found = []
     for given in run.inputs.parameter_files:
         location = Location(given.span)
-        path = file_below(Path.cwd(), Value(given.path, location), "parameter file", run)
+        path = file_below(str(Path.cwd()), Value(given.path, location), "parameter file", run)
         file = read_file(path, location, run) if path is not None else None
         if file is not None:
             found.append(GivenSections(file.sections, location, strict=False))

@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from contextlib import nullcontext
-from dataclasses import replace
 from typing import TYPE_CHECKING, TypeAlias
 
 from orchestra.dataclass import dataclass
@@ -17,6 +16,7 @@ from orchestra.description.actions.opaque import OpaqueAction
 from orchestra.description.entity import Entity
 from orchestra.description.text import Call, Opaque, Template, Words
 from orchestra.errors import Problems
+from orchestra.fields import replace
 from orchestra.resolve.context import CommandResult, Context, Value
 from orchestra.resolve.evaluate import evaluate
 from orchestra.resolve.ledger import Hidden
@@ -121,6 +121,7 @@ def names_behind(
     return names, more
 
 
+_PLAIN = frozenset({Template, str, bool, type(None)})  # most of what is in an entity, and never one itself
 _FIXED = frozenset({"dirname", "filename", "find-pkg-prefix", "find-pkg-share"})
 
 
@@ -166,18 +167,16 @@ def _files(
 
 def entities_in(value: object) -> Iterator[Entity]:
     """Yield an entity, or several, and all that stand in them."""
-    kind = type(value)
-    if (
-        kind is Template or kind is str or value is None
-    ):  # most of them; whether one is a model takes long to tell
-        return
-    if kind is not tuple and isinstance(value, Entity):
+    if isinstance(value, tuple):
+        for item in value:
+            if type(item) not in _PLAIN:
+                yield from entities_in(item)
+    elif isinstance(value, Entity):
         yield value
         for name in type(value).model_fields:
-            yield from entities_in(getattr(value, name))
-    elif isinstance(value, tuple):
-        for item in value:
-            yield from entities_in(item)
+            inner = getattr(value, name)
+            if type(inner) not in _PLAIN:
+                yield from entities_in(inner)
 
 
 def templates_of(entity: Entity) -> Iterator[Template]:

@@ -29,12 +29,12 @@ def existing_file(value: Value, written: Template, what: str, run: Resolution) -
 
     `written` is the text that the value is from.
     """
-    return file_below(folder_of(run.context.file), value, what, run, written.raw)
+    return file_below(_start_of(run.context.file), value, what, run, written.raw)
 
 
 def beside(file: str | None, written: str) -> str | None:
     """Return the absolute path of a file that a launch file names, None where there is none."""
-    return _found(folder_of(file), written)
+    return _found(_start_of(file), written)
 
 
 def check_folder(value: Value, written: Template, run: Resolution) -> None:
@@ -59,7 +59,7 @@ def may_come(value: Value, run: Resolution) -> bool:
     settled = (folder, *(Path(prefix) for prefix in prefixes if prefix))
     return (
         path.is_absolute()
-        and _found(folder, value.text) is None
+        and _found(str(folder), value.text) is None
         and not any(map(path.is_relative_to, settled))
     )
 
@@ -71,16 +71,16 @@ def settled_path(value: Value, run: Resolution) -> Path | None:
     settled = (folder, *(Path(prefix) for prefix in prefixes if prefix))
     path = Path(os.path.normpath(folder / written))
     known = any(map(path.is_relative_to, settled))
-    return path if known and not _exists(path) and _found(folder, value.text) is None else None
+    return path if known and not _exists(path) and _found(str(folder), value.text) is None else None
 
 
 def file_below(
-    folder: Path, value: Value, what: str, run: Resolution, written: str | None = None
+    folder: str, value: Value, what: str, run: Resolution, written: str | None = None
 ) -> str | None:
     """Return the absolute path of a file given relative to a folder, or to the working directory."""
     found = _found(folder, value.text)
     if found is None:
-        path = folder / _expanded(value.text)
+        path = Path(folder) / _expanded(value.text)
         folder_there = _exists(path)
         message = f"there is no {what} {displayed(str(path))}" + (": it is a folder" if folder_there else "")
         changes = () if folder_there else near_names(path)
@@ -136,10 +136,19 @@ def _with(written: str, changes: Iterable[tuple[str, str]]) -> str:
     return written
 
 
-def _found(folder: Path, written: str) -> str | None:
-    path = _expanded(written)
-    candidates = (folder / path, Path.cwd() / path)
-    return next((os.path.normpath(candidate) for candidate in candidates if is_file(candidate)), None)
+def _start_of(file: str | None) -> str:
+    return os.path.dirname(file) if file else os.getcwd()  # noqa: PTH109, PTH120 - pathlib is slow
+
+
+def _found(folder: str, written: str) -> str | None:
+    """Return the absolute path of a file that is there, relative to a folder or else to the working directory."""
+    # pathlib, which is slow, only for what it reads otherwise than the system: somebody's home, a slash at the end.
+    plain = not written.startswith("~") and not written.endswith(("/", "/."))
+    path = written if plain else str(_expanded(written))
+    for candidate in (os.path.join(folder, path), os.path.join(os.getcwd(), path)):  # noqa: PTH109, PTH118
+        if is_file(candidate):
+            return os.path.normpath(candidate)
+    return None
 
 
 def _expanded(written: str) -> Path:

@@ -38,6 +38,7 @@ class Observer:
         self.code: set[str] = set()
         self._aside = 0
         self._seen: dict[str, Signature | None] = {}
+        self._parts: dict[int, Record] = {}
         self._digests: dict[str, tuple[Signature | None, str]] = {}
         self._folders = looking.Folders().listing
         self._installed: Record = Record()
@@ -66,6 +67,7 @@ class Observer:
     def begin(self, environment: dict[str, str]) -> None:
         """Begin a record; `environment` is the one that counts as being outside."""
         self.record, self._seen, self._of_users, self.certain = Record(), {}, False, True
+        self._parts = {}
         self._environment, self._paths = environment, set()
         if len(self._wholes) > _MOST_PATHS:
             self._wholes.clear()
@@ -88,22 +90,23 @@ class Observer:
     @contextmanager
     def part(self) -> Iterator[Record]:
         """Record for a while what belongs to one part of the result, which may serve others; see `depend`."""
-        outer, seen, part = self.record, self._seen, Record()
+        outer, seen, parts, part = self.record, self._seen, self._parts, Record()
         if outer is None:
             yield part
             return
-        self.record, self._seen = part, {}
+        self.record, self._seen, self._parts = part, {}, {}
         try:
             yield part
         finally:
             with self.aside():
                 for path, before in self._seen.items():
                     self._complete(part, path, before)
-            self.record, self._seen = outer, seen
+            self.record, self._seen, self._parts = outer, seen, parts
 
     def depend(self, part: Record) -> None:
         """Record that the result has a part that is recorded already."""
-        if self.active and self.record is not None:
+        if self.active and self.record is not None and id(part) not in self._parts:
+            self._parts[id(part)] = part  # kept, so that no other one gets its number
             self.record.absorb(part)
 
     @contextmanager

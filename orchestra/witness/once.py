@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from orchestra.witness.observing import observer
@@ -34,3 +35,12 @@ def once(key: tuple[Any, ...], find: Callable[[], _FoundT]) -> _FoundT:
     finally:
         watching.depend(record)
     return found
+
+
+def real(path: str) -> str:
+    """Return what `os.path.realpath` returns; what is above a file is looked at once for all files of its folder."""
+    folder, name = os.path.split(path)
+    if not folder.startswith("/") or name in ("", ".", "..") or "\0" in path:
+        return os.path.realpath(path)
+    whole = os.path.join(once(("real", folder), lambda: os.path.realpath(folder)), name)
+    return os.path.realpath(whole) if os.path.islink(whole) else whole

@@ -5,7 +5,6 @@ from __future__ import annotations
 import gc
 import os
 import tempfile
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -14,13 +13,15 @@ from orchestra.cli.look.finding import Finding
 from orchestra.cli.look.questions import RecordedPackages
 from orchestra.cli.look.sharing import SharedLoader
 from orchestra.errors import Code, Problems
+from orchestra.fields import replace
 from orchestra.location import Location, displayed, point
 from orchestra.resolve.mentions import files_named
+from orchestra.resolve.python.environ import put_environment
 from orchestra.resolve.rcl.files import read_parameter_file
 from orchestra.settings.comments import MARK
 from orchestra.settings.settle import settle
 from orchestra.witness.observing import observer
-from orchestra.witness.once import once
+from orchestra.witness.once import real
 from orchestra.witness.variables import ObservedEnvironment
 
 if TYPE_CHECKING:
@@ -51,6 +52,9 @@ class Looker:
 
         Temporary files of code go below the folder `scratch`: what they are called tells nothing.
         """
+        put_environment(
+            self._environment
+        )  # so that there is nothing to change, and to put back, for each file
         tempfile.tempdir = scratch
         observer().scratch = scratch
         observer().install()
@@ -78,14 +82,14 @@ class Looker:
         problems = Problems()
         visit = _Visit(self._loader)
         self._loader.named = set()
-        absolute = str(Path(path).absolute())
+        absolute = os.path.abspath(path)  # noqa: PTH100 - pathlib is slow
         with pipeline.opened(
             absolute, self._inputs, problems, load=visit.load, packages=self._packages, digests=False
         ) as launch:
             left_out = set() if launch is None else launch.left_out
-        named = self._loader.named | set(map(_real, left_out))
+        named = self._loader.named | set(map(real, left_out))
         return Finding(
-            _real(path),
+            real(absolute),
             problems.ordered,
             frozenset(visit.included),
             frozenset(named),
@@ -95,11 +99,11 @@ class Looker:
 
     def _names(self, description: Description) -> set[str]:
         files = files_named(description, self._inputs.environment, self._packages)
-        return set(map(_real, files))
+        return set(map(real, files))
 
     def _parameters(self, path: str) -> Finding:
         problems = Problems()
-        file = displayed(path)
+        file = displayed(path, real)
         try:
             text = Path(path).read_bytes().decode("utf-8-sig")
         except (OSError, UnicodeDecodeError) as error:
@@ -109,9 +113,7 @@ class Looker:
             read_parameter_file(text, file, problems, ())
         settle(problems, str(Path(path).absolute()), self._inputs.severity)
         silencing = frozenset(problems.silencing)
-        return Finding(
-            os.path.realpath(path), problems.ordered, silencing=silencing, comments=_has_comments(path)
-        )
+        return Finding(real(path), problems.ordered, silencing=silencing, comments=_has_comments(path))
 
 
 class _Visit:
@@ -126,12 +128,8 @@ class _Visit:
     ) -> Description | None:
         """Read a launch file, as `orchestra.load.files.load` does."""
         if chain:
-            self.included.add(_real(path))
+            self.included.add(real(path))
         return self._loader.load(path, problems, chain, ending)
-
-
-def _real(path: str) -> str:
-    return once(("real", path), lambda: os.path.realpath(path))
 
 
 def _has_comments(path: str) -> bool:

@@ -6,7 +6,6 @@ import os
 import sys
 import time
 from contextlib import ExitStack, contextmanager, redirect_stdout, suppress
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.compat.argv import Arguments
@@ -64,17 +63,18 @@ def isolated(
     with ExitStack() as restoring:
         restoring.callback(_put_zone, time.tzname)
         restoring.callback(put_environment, environment_now())
-        restoring.callback(os.chdir, Path.cwd())
+        restoring.callback(os.chdir, os.getcwd())  # noqa: PTH109 - pathlib is slow
         restoring.callback(_put_list, sys.path, list(sys.path))
         restoring.callback(setattr, sys, "argv", sys.argv)
         restoring.enter_context(redirect_stdout(sys.stderr))
         restoring.enter_context(_programs_redirected())
-        restoring.enter_context(served())
+        isolation = Isolation(restoring, launching=launching)
+        restoring.enter_context(served(lambda: isolation.remaining is None))
         restoring.callback(_forget_loggers)
         put_environment(environment)
         sys.argv = Arguments(argv)
         sys.path += libraries(environment)
-        yield Isolation(restoring, launching=launching)
+        yield isolation
 
 
 @contextmanager
