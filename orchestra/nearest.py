@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from difflib import SequenceMatcher
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
@@ -42,7 +41,7 @@ def _same_case(word: str, candidate: str, best: str) -> bool:
     """Return whether a candidate that is but for the case the best one has more of the word's letters as they are."""
     if _folded(candidate) != _folded(best):
         return False
-    ours, others = (SequenceMatcher(None, word, other, autojunk=False).ratio() for other in (candidate, best))
+    ours, others = (_ratio(word, other) for other in (candidate, best))
     return ours > others
 
 
@@ -51,8 +50,14 @@ def is_slip(word: str, meant: str) -> bool:
     if abs(len(word) - len(meant)) > _CHARACTERS_OF_A_SLIP or _digits(word) != _digits(meant):
         return False
     one, other = _folded(word), _folded(meant)
-    likeness = SequenceMatcher(None, one, other, autojunk=False).ratio()
+    likeness = _ratio(one, other)
     return likeness >= _LIKENESS_OF_A_SLIP or _is_swapped(one, other)
+
+
+def _ratio(one: str, other: str) -> float:
+    from difflib import SequenceMatcher  # noqa: PLC0415 - slow, and most launch files have no slips
+
+    return SequenceMatcher(None, one, other, autojunk=False).ratio()
 
 
 def _digits(text: str) -> str:
@@ -90,6 +95,6 @@ def _likeness(word: str, candidate: str, letters: dict[str, int]) -> float:
     common = sum([min(count, candidate.count(letter)) for letter, count in letters.items()])
     if 2.0 * common / (len(word) + len(candidate)) <= _LEAST_LIKENESS:
         return 0.0  # what `quick_ratio` would say, in a tenth of the time
-    ratio = SequenceMatcher(None, word, candidate, autojunk=False).ratio()
+    ratio = _ratio(word, candidate)
     near = ratio >= _LIKENESS_OF_A_SLIP or _one_slip(word, candidate) or word.startswith(candidate)
     return ratio if near or not short else 0.0

@@ -6,9 +6,11 @@
 from __future__ import annotations
 
 import re
+from contextlib import contextmanager
 
 TYPE_CHECKING = False  # `typing` itself costs more than this module, which the supervisor imports too
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from typing import Any, AnyStr
 
 _METHODS = ("match", "fullmatch", "search", "sub", "subn", "split", "findall", "finditer")
@@ -18,6 +20,18 @@ def pattern(text: AnyStr, flags: int = 0) -> re.Pattern[AnyStr]:
     """Return what `re.compile` would. Whoever uses it first may get the `re.error` that it would have raised."""
     late: Any = _Late(text, flags)  # it has all that is asked of one
     return late  # type: ignore[no-any-return]
+
+
+@contextmanager
+def late() -> Iterator[None]:
+    """Have the modules of others that are imported meanwhile compile theirs when they are first used, too."""
+    library: Any = re
+    compiled = library.compile
+    library.compile = pattern
+    try:
+        yield
+    finally:
+        library.compile = compiled
 
 
 class _Late:

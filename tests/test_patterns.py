@@ -18,7 +18,7 @@ _ROOT = Path(orchestra.__file__).parent
 _USERS = sorted(
     ".".join(("orchestra", *path.relative_to(_ROOT).with_suffix("").parts))
     for path in _ROOT.rglob("*.py")
-    if "orchestra.patterns import" in path.read_text()
+    if "orchestra.patterns import pattern" in path.read_text()
 )
 
 
@@ -63,6 +63,19 @@ def test_nothing_is_compiled_before_it_is_used(monkeypatch: pytest.MonkeyPatch) 
     assert compiled == []
     assert [late.match("aa") is None, late.search("b") is None] == [False, True]
     assert compiled == ["a+"]
+
+
+def test_modules_of_others_do_so_where_that_is_wanted(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "of_others.py").write_text("import re\nEXPRESSION = re.compile('a+', re.IGNORECASE)\n")
+    monkeypatch.syspath_prepend(tmp_path)
+    compile_ = re.compile
+    with patterns.late():
+        found = import_module("of_others").EXPRESSION
+    assert re.compile is compile_
+    assert isinstance(found, patterns._Late)
+    assert found.fullmatch("aA")
 
 
 def test_a_wrong_expression_is_told_when_it_is_used() -> None:

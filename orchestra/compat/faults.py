@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import sysconfig
-from traceback import format_exception
 from types import ModuleType
 from typing import TYPE_CHECKING
 
@@ -43,6 +42,8 @@ def report(error: BaseException, problems: Problems, chain: tuple[Span, ...], fa
     callers = list(dict.fromkeys(f"called at {span}" for span in spans[-2::-1]))
     notes = (*explanation.notes, *callers[:_MOST_CALLS])
     if debugging():
+        from traceback import format_exception  # noqa: PLC0415 - slow, and few ask for it
+
         notes = (*explanation.notes, "".join(format_exception(error)).rstrip())
     problems.report(
         Problem(

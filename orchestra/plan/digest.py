@@ -2,11 +2,16 @@
 
 from __future__ import annotations
 
-import hashlib
 import json
 from typing import TYPE_CHECKING, Final
 
 from orchestra.plan.codec import encode
+
+try:
+    # What `hashlib` has, without the library of ciphers that it loads first.
+    from _sha256 import sha256  # type: ignore[import-not-found]
+except ImportError:  # not every interpreter has it by this name
+    from hashlib import sha256
 
 if TYPE_CHECKING:
     from orchestra.plan.model import Process
@@ -31,4 +36,5 @@ def digest(process: Process) -> str:
 
 def digest_of(*content: object) -> str:
     """Return the digest of a process that is not made yet, of the same in the same order."""
-    return hashlib.sha256(_text(content).encode("utf-8", "surrogatepass")).hexdigest()
+    found: str = sha256(_text(content).encode("utf-8", "surrogatepass")).hexdigest()
+    return found

@@ -11,9 +11,7 @@ from __future__ import annotations
 import contextlib
 import marshal
 import os
-import selectors
 import signal
-import subprocess
 import sys
 import time
 from pathlib import Path
@@ -25,6 +23,7 @@ from orchestra.resolve.command_reaper import children, kill, set_subreaper
 from orchestra.resolve.context import CommandResult
 
 if TYPE_CHECKING:
+    import subprocess
     from collections.abc import Callable, Iterator, Mapping
 
 _REAPER: Final = Path(__file__).with_name("command_reaper.py")
@@ -47,6 +46,8 @@ def run_command(
     `timeout` is in seconds, `limit` in bytes of standard output and error together; passing either ends the command.
     The program is looked for on the PATH of `environment`. What the command cannot do is told in `failure`.
     """
+    import subprocess  # noqa: PLC0415 - slow, and few launch files run commands
+
     reading, writing = os.pipe()
     with open(reading, "rb") as report, _inheriting() as end_orphans:  # noqa: PTH123 - a descriptor, not a path
         try:
@@ -103,6 +104,8 @@ def _end_orphans(spared: set[int]) -> bool:
 
 
 def _await_end(reaper: subprocess.Popen[bytes]) -> None:
+    import subprocess  # noqa: PLC0415 - as above
+
     try:
         reaper.wait(_GRACE)
     except subprocess.TimeoutExpired:
@@ -157,6 +160,8 @@ def _gather(output: _Output, timeout: float, limit: int) -> str | None:
 
     Where the reaper is dead nothing else is waited for: what it leaves behind may hold the streams for ever.
     """
+    import selectors  # noqa: PLC0415 - as above
+
     deadline = time.monotonic() + timeout
     with selectors.DefaultSelector() as selector:
         for descriptor in output.open:

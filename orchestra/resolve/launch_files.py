@@ -8,7 +8,6 @@ PACKAGE/NAME    the same in one word
 
 from __future__ import annotations
 
-import ast
 import os
 import re
 import warnings
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
 _NAMED = pattern(r".(\.launch|[._-]launch\.(py|xml|ya?ml))$")
 _KEY = pattern(r"""^(\{\s*)?["']?launch["']?\s*:""", re.MULTILINE)
 _FUNCTION = "generate_launch_description"
-_BLOCKS = (ast.stmt, ast.excepthandler, ast.match_case)
 _MARKS = {
     ".py": pattern(rf"^\s*(async\s+)?def\s+{_FUNCTION}\b", re.MULTILINE),
     ".xml": pattern(r"<launch[\s>]"),
@@ -100,6 +98,9 @@ def is_launch_text(name: str, text: str) -> bool:
 
 def _defines(text: str) -> bool:
     """Tell whether a module defines the function of launch files, or has an error that may hide it."""
+    import ast  # noqa: PLC0415 - slow, and only whoever looks for launch files asks
+
+    blocks = (ast.stmt, ast.excepthandler, ast.match_case)
     try:
         with warnings.catch_warnings(action="ignore"):  # told when the file is run
             waiting: list[ast.AST] = [ast.parse(text)]
@@ -111,7 +112,7 @@ def _defines(text: str) -> bool:
             if node.name == _FUNCTION:
                 return True
         elif not isinstance(node, ast.ClassDef):
-            waiting += (child for child in ast.iter_child_nodes(node) if isinstance(child, _BLOCKS))
+            waiting += (child for child in ast.iter_child_nodes(node) if isinstance(child, blocks))
     return False
 
 

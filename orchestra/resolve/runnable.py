@@ -6,8 +6,6 @@ Source: execve(2); `Elf64_Ehdr` in elf(5).
 from __future__ import annotations
 
 import os
-import platform
-import shutil
 from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -61,6 +59,8 @@ def program_on_path(name: str, environment: Mapping[str, str]) -> str | None:
 
 @lru_cache(maxsize=256)  # a description starts the same programs again and again
 def _which(name: str, path: str) -> str | None:
+    import shutil  # noqa: PLC0415 - slow, and of no use where programs are named by their paths
+
     return shutil.which(name, path=path)
 
 
@@ -113,7 +113,7 @@ def _of_program(beginning: bytes) -> Fault | None:
         return None
     little = beginning[5] != 2  # noqa: PLR2004 - ELFDATA2MSB
     machine = _MACHINES.get(int.from_bytes(beginning[18:20], "little" if little else "big"))
-    ours = platform.machine()
+    ours = os.uname().machine
     if machine is None or machine == ours or machine in _RUNS_TOO.get(ours, ()):
         return None
     return Fault(f"it is built for {machine}, and this machine is {ours}", here=True)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shlex
 from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -284,6 +283,8 @@ def _prefix(action: Running, program: Program, run: Resolution) -> tuple[str, ..
 
 def _words_of_prefix(prefix: Value, run: Resolution) -> tuple[str, ...] | Poison:
     try:
+        import shlex  # noqa: PLC0415 - slow, and few processes have a prefix
+
         return tuple(shlex.split(prefix.text))
     except ValueError as error:
         run.problems.error(Code.BAD_VALUE, f"'launch-prefix' is no command: {error}", prefix.location)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code, Problems
@@ -41,7 +40,7 @@ def single_node(
         program=words or (),
         arguments=tuple(arguments),
         ros_arguments=None,
-        prefix=tuple(shlex.split(prefix)),
+        prefix=_words(prefix),
         shell=False,
         cwd=None,
         environment={},
@@ -81,3 +80,9 @@ def _report(package: str, executable: str, at: Span, problems: Problems, package
         suggestion=nearest(executable, known),
         notes=("it has " + ", ".join(sorted(known)),) if known else (),
     )
+
+
+def _words(prefix: str) -> tuple[str, ...]:
+    import shlex  # noqa: PLC0415 - slow, and few nodes have a prefix
+
+    return tuple(shlex.split(prefix))

@@ -6,7 +6,6 @@ A comparison of constants is meant: that is how people switch something off.
 
 from __future__ import annotations
 
-import ast
 import warnings
 from typing import TYPE_CHECKING, Final
 
@@ -19,6 +18,7 @@ from orchestra.patterns import pattern
 from orchestra.resolve.substitutions.equality import equal
 
 if TYPE_CHECKING:
+    import ast
     from collections.abc import Iterator, Sequence
 
     from orchestra.description.text import Part, Template
@@ -111,6 +111,8 @@ def _report(argument: str, text: str, span: Span, run: Resolution, *, holds: boo
 
 def _check_expression(template: Template, run: Resolution) -> None:
     """Report the comparisons in a Python expression whose result is always the same."""
+    import ast  # noqa: PLC0415 - slow, and few conditions are expressions
+
     text = "".join(
         part.text if isinstance(part, Words) else f"\ue000{index}\ue001"
         for index, part in enumerate(template.parts)
@@ -128,6 +130,8 @@ def _check_expression(template: Template, run: Resolution) -> None:
 
 
 def _check_compared(node: ast.Compare, template: Template, lead: int, run: Resolution) -> None:
+    import ast  # noqa: PLC0415 - as above
+
     (operator,), (right,) = node.ops, node.comparators
     sides = [node.left, right]
     if isinstance(operator, ast.In | ast.NotIn) and isinstance(right, ast.Tuple | ast.List | ast.Set):

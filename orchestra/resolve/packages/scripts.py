@@ -6,10 +6,8 @@ installed projects") without `importlib.metadata`, which costs more to import th
 
 from __future__ import annotations
 
-import csv
 import os
 import sys
-import sysconfig
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -49,6 +47,10 @@ def _listed(entry_points: Path) -> Iterator[tuple[str, str]]:
 
 def _script_path(metadata: Path, script: str) -> Path:
     """Return where a distribution's script lies: where its record says, else in the interpreter's folder."""
+    # Both are slow, and few launch files name a Python package.
+    import csv  # noqa: PLC0415
+    import sysconfig  # noqa: PLC0415
+
     record = metadata / "RECORD"
     if record.is_file():
         with record.open(encoding="utf-8", newline="") as file:

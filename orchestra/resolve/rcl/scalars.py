@@ -6,8 +6,6 @@ Source: `rcl_yaml_param_parser`, `get_value`; C17 7.22.1; measured in `tests/dat
 from __future__ import annotations
 
 import re
-from decimal import Decimal
-from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from orchestra.patterns import pattern
@@ -65,13 +63,17 @@ def _double(text: str) -> float | None:
         return float(special[1] + special[2])
     if decimal := _DECIMAL.fullmatch(text):
         value = float(text)
-        return value if _in_range(value, decimal, lambda: Decimal(text) == Decimal(value)) else None
+        return value if _in_range(value, decimal, lambda: _is(text, value)) else None
     if hexadecimal := _HEXADECIMAL.fullmatch(text):
         try:
             value = float.fromhex(text)
         except OverflowError:
             return None
-        return value if _in_range(value, hexadecimal, lambda: _fraction(text, hexadecimal) == value) else None
+        return (
+            value
+            if _in_range(value, hexadecimal, lambda: _is_hexadecimal(text, hexadecimal, value))
+            else None
+        )
     return None
 
 
@@ -85,7 +87,15 @@ def _in_range(value: float, found: re.Match[str], is_exact: Callable[[], bool]) 
     return size >= _LEAST_NORMAL or is_exact()
 
 
-def _fraction(text: str, found: re.Match[str]) -> Fraction:
+def _is(text: str, value: float) -> bool:
+    from decimal import Decimal  # noqa: PLC0415 - slow, and few numbers are as small as that
+
+    return Decimal(text) == Decimal(value)
+
+
+def _is_hexadecimal(text: str, found: re.Match[str], value: float) -> bool:
+    from fractions import Fraction  # noqa: PLC0415 - as above
+
     size = Fraction(int(found["whole"] + found["part"], 16))
     power = int(found["power"] or 0) - 4 * len(found["part"])
-    return (-size if text.startswith("-") else size) * Fraction(2) ** power
+    return (-size if text.startswith("-") else size) * Fraction(2) ** power == value

@@ -6,7 +6,6 @@ from the name and the launch file: a plan stays the same from run to run and can
 
 from __future__ import annotations
 
-import hashlib
 import re
 from pathlib import PurePath
 from typing import TYPE_CHECKING
@@ -34,5 +33,7 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
 def _unique(name: str, file: str | None) -> str:
     """Return a name that ROS accepts where it accepts the given one; of the file, the folder does not count."""
     source = f"{name}\0{PurePath(file or '').name}"
+    import hashlib  # noqa: PLC0415 - slow, and few launch files ask for it
+
     suffix = hashlib.blake2s(source.encode("utf-8", "surrogatepass"), digest_size=4).hexdigest()
     return re.sub(r"[.:-]", "_", f"{name}_{suffix}")

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shlex
 from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
@@ -33,6 +32,8 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
     if on_stderr not in _ON_STDERR:
         told = f"on_stderr is one of {', '.join(_ON_STDERR)}, not {on_stderr!r}"
         return refuse(call.arguments[1], context, Code.BAD_VALUE, told, meant=nearest(on_stderr, _ON_STDERR))
+    import shlex  # noqa: PLC0415 - slow, and few launch files run commands
+
     try:
         argv = tuple(shlex.split(command))
     except ValueError as error:
@@ -66,5 +67,7 @@ def _fault(result: CommandResult, on_stderr: str) -> str | None:
 
 
 def _notes(argv: tuple[str, ...], result: CommandResult) -> tuple[str, ...]:
+    import shlex  # noqa: PLC0415 - as above
+
     said = result.stderr.strip()[-_SHOWN:]
     return (f"it is {shlex.join(argv)}", *([f"it says: {said}"] if said else []))

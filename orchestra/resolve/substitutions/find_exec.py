@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import shutil
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
@@ -27,6 +26,8 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
     if isinstance(name, Poison):
         return POISON
     path = context.environment.get("PATH", os.defpath)
+    import shutil  # noqa: PLC0415 - slow, and few launch files ask for it
+
     found = shutil.which(name.text, path=path)
     if found is not None:
         return made(call, context, os.path.abspath(found))  # noqa: PTH100 - a link must stay a link

@@ -6,7 +6,6 @@ import contextlib
 import json
 import os
 import sys
-import traceback
 from typing import TYPE_CHECKING, Any
 
 from orchestra.supervise.keeping.standard_streams import flush
@@ -56,6 +55,8 @@ def _answered(answer: Answer, question: dict[str, Any]) -> dict[str, Any]:
     try:
         return answer(question)
     except (Exception, SystemExit) as error:  # noqa: BLE001 - the boundary to the user's code
+        import traceback  # noqa: PLC0415 - the resolver of every run imports this module
+
         traceback.print_exc(file=sys.stderr)
         return {"failure": f"{type(error).__name__}: {error}", "location": None}
 
