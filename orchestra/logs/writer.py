@@ -52,6 +52,7 @@ class LogFile:
     def __init__(self, writer: Writer, file: Appended) -> None:
         self._writer = writer
         self._file = file
+        self._begun = False
 
     @property
     def lost(self) -> int:
@@ -61,11 +62,14 @@ class LogFile:
     def write(self, data: bytes) -> None:
         """Append data."""
         if data:
+            self._begun = True
             self._writer.add(self._file, data)
 
     def close(self) -> None:
         """Close the file when everything is written; writing opens it again."""
-        self._writer.add(self._file, _CLOSE)
+        if self._begun:
+            self._begun = False
+            self._writer.add(self._file, _CLOSE)
 
 
 class Writer:

@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping, Sequence
     from pathlib import Path
 
+    from orchestra.logs.tail import Tail
     from orchestra.plan.model import Process
     from orchestra.supervise.crash.dossier import Dossier, Run
     from orchestra.supervise.process.child import Child
@@ -69,7 +70,7 @@ class Crashes:
 
         self._threads = tuple(map(str, threads(pids)))
 
-    def ended(self, state: State, ending: Ending, child: Child | None, lines: Sequence[str]) -> None:
+    def ended(self, state: State, ending: Ending, child: Child | None, tail: Tail) -> None:
         """One run of it is over, or did not come about: `child` None. `state` is the one before."""
         from orchestra.supervise.crash.dossier import Run  # noqa: PLC0415 - nothing has ended when the first begins
 
@@ -77,7 +78,7 @@ class Crashes:
         self._runs.append(Run(self._starts, self._began, uptime, str(ending)))
         del self._runs[:-_KEPT_RUNS]
         if self._is_abnormal(state, ending):
-            self._keep(self._dossier(ending, child, uptime, lines))
+            self._keep(self._dossier(ending, child, uptime, tail.lines if child else ()))
 
     def _is_abnormal(self, state: State, ending: Ending) -> bool:
         """Tell whether nobody wanted it: neither the plan nor whoever stops, restarts or signals it."""

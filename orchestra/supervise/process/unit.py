@@ -215,7 +215,7 @@ class Unit:
         self._notices.end()
         self._around.confines.release(self.id)
         self._account.not_started(ending)
-        self._crashes.ended(self.state, ending, None, ())
+        self._crashes.ended(self.state, ending, None, self.tail)
         self._listener.ended(self.id, None, ending, intended=False)
         self.handle(life.Unstartable(ending, self._around.loop.clock()))
 
@@ -234,7 +234,7 @@ class Unit:
         self._account.ended(self.state, ending, child.pid, left)
         if not remains:
             self._bury()
-        self._crashes.ended(self.state, ending, child, self.tail.lines)
+        self._crashes.ended(self.state, ending, child, self.tail)
         self._listener.ended(self.id, child.pid, ending, intended=self.state.again or self.state.halted)
         self.handle(life.Ended(ending, remains, self._around.loop.clock()))
 

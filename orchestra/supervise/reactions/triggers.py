@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.plan.reactions import StartAction
 from orchestra.supervise.reactions.happening import in_order, run_started
+from orchestra.supervise.reactions.waiting import Waiting
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -36,7 +37,7 @@ class Triggers:
         self._loop = loop
         self._fire = fire
         self._known: dict[str, Trigger] = {}
-        self._waiting: dict[str, Trigger] = {}  # the one that began to wait last is the last
+        self._waiting = Waiting()
         self._delayed: list[tuple[Timer, Trigger]] = []
         self._started = False
         self._stopping = False
@@ -56,18 +57,17 @@ class Triggers:
 
     def register(self, name: str) -> None:
         """Let a trigger wait for its event; as the latest, whether or not it did before."""
-        self._waiting.pop(name, None)
         self._wait(self._known[name])
 
     def _wait(self, trigger: Trigger) -> None:
         """Let a trigger wait; what it waits for has come if that is the start of the run, which it was added to."""
-        self._waiting[trigger.id] = trigger
+        self._waiting.add(trigger)
         if self._started and trigger.on.event == "run_started":
             self._set_off([trigger], run_started())
 
     def unregister(self, name: str) -> None:
         """Let a trigger wait no more."""
-        self._waiting.pop(name, None)
+        self._waiting.remove(name)
 
     def cancel(self, name: str) -> None:
         """Let a trigger wait no more, and drop what its delay puts off."""
@@ -78,7 +78,7 @@ class Triggers:
 
     def awaited(self, event: EventName) -> list[Trigger]:
         """Return the triggers that wait for events of a kind."""
-        return [trigger for trigger in self._waiting.values() if trigger.on.event == event]
+        return self._waiting.on_event(event)
 
     def may_wait(self, event: EventName) -> list[Trigger]:
         """Return the triggers on events of a kind, also those that do not wait yet."""
@@ -87,7 +87,9 @@ class Triggers:
     def happened(self, happening: Happening) -> None:
         """Set off what waits for this."""
         self._started = self._started or happening.event == "run_started"
-        self._set_off(in_order(self._waiting.values(), happening), happening)
+        waiting = self._waiting.about(happening)
+        if waiting:
+            self._set_off(in_order(waiting, happening), happening)
 
     def _set_off(self, triggers: Iterable[Trigger], happening: Happening) -> None:
         at_once = []
