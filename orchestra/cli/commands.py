@@ -46,6 +46,9 @@ COMMANDS: Final[dict[str, Command]] = {
     "param": Command("orchestra.cli.ros.param", "show and set parameters of running nodes"),
     "action": Command("orchestra.cli.ros.action", "show actions and send goals to them"),
     "lifecycle": Command("orchestra.cli.ros.lifecycle", "show and change the states of lifecycle nodes"),
+    "interface": Command("orchestra.cli.ros.interface", "show types of messages, services and actions"),
+    "pkg": Command("orchestra.cli.ros.pkg", "show the packages that are installed"),
+    "tf": Command("orchestra.cli.ros.tf", "show the transforms between frames"),
     "completion": Command(
         "orchestra.cli.completion", "print what makes a shell complete these command lines"
     ),

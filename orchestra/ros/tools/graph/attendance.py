@@ -51,19 +51,15 @@ class Attendance:
     def settled(self, seen: Any) -> bool:  # noqa: ANN401 - whatever is looked for
         """Tell whether nobody is missing, and this has been seen long enough."""
         now = time.monotonic()
-        if seen != self._seen or not self._complete(now):
+        if seen != self._seen or not self.complete():
             self._seen, self._since = seen, now
         return now - self._since >= self._quiet
 
-    def close(self) -> None:
-        """End the roll call."""
-        if self._call is not None:
-            self._call.close()
-            self._call = None
-
-    def _complete(self, now: float) -> bool:
+    def complete(self) -> bool:
+        """Tell whether nobody is missing; those who are, are asked to name themselves."""
         if not self._counted:
             return True
+        now = time.monotonic()
         ports = ports_here(self._domain)
         found = self._participants()
         own = self._own()
@@ -77,6 +73,12 @@ class Attendance:
         if nameless != self._nameless[0]:
             self._nameless = (frozenset(nameless), now)
         return not nameless or now - self._nameless[1] > _NAMELESS
+
+    def close(self) -> None:
+        """End the roll call."""
+        if self._call is not None:
+            self._call.close()
+            self._call = None
 
     def _call_missing(self, own: bytes, ports: dict[int, str], now: float) -> None:
         port = own_port(ports)

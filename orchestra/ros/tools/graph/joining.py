@@ -26,6 +26,7 @@ SPIN_TIME: Final = 3.5
 # rclpy hears of a signal between two waits.
 _PAUSE: Final = 0.1
 _LOOK: Final = 0.005
+_MEETING: Final = 0.02
 # No log file: it would be a new one for each command.
 _ARGUMENTS: Final = ("--ros-args", "--disable-external-lib-logs")
 
@@ -37,6 +38,7 @@ class Graph:
         self.node = node
         self._began = time.monotonic()
         self._spin_time = spin_time
+        self._met = False
         self._attendance = Attendance(node)
         self._executor = SingleThreadedExecutor(context=node.context)
         self._executor.add_node(node)
@@ -52,8 +54,15 @@ class Graph:
             left = _PAUSE if until is None else until - time.monotonic()
             if left <= 0:
                 return False
-            self.spin(left)
+            self.spin(min(left, _PAUSE if self._has_met() else _MEETING))
         return True
+
+    def _has_met(self) -> bool:
+        """Tell whether all others are known, and ask them to name themselves where they are not."""
+        if not self._met:
+            late = time.monotonic() - self._began > self._spin_time
+            self._met = late or self._attendance.complete()
+        return self._met
 
     def found(self, look: Callable[[], _SeenT]) -> _SeenT:
         """Return the first that is seen and counts as true, else what is seen once all of the graph is."""

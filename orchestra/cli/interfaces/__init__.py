@@ -1,0 +1,1 @@
+"""Definitions of messages, services and actions: which are installed, and their text. No graph, no rclpy."""
