@@ -7,7 +7,7 @@ from collections.abc import Set as AbstractSet
 from typing import Any
 
 from orchestra.dataclass import dataclass
-from orchestra.location import Span, inside
+from orchestra.location import Span, inside, stretches
 
 
 @dataclass(slots=True)
@@ -40,9 +40,10 @@ class Verbatim(Written):
         self.quoted = quoted
         self.null = null
 
-    def spans(self, first: int, last: int) -> Span:
-        """Return the place of a part of the text."""
-        return inside(self.span, first + self.quoted, last + self.quoted)
+    @property
+    def spans(self) -> Callable[[int, int], Span]:  # type: ignore[override] # nobody sets it
+        """What gives the place of a part of the text."""
+        return stretches(self.span, self.quoted)
 
     @property
     def inside(self) -> Span:

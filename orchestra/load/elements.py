@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.dataclass import dataclass, maker
 from orchestra.description.source import Keyed, Listed, Verbatim, Written
 from orchestra.fields import field
-from orchestra.location import Span
+from orchestra.location import Span, stretch
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
@@ -32,11 +32,11 @@ class Attribute:
 
     def span(self, whole: Source) -> Span:
         """Return the place of the name."""
-        return whole.span(self.at, self.at + len(self.name))
+        return stretch(whole, self.at, self.at + len(self.name))
 
     def written(self, whole: Source) -> Written:
         """Return the value with its place in the file."""
-        span = whole.span(self.begin, self.end)
+        span = stretch(whole, self.begin, self.end)
         if whole.text[self.begin : self.end] == self.value:
             return Verbatim(self.value, span)
         return Written(self.value, span, self._spans(whole))
@@ -74,7 +74,7 @@ class Element:
 
     def span(self, whole: Source) -> Span:
         """Return the place of the name."""
-        return whole.span(self.at, self.at + len(self.name))
+        return stretch(whole, self.at, self.at + len(self.name))
 
 
 class Tagged(Keyed):

@@ -46,13 +46,14 @@ class Form:
 class Forms:
     """The form of every key of a model; those that are elements; whether other elements in it are actions.
 
-    `others` is the form of attributes that are no key.
+    `others` is the form of attributes that are no key, `texts` are the keys that are plain attributes.
     """
 
     by_key: Mapping[str, Form]
     elements: frozenset[str]
     holds_actions: bool = False
     others: Form = Form(Kind.TEXT)
+    texts: frozenset[str] = frozenset()
 
 
 VARIABLES = Forms({}, frozenset(), others=Form(Kind.VALUE))
@@ -67,7 +68,9 @@ def forms_of(model: type[Entity] | None) -> Forms:
     fields = model.model_fields if model is not None else {}
     forms = {entry.alias or name: _form(entry.annotation) for name, entry in fields.items()}
     elements = frozenset(key for key, form in forms.items() if form.kind in _ELEMENTS)
-    return Forms(forms, elements, any(form.kind is Kind.ACTIONS for form in forms.values()))
+    actions = any(form.kind is Kind.ACTIONS for form in forms.values())
+    texts = frozenset(key for key, form in forms.items() if form.kind is Kind.TEXT)
+    return Forms(forms, elements, actions, texts=texts)
 
 
 def _form(annotation: Any) -> Form:  # noqa: ANN401 - a type

@@ -101,6 +101,8 @@ class _Shaper:
         at = element.span(self.whole)
         tagged = Tagged(at, at, element, forms.elements)
         self._attributes(element, forms, tagged)
+        if not (element.children or forms.holds_actions or element.text is not None):
+            return tagged
         actions = Listed(at)
         for child in element.children:
             form = self._form(child.name, forms, actions=forms.holds_actions, element=True)
@@ -117,12 +119,13 @@ class _Shaper:
         return tagged
 
     def _attributes(self, element: Element, forms: Forms, tagged: Tagged) -> None:
+        if all(map(forms.texts.__contains__, (item.name for item in element.attributes))):  # as nearly always
+            for attribute in element.attributes:
+                tagged[attribute.name] = attribute.written(self.whole)
+            tagged.place_later(lambda: {item.name: item.span(self.whole) for item in element.attributes})
+            return
         separators = _separators(element)
         for attribute in element.attributes:
-            known = None if separators else forms.by_key.get(attribute.name)
-            if known is not None and known.kind is Kind.TEXT:  # as nearly all
-                tagged.put(attribute.name, attribute.written(self.whole), attribute.span(self.whole))
-                continue
             if attribute in separators.values() or attribute.name.split(":")[0] == "xmlns":
                 continue
             form = self._form(attribute.name, forms) or forms.others
