@@ -202,7 +202,7 @@ def _no_item(failure: Failure) -> Fault | None:
     column = failure.whole.place(begin)[1]
     if column != failure.whole.place(failure.context)[1]:
         return failure.fault("this is indented as nothing above it is", begin, end)
-    return failure.fault("an item of the list begins with '- '", begin, end, f"- {word}")
+    return failure.fault("an item of the list begins with '- '", begin, end, f"- {word.removeprefix('-')}")
 
 
 def _key_without_colon(failure: Failure) -> Fault:

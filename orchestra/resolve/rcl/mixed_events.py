@@ -23,6 +23,10 @@ _QUOTES = ("'", '"')
 
 def report_mixed(current: OpenList, at: Callable[[yaml.Event], Location], problems: Problems) -> None:
     """Report a list of several types at the item that is the odd one, with the item as it was probably meant."""
+    if current.mapping is not None:
+        message = "a parameter cannot be a list of mappings"
+        problems.error(Code.PARAMETER_TYPE, message, current.mapping)
+        return
     items = current.items or []
     odd = odd_item(items)
     assert odd is not None  # noqa: S101 - it is asked for where there are several types

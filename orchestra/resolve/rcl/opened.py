@@ -34,7 +34,7 @@ class OpenSection:
 class OpenList:
     """A list that is being read; `items` is None once an inner list has ended. `written` are their events.
 
-    `inner` is the place of the first list inside it.
+    `inner` is the place of the first list inside it, `mapping` that of the first mapping.
     """
 
     start: yaml.Event
@@ -42,6 +42,7 @@ class OpenList:
     written: list[yaml.Event] = field(default_factory=list)
     sound: bool = True
     inner: Location | None = None
+    mapping: Location | None = None
 
     def take(self, item: Scalar, event: yaml.ScalarEvent) -> None:
         """Take an item; behind an inner list they begin anew."""

@@ -184,7 +184,7 @@ class Reader:
         if self.depth and self.expects_key:
             raise self.unreadable("a mapping cannot be a key", event)
         if self.lists:
-            self.surprise("a list of mappings is no parameter; rcl takes the mapping apart", self.at(event))
+            self.lists[-1].mapping = self.lists[-1].mapping or self.at(event)
         self.keys.append(self.last_key if self.depth else "")
         self.key_places.append(self.last_key_at)
         self.depth += 1
@@ -236,6 +236,8 @@ class Reader:
         """Take the end of a list."""
         self.flush(event)
         closed = self.lists.pop()
+        if closed.mapping is not None and closed.sound:
+            self.surprise("a list of mappings is no parameter; rcl takes the mapping apart", closed.mapping)
         if self.lists:
             self.lists[-1].items = None
         elif closed.inner is not None:
