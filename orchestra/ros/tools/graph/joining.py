@@ -13,6 +13,7 @@ from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 
 from orchestra.ros.tools.graph.attendance import Attendance
+from orchestra.ros.tools.graph.ending import Ending
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
 
 _SeenT = TypeVar("_SeenT")
 
-SPIN_TIME: Final = 3.5
 # rclpy hears of a signal between two waits.
 _PAUSE: Final = 0.1
 _LOOK: Final = 0.005
@@ -34,8 +34,9 @@ _ARGUMENTS: Final = ("--ros-args", "--disable-external-lib-logs")
 class Graph:
     """What our node sees of the graph; `spin_time` is the longest time in seconds to wait until all of it is seen."""
 
-    def __init__(self, node: Node, spin_time: float) -> None:
+    def __init__(self, node: Node, spin_time: float, ending: Ending) -> None:
         self.node = node
+        self._ending = ending
         self._began = time.monotonic()
         self._spin_time = spin_time
         self._met = False
@@ -46,6 +47,7 @@ class Graph:
     def spin(self, seconds: float = _PAUSE) -> None:
         """Let what has come in be heard, and wait for it at most so long."""
         self._executor.spin_once(timeout_sec=min(seconds, _PAUSE))
+        self._ending.check()
 
     def wait(self, holds: Callable[[], Any], seconds: float | None) -> bool:
         """Wait until something holds, without end where no time is given; return whether it does."""
@@ -83,11 +85,13 @@ class Graph:
         if self._attendance.settled(seen()) or time.monotonic() - self._began > self._spin_time:
             return True
         time.sleep(_LOOK)
+        self._ending.check()
         return False
 
     def close(self) -> None:
-        """Take back what was said to others to make them known."""
+        """Leave the graph, and take back what was said to others to make them known."""
         self._attendance.close()
+        self.node.destroy_node()
 
 
 @contextmanager
@@ -95,18 +99,20 @@ def joined(options: Namespace) -> Iterator[Graph]:
     """Join the graph with a hidden node."""
     rclpy.init(args=list(_ARGUMENTS), signal_handler_options=SignalHandlerOptions.NO)
     try:
-        clock = [Parameter("use_sim_time", value=True)] if getattr(options, "use_sim_time", False) else []
-        node = rclpy.create_node(
-            getattr(options, "node_name", None) or f"_orchestra_{os.getpid()}",
-            start_parameter_services=False,
-            enable_rosout=False,
-            parameter_overrides=clock,
-        )
-        graph = Graph(node, float(getattr(options, "spin_time", SPIN_TIME)))
-        try:
-            yield graph
-        finally:
-            graph.close()
-            node.destroy_node()
+        with Ending() as ending:
+            graph = Graph(_node(options), float(options.spin_time), ending)
+            try:
+                yield graph
+            finally:
+                graph.close()
     finally:
         rclpy.try_shutdown()
+
+
+def _node(options: Namespace) -> Node:
+    return rclpy.create_node(
+        getattr(options, "node_name", None) or f"_orchestra_{os.getpid()}",
+        start_parameter_services=False,
+        enable_rosout=False,
+        parameter_overrides=[Parameter("use_sim_time", value=True)] if options.use_sim_time else [],
+    )

@@ -1,0 +1,51 @@
+"""Ending on a signal, between two waits.
+
+An exception that a handler raises while a message is converted comes out of the C++ of rclpy as another one, so the
+handlers only note the signal. A second one ends at once what does not come to a wait.
+"""
+
+from __future__ import annotations
+
+import signal
+from typing import TYPE_CHECKING, Final, Self
+
+if TYPE_CHECKING:
+    from types import FrameType, TracebackType
+
+_SIGNALS: Final = (signal.SIGINT, signal.SIGTERM)
+_STATUS: Final = 128
+
+
+class Ending:
+    """Notes signals while it is entered."""
+
+    def __init__(self) -> None:
+        self._noted: int | None = None
+        self._before: dict[int, object] = {}
+
+    def __enter__(self) -> Self:
+        for number in _SIGNALS:
+            self._before[number] = signal.signal(number, self._note)
+        return self
+
+    def __exit__(
+        self, _kind: type[BaseException] | None, _error: BaseException | None, _trace: TracebackType | None
+    ) -> None:
+        for number, handler in self._before.items():
+            signal.signal(number, handler)  # type: ignore[arg-type]  # what it has returned
+
+    def check(self) -> None:
+        """Raise `KeyboardInterrupt`, or `SystemExit` with the status for SIGTERM, where one has come."""
+        if self._noted is not None:
+            number, self._noted = self._noted, None
+            self._end(number)
+
+    def _note(self, number: int, _frame: FrameType | None) -> None:
+        if self._noted is not None:
+            self._end(number)
+        self._noted = number
+
+    def _end(self, number: int) -> None:
+        if number == signal.SIGINT:
+            raise KeyboardInterrupt
+        raise SystemExit(_STATUS + number)
