@@ -53,7 +53,7 @@ def _pair(item: tuple[Sub, Sub], span: Span, index: int) -> Pair:
         raise WrongType(told, item, at=within(span, index)) from None
     try:
         at, value_at = within(span, Key(index)), within(span, ValueOf(index))
-        return Pair.at(span, name=template(name, at), value=template(value, value_at))
+        return Pair.made(span, {"name": template(name, at), "value": template(value, value_at)})
     except TypeError as error:
         told = f"{name if isinstance(name, str) else 'a name'}: {error}"
         raise WrongType(told, value, at=within(span, ValueOf(index))) from None

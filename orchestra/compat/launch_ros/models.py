@@ -36,9 +36,14 @@ def params(parameters: Iterable[Any], span: Span) -> tuple[Param, ...]:
 
 def params_of(parameters: Mapping[Any, Any], span: Span) -> tuple[Param, ...]:
     """Return the parts for a normalised dictionary."""
-    return tuple(
-        Param.at(span, name=template(name, span), **value_fields(value, within(span, *_step(name))))
-        for name, value in parameters.items()
+    return tuple(_param(name, value, span) for name, value in parameters.items())
+
+
+def _param(name: Any, value: Any, span: Span) -> Param:
+    if isinstance(value, ParameterValue):  # which may say a type that there is not
+        return Param.at(span, name=template(name, span), **_typed(value))
+    return Param.made(
+        span, {"name": template(name, span), "value": _value(value, within(span, *_step(name)))}
     )
 
 
@@ -52,10 +57,12 @@ def value_fields(value: Any, span: Span) -> dict[str, Any]:
 def remaps(rules: Iterable[tuple[Any, Any]], span: Span) -> tuple[Remap, ...]:
     """Return the parts for remapping rules."""
     return tuple(
-        Remap.at(
+        Remap.made(
             span,
-            from_=template(source, within(span, index, 0)),
-            to=template(target, within(span, index, 1)),
+            {
+                "from_": template(source, within(span, index, 0)),
+                "to": template(target, within(span, index, 1)),
+            },
         )
         for index, (source, target) in enumerate(rules)
     )
@@ -105,10 +112,18 @@ def _value(value: Any, span: Span) -> Value | tuple[Value, ...]:
     if _is_text(value):
         return _text(value, span)
     if not any(isinstance(item, tuple) for item in value):
-        return new_constant(value, span)
+        return _exact(value, span)
     read = tuple(_text(item, span) for item in value)
     exact = [item.value for item in read if isinstance(item, Constant)]
-    return new_constant(tuple(exact), span) if len(exact) == len(read) else read  # type: ignore[arg-type]  # the visit checks that they are of one type
+    return _exact(tuple(exact), span) if len(exact) == len(read) else read
+
+
+def _exact(items: tuple[Any, ...], span: Span) -> Value | tuple[Value, ...]:
+    """Return a list of exact values; one of several types item by item, for the visit to tell which is the odd one."""
+    kinds = set(map(type, items))
+    if len(kinds) <= 1 or kinds in ({int, float}, {bool, int}):
+        return new_constant(items, span)
+    return tuple(new_constant(item, within(span, index)) for index, item in enumerate(items))
 
 
 def _is_text(items: Any) -> bool:

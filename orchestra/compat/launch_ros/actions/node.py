@@ -35,6 +35,8 @@ __all__ = ["Node", "NodeActionExtension"]
 
 _FORMER: Final = {"node_executable": "executable", "node_name": "name", "node_namespace": "namespace"}
 _ROS_ARGUMENTS: Final = "--ros-args"
+# What of all processes is said of a node about which nothing else is: with nothing in it that can be wrong.
+_PLAIN: Final = frozenset({"env", "origin"})
 
 
 class Node(ExecuteProcess):
@@ -174,7 +176,10 @@ class Node(ExecuteProcess):
         self.__final_node_name = f"{self.__expanded_node_namespace.rstrip('/')}/{self.__expanded_node_name}"
 
     def _process_model(self, common: Mapping[str, Any]) -> Model:
-        return NodeModel.at(self._place.span, **self._node_fields(), **self._running_fields(), **common)
+        fields, more = self._node_fields(), {**self._running_fields(), **common}
+        if fields["exec"] is not None and more.keys() <= _PLAIN:
+            return NodeModel.made(self._place.span, {**fields, "env": more["env"]}, more.get("origin"))
+        return NodeModel.at(self._place.span, **fields, **more)
 
     def _node_fields(self) -> dict[str, Any]:
         """Return the fields that the models of all kinds of nodes share."""
