@@ -1,4 +1,7 @@
-"""The table of commands. A command's module has `parser()` and `run(options)` and is imported when it is called."""
+"""The table of commands. A command's module has `parser()` and `run(options)` and is imported when it is called.
+
+It may have `read(words)` too, which gives the same options as its parser, in less time.
+"""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from orchestra.cli import boundary, inputs, run_options
-from orchestra.cli.parser import CommandParser
+from orchestra.cli.plain import Unasked, are_plain
 from orchestra.cli.problems.formats import FORMATS
 from orchestra.cli.remembered import NO_CACHE
 
@@ -18,13 +18,31 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
     from typing import BinaryIO
 
+    from orchestra.cli.parser import CommandParser
     from orchestra.pipeline import Launch
     from orchestra.supervise.resolver.serving import Answer, Settled
 
 
 def parser() -> CommandParser:
     """Return what the command understands."""
+    # Slow, and of no use where there are no options.
+    from orchestra.cli.parser import CommandParser  # noqa: PLC0415
+
     made = CommandParser("launch", "Start what a launch file describes, watch it, stop it.", inputs.EPILOG)
+    _add_to(made)
+    return made
+
+
+def read(words: Sequence[str]) -> Any:  # noqa: ANN401 - what argparse makes of them
+    """Return the options that words are. Raises `UsageError`, or `SystemExit` after `--help`."""
+    if not are_plain(words):
+        return parser().read(words)
+    unasked = Unasked()
+    _add_to(unasked)
+    return unasked.options(words)
+
+
+def _add_to(made: Any) -> None:  # noqa: ANN401 - argparse's parser, or what stands for it
     inputs.add_to(made)
     made.add_argument(
         "--format",
@@ -51,7 +69,6 @@ def parser() -> CommandParser:
         action="store_true",
         help="show the plan and start nothing",
     )
-    return made
 
 
 def run(options: Namespace) -> int:

@@ -49,7 +49,8 @@ def _carry_out(name: str, words: Sequence[str], act: Callable[[Any, Namespace], 
     """Read the options of a command and act on them with its module, the only one of a command that is imported."""
     module = import_module(COMMANDS[name].module)
     try:
-        options = module.parser().read(words)
+        read = getattr(module, "read", None) or module.parser().read
+        options = read(words)
     except SystemExit:  # argparse leaves so after it has printed the help
         return 0
     return guarded(lambda: act(module, options), Telling.of(name, options))

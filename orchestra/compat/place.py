@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import linecache
 import os
 import sys
 from functools import lru_cache
@@ -174,6 +173,8 @@ def _positions(code: CodeType, index: int) -> _Positions:
 
 def code_points(file: str, line: int, offset: int) -> int:
     """Return a column in code points for one in bytes of UTF-8, as the compiler counts."""
+    import linecache  # noqa: PLC0415 - slow, and launch files in YAML and XML have no use for it
+
     text = linecache.getline(file, line)
     if text.isascii():
         return offset
