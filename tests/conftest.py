@@ -29,13 +29,16 @@ _PATIENCE = 6.0
 _DOMAINS = range(20, 81)
 _HELD = pytest.StashKey[ExitStack]()
 
-hypothesis.settings.register_profile("steady", derandomize=True)
+# How long an example takes says more of what else the machine does.
+_UNTIMED = hypothesis.settings(deadline=None, suppress_health_check=[hypothesis.HealthCheck.too_slow])
+hypothesis.settings.register_profile("untimed", _UNTIMED)
+hypothesis.settings.register_profile("steady", _UNTIMED, derandomize=True)
 
 
 def pytest_configure(config: pytest.Config) -> None:
     # The same code is tried with the same examples each time; the long checks look for others in every run.
-    if config.option.markexpr == "not long" and not config.getoption("--hypothesis-profile"):
-        hypothesis.settings.load_profile("steady")
+    if not config.getoption("--hypothesis-profile"):
+        hypothesis.settings.load_profile("steady" if config.option.markexpr == "not long" else "untimed")
     # Programs in the background of a shell ignore both, and what they start does so too: the tests send them.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGQUIT, signal.SIG_DFL)

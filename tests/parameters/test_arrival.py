@@ -103,7 +103,11 @@ def test_a_treacherous_text_stays_that_text(ask_rcl: Callable[..., Any], form: s
 
 
 @pytest.mark.parametrize("form", FORMS)
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=12)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+    deadline=None,
+    max_examples=12,
+)
 @given(value=VALUES)
 def test_any_value_arrives(ask_rcl: Callable[..., Any], form: str, value: ParameterValue) -> None:
     assume(_sayable(form, value))
@@ -113,7 +117,11 @@ def test_any_value_arrives(ask_rcl: Callable[..., Any], form: str, value: Parame
 @pytest.mark.long
 @pytest.mark.timeout(1800)
 @pytest.mark.parametrize("form", FORMS)
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=1_000)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+    deadline=None,
+    max_examples=1_000,
+)
 @given(value=VALUES)
 def test_any_of_many_values_arrives(ask_rcl: Callable[..., Any], form: str, value: ParameterValue) -> None:
     assume(_sayable(form, value))

@@ -32,7 +32,8 @@ def prepare(stream: BinaryIO) -> int:
     if name == "wait":
         sys.stderr.write("resolving\n")
         sys.stderr.flush()
-        signal.pause()
+        while True:  # a dump of the stacks on SIGQUIT ends a pause too
+            signal.pause()
     if name == "litter":
         os.setsid() if os.getpid() != os.getsid(0) else None
         subprocess.Popen(["sleep", "1000"], start_new_session=True)

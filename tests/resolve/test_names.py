@@ -123,7 +123,11 @@ def test_a_name_that_cannot_be_is_not_expanded() -> None:
     assert caught.value.fault.offset == 1
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=100)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+    deadline=None,
+    max_examples=100,
+)
 @given(name=_TEXTS)
 def test_names_are_judged_as_rcl_judges_them(ask_rcl: Callable[..., Any], name: str) -> None:
     assume(not (len(name) == 2 and name[0] == "~" and name[1] != "/"))  # rcl lets "~a" pass by accident
@@ -145,7 +149,11 @@ def test_names_are_judged_as_rcl_judges_them(ask_rcl: Callable[..., Any], name: 
         assert (verdict is None) == (fault is None)
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=100)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+    deadline=None,
+    max_examples=100,
+)
 @given(name=st.text(alphabet="ab_1/~{} ", min_size=1, max_size=7))
 def test_rules_take_the_names_that_rcl_takes(ask_rcl: Callable[..., Any], name: str) -> None:
     assume(not name.startswith("__"))

@@ -95,7 +95,11 @@ def _upstream(
 
 
 @pytest.mark.conforms("4.5 precedence of parameters", "4.6.5 order of patterns", "D19", "4.6.3 files")
-@settings(max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=150,
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+)
 @given(everywhere=_EVERYWHERE, own=_SOURCES, namespace=st.sampled_from(["ns", None]))
 def test_a_node_has_what_it_would_have_upstream(
     tmp_path: Path,

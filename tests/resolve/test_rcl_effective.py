@@ -170,7 +170,11 @@ _OVERRIDES = st.builds(
 
 
 @pytest.mark.conforms("4.6.5 order of patterns", "4.5 precedence of parameters")
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=150)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+    deadline=None,
+    max_examples=150,
+)
 @given(files=st.lists(_FILES, max_size=3), overrides=st.lists(_OVERRIDES, max_size=2))
 def test_values_win_as_in_the_real_node(
     ask_rcl: Callable[..., Any], files: list[str], overrides: list[str]

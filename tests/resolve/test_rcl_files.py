@@ -282,7 +282,11 @@ def _agree(ask_rcl: Callable[..., Any], texts: list[str]) -> None:
 
 
 @pytest.mark.conforms("4.6.4 shape", "4.6.4 node keys", "4.6.4 string")
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=300)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+    deadline=None,
+    max_examples=300,
+)
 @given(texts=st.lists(_FILES, min_size=1, max_size=2))
 def test_files_are_read_as_by_the_real_parser(ask_rcl: Callable[..., Any], texts: list[str]) -> None:
     _agree(ask_rcl, texts)

@@ -84,7 +84,11 @@ _VALUES = st.sampled_from(
 )
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=200)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+    deadline=None,
+    max_examples=200,
+)
 @given(name=_NAMES, value=_VALUES)
 def test_overrides_are_read_as_by_the_real_node(ask_rcl: Callable[..., Any], name: str, value: str) -> None:
     assume("//" not in name)  # `a://b` begins with what rcl reads as the scheme of a URL

@@ -65,7 +65,11 @@ _PATTERNS = st.builds(
 
 
 @pytest.mark.conforms("4.6.4 wildcards")
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=150)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+    deadline=None,
+    max_examples=150,
+)
 @given(pattern=_PATTERNS, namespace=st.sampled_from(["/", "/ns", "/ns/x", "/x/ns", "/ns/ns/ns"]))
 def test_patterns_match_as_in_the_real_node(
     ask_rcl: Callable[..., Any], pattern: str, namespace: str

@@ -74,14 +74,22 @@ def _check(ask_rcl: Callable[..., Any], parameters: dict[str, ParameterValue]) -
 
 
 @pytest.mark.conforms("D15", "D22")
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=300)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+    deadline=None,
+    max_examples=300,
+)
 @given(parameters=_PARAMETERS)
 def test_every_value_comes_back(ask_rcl: Callable[..., Any], parameters: dict[str, ParameterValue]) -> None:
     _check(ask_rcl, parameters)
 
 
 @pytest.mark.long
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=5_000)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+    deadline=None,
+    max_examples=5_000,
+)
 @given(parameters=_PARAMETERS)
 def test_every_one_of_many_values_comes_back(
     ask_rcl: Callable[..., Any], parameters: dict[str, ParameterValue]

@@ -80,14 +80,22 @@ def _agree(ask_rcl: Callable[..., Any], texts: list[str]) -> None:
 
 
 @pytest.mark.conforms("4.6.4 bool", "4.6.4 int", "4.6.4 double", "4.6.4 string")
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=50)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+    deadline=None,
+    max_examples=50,
+)
 @given(texts=st.lists(_TEXTS, min_size=20, max_size=20))
 def test_scalars_are_typed_as_by_the_real_parser(ask_rcl: Callable[..., Any], texts: list[str]) -> None:
     _agree(ask_rcl, texts)
 
 
 @pytest.mark.long
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=500)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+    deadline=None,
+    max_examples=500,
+)
 @given(texts=st.lists(_TEXTS, min_size=100, max_size=100))
 def test_many_scalars_are_typed_as_by_the_real_parser(ask_rcl: Callable[..., Any], texts: list[str]) -> None:
     _agree(ask_rcl, texts)

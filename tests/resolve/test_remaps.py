@@ -115,7 +115,11 @@ _RULE = st.builds("{}:={}".format, _SOURCES, _NAMES) | st.sampled_from(
 
 
 @pytest.mark.conforms("4.5 precedence of remaps", "4.5 left side of a rule")
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], deadline=None, max_examples=100)
+@settings(
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+    deadline=None,
+    max_examples=100,
+)
 @given(rules=st.lists(_RULE, max_size=5))
 def test_remaps_as_rcl_applies_them(ask_rcl: Callable[..., Any], rules: list[str]) -> None:
     topics = ["a", "/a", "~/a", "b", "/ns/a", "n/a", "/ns/n/a"]

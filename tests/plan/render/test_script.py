@@ -101,7 +101,11 @@ def _hex(text: str) -> str:
     return text.encode(errors="surrogateescape").hex()
 
 
-@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=15,
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+)
 @given(
     st.lists(words, max_size=4),
     st.dictionaries(st.sampled_from(["A", "B_1", "odd-name", "a.b"]), words | st.none(), max_size=3),
@@ -124,7 +128,11 @@ def test_every_byte_of_words_and_variables_arrives(
         assert told["environment"].get(_hex(name)) == filled
 
 
-@settings(max_examples=15, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(
+    max_examples=15,
+    deadline=None,
+    suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
+)
 @given(
     st.text(st.characters(exclude_characters="\0", exclude_categories=["Cs"]), max_size=60),
     st.sampled_from(["", "${run}", "END\n", "$x `id` \\ \\\\\n${run}\nEND\n"]),

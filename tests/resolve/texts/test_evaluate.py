@@ -135,7 +135,7 @@ def test_the_deepest_nesting_is_evaluated(place: Place) -> None:
     assert place.value("$(var " * 50 + "a" + ")" * 50) == "a"
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(st.text())
 def test_an_escaped_text_evaluates_to_itself(place: Place, text: str) -> None:
     assert place.value(escaped(text)) == text

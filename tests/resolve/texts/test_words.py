@@ -124,7 +124,7 @@ def test_faults_inside_substitutions_make_the_whole_poison(place: Place) -> None
     assert place.words("$(nosuch") is None
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(st.text(alphabet="ab '\"\\\t\n$é"))
 def test_a_text_without_substitutions_is_split_as_by_a_shell(place: Place, text: str) -> None:
     try:
@@ -135,7 +135,7 @@ def test_a_text_without_substitutions_is_split_as_by_a_shell(place: Place, text:
         assert place.words(escaped(text)) == expected
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture])
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow])
 @given(st.lists(st.text(alphabet="ab '\"\\\t\n$()é")))
 def test_substituted_words_come_through_unchanged(place: Place, words: list[str]) -> None:
     for index, word in enumerate(words):
