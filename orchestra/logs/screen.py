@@ -33,7 +33,10 @@ class Screen:
         self._watch = watch
         self._waiting: deque[bytes | memoryview] = deque()
         self._size = 0
-        self._dropped = 0
+        # None while nothing is missing; else how many lines have begun in what was dropped.
+        self._dropped: int | None = None
+        # Whether what was to be written ends within a line, whether the screen does, and whether that is another line.
+        self._open = self._cut = self._lost = False
         self.closed = False
         self.descriptor, self._careful = _open_anew(descriptor)
         self._own = self.descriptor != descriptor
@@ -47,11 +50,17 @@ class Screen:
         """Write now what the screen takes, and keep the rest. It should consist of whole lines where it can."""
         if self.closed or not data:
             return
+        continued, self._open = self._open, not data.endswith(b"\n")
         if self._size + len(data) > BACKLOG:
-            self._dropped += max(1, data.count(b"\n"))
+            self._drop(data, continued=continued)
             return
-        if self._dropped:
+        if self._lost:
+            data = self._begun(data)
+        if self._dropped is not None:
             data = self._confession() + data
+        if not data:
+            return
+        self._cut = not data.endswith(b"\n")
         self._keep(data)
         if len(self._waiting) == 1:
             self._push()
@@ -62,8 +71,9 @@ class Screen:
         """Go on writing: the screen takes more."""
         self._push()
         if not self._waiting:
-            if self._dropped and not self.closed:
+            if self._dropped is not None and not self.closed:
                 self._keep(self._confession())
+                self._cut = False
                 self._push()
             if not self._waiting:
                 self._watch(False)
@@ -93,10 +103,26 @@ class Screen:
         self._waiting.append(data)
         self._size += len(data)
 
+    def _drop(self, data: bytes, *, continued: bool) -> None:
+        """Count the lines that begin here; one that was begun before goes on nowhere."""
+        begun = data.count(b"\n") + self._open - continued
+        self._dropped = begun + (self._dropped or 0)
+        self._lost = self._open
+
+    def _begun(self, data: bytes) -> bytes:
+        """Return the text from where a line begins, or is overwritten: the one before is missing."""
+        end = data.find(b"\n")
+        if data.startswith(b"\r"):
+            self._lost = False
+            return data
+        self._lost = end < 0
+        return b"" if end < 0 else data[end + 1 :]
+
     def _confession(self) -> bytes:
-        text = f"[orchestra] {self._dropped} lines are not shown: the screen was too slow; the log files have them\n"
-        self._dropped = 0
-        return text.encode()
+        count = max(1, self._dropped or 0)
+        text = f"[orchestra] {count} lines are not shown: the screen was too slow; the log files have them\n"
+        self._dropped = None
+        return (b"\n" if self._cut else b"") + text.encode()
 
     def _push(self) -> None:
         while self._waiting:

@@ -58,6 +58,54 @@ def test_a_pipe_that_nobody_reads_never_blocks_us() -> None:
     os.close(writable)
 
 
+def test_every_line_is_shown_or_counted_wherever_texts_are_divided(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A line of which the screen has the begin counts as shown, and nothing follows it on its line."""
+    monkeypatch.setattr("orchestra.logs.screen.BACKLOG", 100_000)
+    readable, writable = os.pipe()
+    watching = Watching()
+    screen = Screen(writable, watching)
+    lines = b"".join(b"<%d %s>\n" % (number, b"x" * (number % 97)) for number in range(20_000))
+    received, place, size = b"", 0, 1
+    while place < len(lines):
+        screen.write(lines[place : place + size])
+        place, size = place + size, size * 7 % 6_007
+        if place % 11 == 0 and watching.wanted:
+            received += drain(readable)
+            screen.writable()
+    while watching.wanted:
+        received += drain(readable)
+        screen.writable()
+    received += drain(readable)
+    told = [line for line in received.splitlines() if line.startswith(b"[orchestra] ")]
+    shown = [line for line in received.splitlines() if line not in told]
+    assert len(told) > 1
+    assert all(line.startswith(b"<") for line in shown)
+    assert len(shown) + sum(int(line.split()[1]) for line in told) == 20_000
+    screen.close()
+    os.close(readable)
+    os.close(writable)
+
+
+def test_a_line_that_is_overwritten_is_shown_again_when_there_is_room() -> None:
+    readable, writable = os.pipe()
+    watching = Watching()
+    screen = Screen(writable, watching)
+    screen.write(b"1 %")
+    for text in (b"x" * BACKLOG, b"y" * BACKLOG, b" and more", b"\r2 %"):
+        screen.write(text)
+    received = b""
+    while watching.wanted:
+        received += drain(readable)
+        screen.writable()
+    received += drain(readable)
+    begin, confession, end = received.split(b"\n")
+    assert (begin, end) == (b"1 %" + b"x" * BACKLOG, b"\r2 %")
+    assert confession.startswith(b"[orchestra] 1 lines")
+    screen.close()
+    os.close(readable)
+    os.close(writable)
+
+
 def test_others_who_share_the_descriptor_keep_it_blocking() -> None:
     readable, writable = os.pipe()
     screen = Screen(writable, Watching())
