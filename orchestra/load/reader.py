@@ -107,7 +107,13 @@ class Reader:
             fewer = error["type"] == "too_short" and any(
                 other[: len(place)] == place and other != place for other in places
             )
-            if error["type"] != REPORTED and not misspelt and not fewer:
+            if error["type"] == REPORTED or misspelt or fewer:
+                continue
+            plain = _among_texts(mapping, error)
+            if plain == "choice":
+                message = "the values of 'choice' are mappings; a list of values is 'choices'"
+                self.error(Code.WRONG_TYPE, message, mapping.keys_at[plain], suggestion="choices")
+            elif plain != "":
                 self._fault(mapping, error)
         return {str(error["loc"][0]) for error in errors if error["loc"]}
 
@@ -140,6 +146,20 @@ class Reader:
             return
         at = beginning_of(value, head)
         self.error(Code.WRONG_TYPE, message, at, suggestion=suggestion, notes=notes)
+
+
+def _among_texts(mapping: Keyed, error: ErrorDetails) -> str | None:
+    """Return the key of a list of nothing but texts where mappings are wanted, of which the first is wrong.
+
+    Empty for those behind the first, which are one mistake with it; None for any other fault.
+    """
+    key, *rest = error["loc"] or ("",)
+    items = mapping.get(str(key))
+    if error["type"] != "model_type" or len(rest) != 1 or not isinstance(items, Listed):
+        return None
+    if not all(isinstance(item, Written) for item in items):
+        return None
+    return str(key) if rest[0] == 0 else ""
 
 
 def _way(mapping: Keyed, place: tuple[int | str, ...]) -> tuple[Span, Any]:

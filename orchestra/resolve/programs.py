@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from orchestra.resolve.runnable import Fault
 
 # Names of programs are short, and there are many: of these nothing can be told.
-_SHORTEST = 5
+SHORTEST = 5
 
 
 def program_words(
@@ -106,7 +106,7 @@ def _seen(path: str, environment: Mapping[str, str]) -> tuple[str, Fault | None]
 def _check_name(name: str, location: Location, run: Resolution) -> None:
     """Report a program that the search path lacks where it has a near one: any other may be there when it starts."""
     environment = run.scope.environment
-    if len(name) < _SHORTEST or "PATH" in run.scope.changes or program_on_path(name, environment) is not None:
+    if len(name) < SHORTEST or "PATH" in run.scope.changes or program_on_path(name, environment) is not None:
         return
     meant = sorted(
         known for known in programs_on_path(environment) if known[:1] == name[:1] and is_typo(name, known)

@@ -11,10 +11,11 @@ from orchestra.resolve.namespaces import namespace_at
 from orchestra.resolve.node_names import named
 from orchestra.resolve.parameters import parameters
 from orchestra.resolve.params_schema import params_schema
-from orchestra.resolve.programs import packaged_words, program_words
+from orchestra.resolve.programs import packaged_words
 from orchestra.resolve.python_programs import module_words, script_words
 from orchestra.resolve.remapping import remaps
 from orchestra.resolve.running import Program, add_process, texts
+from orchestra.resolve.unpackaged import unpackaged_words
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -127,6 +128,6 @@ def _words(
     if action.script is not None:
         return script_words(executable, action.script, run)
     if package is None:
-        return program_words(executable.text, executable.location, run)
+        return unpackaged_words(executable, action, run)
     program = _started(action)
     return packaged_words(package, executable, (action.pkg or program, program), run)
