@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from orchestra.dataclass import dataclass
 
 
-class Conflict(NamedTuple):
+@dataclass(frozen=True, slots=True)
+class Conflict:
     """The reason, in the user's words, and the keys that are too many, of which the last one written is told.
 
     Without keys something is missing: that is told of the entity as a whole.

@@ -43,17 +43,28 @@ class Schemas:
 
     named: dict[str, Schema] = field(default_factory=dict)
     _open: set[Any] = field(default_factory=set)
+    _made: dict[int, Schema] = field(
+        default_factory=dict
+    )  # by identity: annotations live as long as their classes
 
     def of(self, annotation: Any) -> Schema:  # noqa: ANN401 - a type
         """Return the schema of a type. Raises `KeyError` for one that nobody has thought of."""
         origin = get_origin(annotation)
         if origin is not None:
-            return _WAYS[origin](self, annotation)
+            return self._of_origin(origin, annotation)
         if annotation is Any:
             return {"type": "any"}
         if hasattr(annotation, "structure"):
             return self._of_model(annotation)
         return {"type": _NAMES[annotation]}
+
+    def _of_origin(self, origin: Any, annotation: Any) -> Schema:  # noqa: ANN401 - types
+        """Return the schema of a type that is made of others: most fields are of the same few."""
+        known = self._made.get(id(annotation))
+        if known is None:
+            known = _WAYS[origin](self, annotation)
+            self._made[id(annotation)] = known
+        return known
 
     def _of_model(self, model: Any) -> Schema:  # noqa: ANN401 - a model
         name = f"{model.__module__}.{model.__qualname__}"
