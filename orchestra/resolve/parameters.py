@@ -18,7 +18,7 @@ from orchestra.resolve.rcl.overrides import override_value
 from orchestra.resolve.rcl.surprises import plainly
 from orchestra.resolve.refusals import refuse_value
 from orchestra.resolve.scalars import checked, coerced, described, differs, unified, upstream_value
-from orchestra.resolve.wrong_lists import odd_place, wrong_as_a_whole
+from orchestra.resolve.wrong_lists import odd_in_text, odd_place, wrong_as_a_whole
 from orchestra.resolve.yaml_scalars import QUOTE
 
 if TYPE_CHECKING:
@@ -105,6 +105,9 @@ def _text(
         meant = nearest(evaluated.text, _BOOLEANS) if type_word == "bool" else None
         if meant is not None and not is_python(evaluated.location):
             return refuse_value(evaluated, run.problems, Code.PARAMETER_TYPE, str(error), meant=meant)
+        odd = odd_in_text(value, type_word) if constant is not None else None
+        if odd is not None and not is_python(evaluated.location):
+            return _refuse(name, error, run.at(odd), run)
         return _refuse(name, error, evaluated.location, run)
     if constant is not None:
         _warn_of_surprise(constant, result, evaluated.location, run, quotes=quotes)

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
-from orchestra.description.text import Template
+import yaml
+
+from orchestra.description.text import Template, Words
+from orchestra.location import Span
 from orchestra.resolve.rcl.mixed import in_place, odd_item, wanted_type
+from orchestra.resolve.rcl.scalars import typed
 from orchestra.resolve.scalars import coerced, upstream_value
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.description.fields import Value as Typed
-    from orchestra.location import Span
     from orchestra.values import ParameterValue, Scalar
 
+_LISTS: Final = "list_of_"
 _WORDS = {bool: "bool", int: "int", float: "float", str: "str"}
 
 
@@ -61,3 +65,42 @@ def odd_place(items: Sequence[Typed], values: Sequence[ParameterValue]) -> tuple
     if text is None:
         return item.span, None
     return item.span, in_place(text, wanted_type(scalars, odd), quoted=item.quoted)  # type: ignore[union-attr] # a template
+
+
+def odd_in_text(written: Template, type_word: str | None) -> Span | None:
+    """Return the place of the item that is of another type than the others of a list that one text holds, as `[1, a]`.
+
+    None where no single one can be told, or where the text does not stand in the file as it reads.
+    """
+    words = written.parts[0] if len(written.parts) == 1 else None
+    if not isinstance(words, Words) or not words.text.lstrip().startswith("["):
+        return None
+    span = words.span
+    if span.line != span.end_line or span.end_column - span.column != len(words.text):
+        return None
+    items = _plain_items(words.text)
+    if type_word is not None and type_word.startswith(_LISTS):
+        element = type_word.removeprefix(_LISTS)
+        wrong = [at for at, (text, _) in enumerate(items) if not _fits(text, element)]
+        odd = wrong[0] if wrong and len(wrong) < len(items) else None
+    else:
+        odd = odd_item([typed(text) for text, _ in items])
+    if odd is None:
+        return None
+    begin, end = items[odd][1]
+    return Span(span.file, span.line, span.column + begin, span.line, span.column + end)
+
+
+def _plain_items(text: str) -> list[tuple[str, tuple[int, int]]]:
+    """Return the items of a flat list with their offsets; quotes are part of an item. None of any other list."""
+    items: list[tuple[str, tuple[int, int]]] = []
+    try:
+        events = list(yaml.parse(text, Loader=yaml.SafeLoader))[3:-3]
+    except yaml.YAMLError:
+        return []
+    for event in events:
+        if not isinstance(event, yaml.ScalarEvent) or event.start_mark is None or event.end_mark is None:
+            return []
+        begin, end = event.start_mark.index, event.end_mark.index
+        items.append((event.value if not event.style else text[begin:end], (begin, end)))
+    return items
