@@ -83,7 +83,8 @@ class _Plainly:
         return {
             "model": name,
             "fields": list(fields.items()),  # in the order in which faults are told
-            **{key: config[key] for key in ("extra_fields_behavior", "validate_by_name")},
+            "other keys": config["extra_fields_behavior"],
+            "by name": config.get("validate_by_name", config.get("populate_by_name")),  # the older word
         }
 
 
