@@ -29,7 +29,9 @@ from orchestra.settings.settle import settle
 from orchestra.witness.once import once, real
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    from collections.abc import Callable, Iterator, Sequence
+    from contextlib import AbstractContextManager
+    from typing import TypeAlias
 
     from orchestra.plan.model import Plan
     from orchestra.resolve.inputs import Inputs
@@ -38,6 +40,7 @@ if TYPE_CHECKING:
     from orchestra.resolve.python.isolation import Isolation
     from orchestra.resolve.resolution import LoadFile, Resolution
 
+    Isolating: TypeAlias = Callable[..., AbstractContextManager[Isolation]]
 
 __all__ = [
     "Launch",
@@ -106,14 +109,15 @@ def opened(
     load: LoadFile = load,
     packages: InstalledPackages | None = None,
     digests: bool = True,
+    isolating: Isolating = isolated,
 ) -> Iterator[Launch | None]:
     """Resolve and plan a launch file, whose code can be called as long as the context lasts.
 
     What is wrong is in `problems`. `load` reads the files. None where the file itself cannot be read as a launch file.
-    `digests`: those of the processes are wanted.
+    `digests`: those of the processes are wanted. `isolating` keeps from this process what code of the files does.
     """
     packages = packages or InstalledPackages(inputs.environment)
-    with _loading(path, inputs, load, packages, problems) as isolation:
+    with _loading(path, inputs, load, packages, problems, isolating) as isolation:
         with _collector_paused():
             run = begin(inputs, problems, load=load, packages=packages, run_command=run_command)
             description = load(path, problems, ())
@@ -223,7 +227,12 @@ def _collector_paused() -> Iterator[None]:
 
 @contextmanager
 def _loading(
-    path: str, inputs: Inputs, load: LoadFile, packages: InstalledPackages, problems: Problems
+    path: str,
+    inputs: Inputs,
+    load: LoadFile,
+    packages: InstalledPackages,
+    problems: Problems,
+    isolating: Isolating = isolated,
 ) -> Iterator[Isolation]:
     """Let launch files in Python be loaded, and leave this process as it was."""
 
@@ -234,7 +243,7 @@ def _loading(
 
     words = (f"{item.name}:={item.value}" for item in inputs.arguments)
     with (
-        isolated(
+        isolating(
             inputs.environment, ("ros2", "launch", path, *words), launching=inputs.launching
         ) as isolation,
         connected(

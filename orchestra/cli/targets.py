@@ -45,9 +45,10 @@ def targets(paths: Sequence[str]) -> tuple[Target, ...]:
     Raises `UsageError` for a path that does not exist and for a folder in which there is nothing to look at.
     """
     found: dict[str, Target] = {}
+    folders: dict[str, str] = {}
     for path in paths:
         for target in _behind(path):
-            found.setdefault(os.path.realpath(target.path), target)
+            found.setdefault(_real(target.path, folders), target)
     return tuple(found.values())
 
 
@@ -56,6 +57,17 @@ def kind_of(name: str, text: str) -> Kind | None:
     if is_launch_name(name) or is_launch_text(name, text):
         return "launch"
     return "parameters" if _YAML_NAME.search(name) and _PARAMETERS_KEY.search(text) else None
+
+
+def _real(path: str, folders: dict[str, str]) -> str:
+    """Return what `os.path.realpath` returns; `folders` are those that it was asked for."""
+    folder, name = os.path.split(path)
+    if not name:
+        return os.path.realpath(path)
+    if folder not in folders:
+        folders[folder] = os.path.realpath(folder)
+    whole = os.path.join(folders[folder], name)  # noqa: PTH118 - pathlib is slow
+    return os.path.realpath(whole) if os.path.islink(whole) else whole  # noqa: PTH114 - pathlib is slow
 
 
 def _behind(path: str) -> list[Target]:

@@ -33,8 +33,10 @@ class _Rules(NamedTuple):
 def files_of_project(folder: str, finder: Finder) -> Iterator[str]:
     """Yield the files to be looked at below a folder, sorted by path; `finder` knows the settings."""
     top = os.path.abspath(folder)
+    shown = os.path.normpath(folder)
     for path in _walked(top, _rules_above(top), finder):
-        yield os.path.normpath(os.path.join(folder, os.path.relpath(path, top)))
+        below = path.removeprefix(os.path.join(top, ""))
+        yield below if shown == "." else os.path.join(shown, below)
 
 
 def _walked(folder: str, rules: tuple[_Rules, ...], finder: Finder) -> Iterator[str]:

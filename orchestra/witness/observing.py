@@ -28,7 +28,8 @@ _WRITING: Final = os.O_WRONLY | os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_TRUN
 class Observer:
     """Records what this process looks at. There is one per process, `observer()`.
 
-    `foreign` are modules in other languages, `code` is what is read of ours. Unless it `asks`, no question is recorded.
+    `foreign` are modules in other languages, `code` is what is read of ours, `ran_code` tells whether users' has run
+    since the record was begun. Unless it `asks`, no question is recorded.
     """
 
     def __init__(self) -> None:
@@ -42,7 +43,7 @@ class Observer:
         self._digests: dict[str, tuple[Signature | None, str]] = {}
         self._folders = looking.Folders().listing
         self._installed: Record = Record()
-        self._of_users, self.certain = False, True
+        self.ran_code, self.certain = False, True
         self._environment: dict[str, str] = {}
         self._paths: set[tuple[Any, ...]] = set()
         self._harmless: set[str] = set()
@@ -66,8 +67,7 @@ class Observer:
 
     def begin(self, environment: dict[str, str]) -> None:
         """Begin a record; `environment` is the one that counts as being outside."""
-        self.record, self._seen, self._of_users, self.certain = Record(), {}, False, True
-        self._parts = {}
+        self.record, self._seen, self.ran_code, self.certain, self._parts = Record(), {}, False, True, {}
         self._environment, self._paths = environment, set()
         if len(self._wholes) > _MOST_PATHS:
             self._wholes.clear()
@@ -80,9 +80,9 @@ class Observer:
         with self.aside():
             for path, before in self._seen.items():
                 self._complete(record, path, before)
-            if self._of_users:
+            if self.ran_code:
                 record.absorb(self._installed)
-            if self._of_users and self.foreign:
+            if self.ran_code and self.foreign:
                 record.unknown = record.unknown or f"code outside Python has been loaded: {min(self.foreign)}"
         self.record = None
         return record
@@ -285,8 +285,8 @@ class Observer:
                 self._look("listing", whole)
 
     def _executes(self, code: Any) -> None:
-        if isinstance(code, CodeType) and origins.of_users(code.co_filename):
-            self._of_users = True
+        if isinstance(code, CodeType) and origins.of_users(code.co_filename) and unknowable.reaches_out(code):
+            self.ran_code = True
             sign = unknowable.sign_in(code)
             if sign is not None:
                 self.unknown(f"code uses {sign}")

@@ -6,7 +6,7 @@ import os
 
 from orchestra.witness.digest import digest_of
 
-TYPE_CHECKING = False  # `typing` costs more than this module, which the supervisor imports before all others
+TYPE_CHECKING = False  # `typing` costs more than this module, which every start imports
 if TYPE_CHECKING:
     from collections.abc import Mapping
 

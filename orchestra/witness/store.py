@@ -51,6 +51,17 @@ class Store:
                 os.utime(path)  # those that are used last are kept longest
         return record, result
 
+    def names(self) -> frozenset[str]:
+        """Return the names of the entries that there are."""
+        try:
+            return frozenset(os.listdir(self._folder))
+        except OSError:
+            return frozenset()
+
+    def has(self, key: str, names: frozenset[str]) -> bool:
+        """Tell whether one of these is the entry for a key."""
+        return os.path.basename(self._path(key)) in names
+
     def write(self, key: str, record: Record, result: Any) -> None:
         """Keep a result, in place of any earlier one. Where the disk refuses, nothing is kept."""
         if record.unknown:

@@ -73,6 +73,11 @@ def sign_in(code: CodeType) -> str | None:
     return None
 
 
+def reaches_out(code: CodeType) -> bool:
+    """Tell whether code names anything: without a name it comes to the same always, and changes nothing."""
+    return bool(code.co_names) or any(isinstance(inner, CodeType) for inner in code.co_consts)
+
+
 def is_unknowable(event: str) -> bool:
     """Tell whether an event of the interpreter is such a sign."""
     return event in EVENTS or event.partition(".")[0] in EVENTS

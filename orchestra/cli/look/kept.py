@@ -27,6 +27,7 @@ class Kept:
         self._store = None if place is None else Store(os.path.join(place, "check"))  # noqa: PTH118 - pathlib is slow
         if self._store is not None:
             self._world = World(inputs.environment, Questions(inputs.environment).answer)
+            self._names = self._store.names()
             self._identity = identity(inputs.environment)
             self._given = repr(
                 (
@@ -44,7 +45,8 @@ class Kept:
         """Return what was found in a file if nothing has changed that it depends on."""
         if self._store is None:
             return None
-        found = self._store.read(self._key(target))
+        key = self._key(target)
+        found = self._store.read(key) if self._store.has(key, self._names) else None
         if found is None or not self._world.holds(found[0]):
             return None
         try:

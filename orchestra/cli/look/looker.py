@@ -12,11 +12,13 @@ from orchestra import pipeline
 from orchestra.cli.look.finding import Finding
 from orchestra.cli.look.questions import RecordedPackages
 from orchestra.cli.look.sharing import SharedLoader
+from orchestra.cli.look.standing import Standing
 from orchestra.errors import Code, Problems
 from orchestra.fields import replace
 from orchestra.location import Location, displayed, point
 from orchestra.resolve.mentions import files_named
 from orchestra.resolve.python.environ import put_environment
+from orchestra.resolve.python.isolation import isolated
 from orchestra.resolve.rcl.files import read_parameter_file
 from orchestra.settings.comments import MARK
 from orchestra.settings.settle import settle
@@ -28,6 +30,7 @@ if TYPE_CHECKING:
     from orchestra.cli.targets import Target
     from orchestra.description.launch import Description
     from orchestra.location import Span
+    from orchestra.pipeline import Isolating
     from orchestra.resolve.inputs import Inputs
     from orchestra.witness.record import Record
 
@@ -45,6 +48,7 @@ class Looker:
         )
         self._packages = RecordedPackages(self._environment)
         self._loader = SharedLoader(self._names)
+        self._isolating: Isolating = isolated
         self._count = 0
 
     def watch(self, scratch: str) -> None:
@@ -52,9 +56,8 @@ class Looker:
 
         Temporary files of code go below the folder `scratch`: what they are called tells nothing.
         """
-        put_environment(
-            self._environment
-        )  # so that there is nothing to change, and to put back, for each file
+        self._isolating = Standing().isolated
+        put_environment(self._environment)  # so that none has to be put there and back for each file
         tempfile.tempdir = scratch
         observer().scratch = scratch
         observer().install()
@@ -84,7 +87,13 @@ class Looker:
         self._loader.named = set()
         absolute = os.path.abspath(path)  # noqa: PTH100 - pathlib is slow
         with pipeline.opened(
-            absolute, self._inputs, problems, load=visit.load, packages=self._packages, digests=False
+            absolute,
+            self._inputs,
+            problems,
+            load=visit.load,
+            packages=self._packages,
+            digests=False,
+            isolating=self._isolating,
         ) as launch:
             left_out = set() if launch is None else launch.left_out
         named = self._loader.named | set(map(real, left_out))

@@ -1,0 +1,44 @@
+"""The isolation of launch files, kept from one to the next for as long as no code of theirs has run in it."""
+
+from __future__ import annotations
+
+import sys
+from contextlib import contextmanager
+from typing import TYPE_CHECKING
+
+from orchestra.compat.argv import Arguments
+from orchestra.resolve.python.environ import put_environment
+from orchestra.resolve.python.isolation import isolated
+from orchestra.witness.observing import observer
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+    from contextlib import AbstractContextManager
+
+    from orchestra.resolve.python.isolation import Isolation
+
+
+class Standing:
+    """Gives what `isolated` gives, to a process that is watched and does nothing but look at launch files."""
+
+    def __init__(self) -> None:
+        self._entered: tuple[AbstractContextManager[Isolation], Isolation] | None = None
+
+    @contextmanager
+    def isolated(
+        self, environment: Mapping[str, str], argv: Sequence[str], *, launching: bool = False
+    ) -> Iterator[Isolation]:
+        """Let launch files in Python be loaded; see `isolated`."""
+        if self._entered is None:
+            context = isolated(environment, argv, launching=launching)
+            self._entered = context, context.__enter__()
+        else:
+            put_environment(environment)
+            sys.argv = Arguments(argv)
+        context, isolation = self._entered
+        try:
+            yield isolation
+        finally:
+            if isolation.remaining is not None or observer().ran_code:
+                self._entered = None
+                context.__exit__(None, None, None)
