@@ -5,18 +5,16 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import maker
-from orchestra.location import Location
+from orchestra.location import is_python
 from orchestra.plan.model import Candidate, Via
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Sequence
 
-    from orchestra.location import Span
+    from orchestra.location import Location, Span
     from orchestra.resolve.context import Read, Value
     from orchestra.resolve.model import EnvironmentChange, ParameterSource
     from orchestra.resolve.rcl.effective import Setting, Written
-
-    Origins = Mapping[Location, ParameterSource]
 
 FROM_COMMAND_LINE = "the command line wins"
 _OVERRULED = "overruled by the command line"
@@ -29,9 +27,31 @@ new_candidate = maker(Candidate)
 _new_via = maker(Via)
 
 
-def origins(sources: Iterable[ParameterSource]) -> Origins:
-    """Return the parameters and files for which something was read, by the place where they are written."""
-    return {source.location: source for source in sources if source.through or getattr(source, "within", ())}
+class Origins:
+    """The parameters and files of a node for which something was read, the last one first.
+
+    What a file in YAML or XML says has its place as one object. `in_code`: places in Python are compared.
+    """
+
+    __slots__ = ("in_code", "sources")
+
+    def __init__(self, sources: Sequence[ParameterSource], *, in_code: bool) -> None:
+        self.sources = sources
+        self.in_code = in_code
+
+    def at(self, span: Span, chain: tuple[Span, ...]) -> ParameterSource | None:
+        """Return the one that is written at a place."""
+        for source in self.sources:
+            at = source.location
+            if (at.span is span or (self.in_code and at.span == span)) and at.included_from == chain:
+                return source
+        return None
+
+
+def origins(sources: Sequence[ParameterSource]) -> Origins:
+    """Return what was read for the parameters of a node."""
+    found = [source for source in reversed(sources) if source.through or getattr(source, "within", ())]
+    return Origins(found, in_code=any(is_python(source.location) for source in found))
 
 
 def passage(through: Sequence[Read]) -> tuple[Via, ...]:
@@ -64,10 +84,13 @@ def behind(location: Location, known: Origins) -> tuple[Via, ...]:
 
     For one in a file that is what was read in that place of it, and then what was read to make its path.
     """
-    if location in known:
-        return passage(known[location].through)
+    if not known.sources:
+        return ()
     chain = location.included_from
-    source = known.get(Location(chain[0], chain[1:])) if chain else None
+    source = known.at(location.span, chain)
+    if source is not None:
+        return passage(source.through)
+    source = known.at(chain[0], chain[1:]) if chain else None
     if source is None:
         return ()
     within = getattr(source, "within", ())

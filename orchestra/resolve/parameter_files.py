@@ -60,7 +60,9 @@ def file_parameters(
         file = run.parameter_files[path, plain]
     if file is None:
         return None
-    return replace(file, location=value.location, everywhere=everywhere, through=value.through)
+    return FileParameters(
+        file.path, file.sections, value.location, everywhere, file.plain, value.through, file.within
+    )
 
 
 def _warn_of_lacking(told: str, value: Value, written: Template, run: Resolution) -> None:

@@ -8,13 +8,15 @@ that means is for the caller to say (upstream makes it one empty word).
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
 from orchestra.description.text import Words
 from orchestra.errors import Code
 from orchestra.fields import field
-from orchestra.location import Span
+from orchestra.location import Span, is_within
+from orchestra.patterns import pattern
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.evaluate import evaluate, perform
 
@@ -23,6 +25,7 @@ if TYPE_CHECKING:
     from orchestra.resolve.context import Context
 
 _BLANKS: Final = " \t\r\n"
+_RUN: Final = pattern(r"""[^\\'" \t\r\n]+|.""", re.DOTALL)
 
 
 def split(argv: Template | tuple[Template, ...], context: Context) -> tuple[Value, ...] | Poison:
@@ -42,8 +45,7 @@ def _split(template: Template, context: Context) -> tuple[Value, ...] | Poison:
     poisoned = template.faulty
     for part in template.parts:
         if isinstance(part, Words):
-            for offset, character in enumerate(part.text):
-                splitter.literal(character, _place(part, offset))
+            _read(part, splitter)
             continue
         value = perform(part, context)
         if isinstance(value, Poison):
@@ -60,23 +62,28 @@ def _split(template: Template, context: Context) -> tuple[Value, ...] | Poison:
     )
 
 
+def _read(words: Words, splitter: _Splitter) -> None:
+    """Read literal text: outside of quotes, what no character of has a meaning is taken at once."""
+    for found in _RUN.finditer(words.text):
+        begin, end = found.span()
+        if end - begin > 1 and not splitter.backslash and not splitter.quote:
+            splitter.append(found[0], _place(words, begin, end))
+            continue
+        for offset in range(begin, end):
+            splitter.literal(words.text[offset], _place(words, offset, offset + 1))
+
+
 def _report(told: str, span: Span, context: Context) -> None:
     """Report a fault; a warning of the quote in question, which nothing opens, gives way to it with its place."""
     problems = context.problems
     warned = [
         known
         for known in problems
-        if known.code is Code.SURPRISING_SCALAR and known.span is not None and _is_within(span, known.span)
+        if known.code is Code.SURPRISING_SCALAR and known.span is not None and is_within(span, known.span)
     ]
     problems.amend(lambda known: None if known in warned else known)
     place, instead = (warned[0].span or span, warned[0].suggestion) if warned else (span, None)
     problems.error(Code.SUBSTITUTION_SYNTAX, told, context.at(place), suggestion=instead)
-
-
-def _is_within(span: Span, whole: Span) -> bool:
-    begin, end = (span.line, span.column), (span.end_line, span.end_column)
-    around = (whole.line, whole.column), (whole.end_line, whole.end_column)
-    return span.file == whole.file and around[0] <= begin and end <= around[1]
 
 
 @dataclass(slots=True)
@@ -144,12 +151,12 @@ class _Splitter:
         self.backslash = None
 
 
-def _place(words: Words, offset: int) -> Span:
-    """Return the place of a character: exact where the text is written as it reads, else that of the whole piece."""
+def _place(words: Words, begin: int, end: int) -> Span:
+    """Return the place of characters: exact where the text is written as it reads, else that of the whole piece."""
     span = words.span
     if span.line != span.end_line or span.end_column - span.column != len(words.text):
         return span
-    return Span(span.file, span.line, span.column + offset, span.line, span.column + offset + 1)
+    return Span(span.file, span.line, span.column + begin, span.line, span.column + end)
 
 
 def _joined(first: Span, last: Span) -> Span:

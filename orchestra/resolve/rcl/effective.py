@@ -58,10 +58,12 @@ class Setting:
 def effective(sections: Iterable[Section], full_name: str) -> dict[str, Setting]:
     """Return the parameters of the node by name, given all sections in the order of its command line."""
     matching = [section for section in sections if matches(section.pattern, full_name)]
-    winners: dict[str, tuple[str, Entry | None]] = {}
-    for pattern, slots in tabulated(matching).items():
-        for slot in slots:
-            winners[slot.name] = (pattern, slot.entry)
+    winners = _plain_winners(matching)
+    if winners is None:
+        winners = {}
+        for pattern, slots in tabulated(matching).items():
+            for slot in slots:
+                winners[slot.name] = (pattern, slot.entry)
     written: dict[str, list[tuple[str, Entry]]] = {name: [] for name in winners}
     for section in matching:
         for entry in section.entries:
@@ -70,7 +72,26 @@ def effective(sections: Iterable[Section], full_name: str) -> dict[str, Setting]
     return {name: _setting(name, *winners[name], written[name]) for name in winners}
 
 
+def _plain_winners(sections: Iterable[Section]) -> dict[str, tuple[str, Entry | None]] | None:
+    """Return the pattern and the value that count for each name, where nothing can take another's slot.
+
+    That is so where all is flat and each pattern has a name once. None where it takes rcl's table to tell.
+    """
+    table: dict[str, dict[str, Entry]] = {}
+    for section in sections:
+        slots = table.setdefault(section.pattern, {})
+        for entry in section.entries:
+            if entry.slot != entry.name or entry.opens or entry.value is None or entry.name in slots:
+                return None
+            slots[entry.name] = entry
+    return {name: (pattern, entry) for pattern, slots in table.items() for name, entry in slots.items()}
+
+
 def _setting(name: str, pattern: str, winner: Entry | None, written: list[tuple[str, Entry]]) -> Setting:
+    if len(written) == 1 and written[0][1] is winner:  # as nearly always
+        where, entry = written[0]
+        only = (Written(where, entry, True),)
+        return Setting(name, entry.value, only, _rule(pattern, winner, only), None)
     if winner is not None and all(entry is not winner for _, entry in written):
         written = [
             (pattern, winner),
