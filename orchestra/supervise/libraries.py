@@ -55,7 +55,8 @@ def gathered(host: Host, place: str) -> Host:
 
 def _bring_up_to_date(folder: str, bundled: tuple[str, ...]) -> None:
     """Have a link for each library. Raises `OSError`, also where somebody else could put something there."""
-    os.makedirs(folder, 0o700, exist_ok=True)  # noqa: PTH103 - as above
+    # As readable as a run directory: a launch prefix may change the user. Writable for nobody else, whatever the umask.
+    os.makedirs(folder, 0o755, exist_ok=True)  # noqa: PTH103 - as above
     state = os.stat(folder)  # noqa: PTH116 - as above
     if state.st_uid != os.geteuid() or state.st_mode & _OTHERS_WRITE:
         raise PermissionError

@@ -83,6 +83,16 @@ def test_a_folder_in_which_others_write_is_not_taken(tmp_path: Path) -> None:
     assert gathered(host, f"{tmp_path}/libraries") is host
 
 
+def test_others_read_it_and_do_not_write_to_it(tmp_path: Path) -> None:
+    """A launch prefix may give a process to another user, who has to find them too."""
+    before = os.umask(0)
+    try:
+        made = gathered(installed(tmp_path / "site", a="x", b="y"), f"{tmp_path}/libraries").libraries[-1]
+    finally:
+        os.umask(before)
+    assert Path(made).stat().st_mode & 0o777 == 0o755
+
+
 def test_many_that_begin_at_once_find_all_of_it(tmp_path: Path) -> None:
     host = installed(tmp_path / "site", a=" ".join(map(str, range(40))), b="x")
     children = []
