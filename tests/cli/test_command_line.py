@@ -20,7 +20,17 @@ if TYPE_CHECKING:
 
 Command = Callable[..., subprocess.CompletedProcess[str]]
 
-_HEAVY = {"pydantic", "pydantic_core", "yaml", "rclpy", "jinja2", "mujoco", "numpy", "importlib.metadata"}
+_HEAVY = {
+    "pydantic",
+    "pydantic_core",
+    "pydantic_core._pydantic_core",
+    "yaml",
+    "rclpy",
+    "jinja2",
+    "mujoco",
+    "numpy",
+    "importlib.metadata",
+}
 _MODULES = """
 import json, runpy, sys
 sys.argv[1:] = {words}
