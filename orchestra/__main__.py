@@ -10,7 +10,6 @@ TYPE_CHECKING = False  # `typing` itself costs more than this module
 if TYPE_CHECKING:
     from typing import BinaryIO
 
-    from orchestra.cli.recollection import Remembered
     from orchestra.supervise.resolver.serving import Answer, Settled
 
 _ONLY_SHOWING = {"--help", "--show-args", "--show-arguments", "--print", "--print-description"}
@@ -35,7 +34,6 @@ def main() -> int:
             lambda stream: _prepare(words, stream),
             detach="--detach" in flags,
             wait_ready="--wait-ready" in flags,
-            recall=(lambda: _recall(words)) if words[0] == "launch" else None,
             foresee=lambda: _foresee(words),
         )
     from orchestra.cli.main import main as command_line
@@ -99,15 +97,24 @@ def _flags_of_run(words: list[str]) -> list[str]:
     return flags
 
 
-def _recall(words: list[str]) -> Remembered | None:
-    """Return what the same command line has come to before, where that is still so."""
-    from orchestra.cli.remembered import remembered
-
-    return remembered(words)
-
-
 def _prepare(words: list[str], stream: BinaryIO) -> int | Answer | Settled:
-    """Make the plan and write it to the stream. This is the resolver process, where heavy imports belong."""
+    """Write the plan to the stream: what the same command line came to before, where that is still so, else a new one.
+
+    This is the resolver process.
+    """
+    if words[0] == "launch":
+        from orchestra.cli.remembered import remembered
+
+        found = remembered(words)
+        if found is not None:
+            sys.stderr.write(found.told)
+            stream.write(found.document)
+            return 0
+    return _resolve(words, stream)
+
+
+def _resolve(words: list[str], stream: BinaryIO) -> int | Answer | Settled:
+    """Make the plan and write it to the stream. Only here heavy imports belong."""
     from orchestra.patterns import late
 
     with late():  # two thirds of the time that it takes to import, and its parser in C needs none of them

@@ -9,7 +9,7 @@ from __future__ import annotations
 import os
 import sys
 
-TYPE_CHECKING = False  # `typing` costs more than this module, which the supervisor imports before all others
+TYPE_CHECKING = False  # `typing` costs more than this module, which every start imports
 if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path

@@ -1,18 +1,19 @@
 """A glance at a command line: whether its run is likely to have nodes in Python, as long as nobody knows.
 
 The fork server takes as long for its imports as the launch files take to be read. So it is started on a guess, which
-costs the time of one processor where it is wrong; the plan then says whether it stays.
+costs the time of one processor where it is wrong; the plan then says whether it stays. Where a plan is remembered, that
+one tells more than the launch file.
 """
 
 from __future__ import annotations
 
 import os
-import re
 import sys
 
-_OF_NODES = re.compile(rb"\b(?:\w*node\w*|\w*Node\w*|include|IncludeLaunchDescription|rclpy)\b")
+_OF_NODES = (b"node", b"Node", b"include", b"IncludeLaunchDescription", b"rclpy")
 _FILES = (".py", ".yaml", ".yml", ".xml", ".launch")
 _ENOUGH = 1 << 18  # bytes of a launch file
+_WARM = rb"\"warm\": true"  # in a plan, which is a text in what is kept
 
 
 def nodes_ahead(words: list[str]) -> bool:
@@ -20,7 +21,24 @@ def nodes_ahead(words: list[str]) -> bool:
     if "--no-warm" in words or not any(map(_has_rclpy, sys.path)):
         return False
     files = [word for word in words[1:] if word.endswith(_FILES) and os.path.isfile(word)]  # noqa: PTH113 - pathlib is slow
-    return words[0] == "run" or not files or any(map(_speaks_of_nodes, files))
+    if words[0] == "run":
+        return True
+    return (not files or any(map(_speaks_of_nodes, files))) and _were_some(words)
+
+
+def _were_some(words: list[str]) -> bool:
+    """Tell whether the plan that is remembered has nodes that are forked; without one that is not known."""
+    # The supervisor needs nothing of it where a launch file speaks of no nodes.
+    from orchestra.cli.remembered import kept  # noqa: PLC0415
+
+    path = kept(words)
+    if path is None:
+        return True
+    try:
+        with open(path, "rb") as file:  # noqa: PTH123 - pathlib is slow
+            return _WARM in file.read()
+    except OSError:
+        return True
 
 
 def _has_rclpy(folder: str) -> bool:
@@ -30,6 +48,7 @@ def _has_rclpy(folder: str) -> bool:
 def _speaks_of_nodes(path: str) -> bool:
     try:
         with open(path, "rb") as file:  # noqa: PTH123 - pathlib is slow
-            return _OF_NODES.search(file.read(_ENOUGH)) is not None
+            content = file.read(_ENOUGH)
     except OSError:
         return False
+    return any(word in content for word in _OF_NODES)

@@ -4,8 +4,8 @@ A plan is kept with everything that was looked at on the way to it (`orchestra.w
 code that made it. It counts while all of that is as it was, for the same words in the same place. What cannot be
 recorded, time, chance, the network, other programs, what code prints, keeps a plan from being kept at all.
 
-This half is imported by the supervisor before anything is started: by what it needs to find that nothing is kept, it
-holds up every first launch.
+This half is imported before it is known whether something is kept: by what it needs to find that nothing is, it holds
+up every first launch.
 """
 
 from __future__ import annotations
@@ -46,11 +46,25 @@ def key(words: Sequence[str]) -> str | None:
         return None
 
 
+def kept(words: Sequence[str]) -> str | None:
+    """Return the file with what an earlier launch with the same words has come to, None where there is none."""
+    sought = _sought(words)
+    return None if sought is None else entry(*sought)
+
+
 def remembered(words: Sequence[str]) -> Remembered | None:
     """Return what an earlier launch with the same words has come to, if that is still so."""
-    where, name = place(), key(words)
-    if where is None or name is None or not os.path.exists(entry(where, name)):  # noqa: PTH110 - as above
+    sought = _sought(words)
+    if sought is None:
         return None
     from orchestra.cli.recollection import recollection  # noqa: PLC0415 - of no use where nothing is kept
 
-    return recollection(where, name)
+    return recollection(*sought)
+
+
+def _sought(words: Sequence[str]) -> tuple[str, str] | None:
+    """Return folder and key of what is kept of an earlier launch; None where there is nothing."""
+    where, name = place(), key(words)
+    if where is None or name is None or not os.path.exists(entry(where, name)):  # noqa: PTH110 - as above
+        return None
+    return where, name

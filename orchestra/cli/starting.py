@@ -10,7 +10,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from orchestra.supervise.resolver.process import Prepare
-    from orchestra.supervise.resolver.recalling import Recall
 
 
 def started(
@@ -18,22 +17,21 @@ def started(
     *,
     detach: bool,
     wait_ready: bool,
-    recall: Recall | None = None,
     foresee: Callable[[], bool] | None = None,
 ) -> int:
-    """Run what `prepare` describes, or what `recall` still knows of it, and return the status of the command.
+    """Run what `prepare` describes and return the status of the command.
 
     `foresee` tells whether nodes in Python are to be expected, as long as nothing is known.
     Raises `OSError` where it cannot detach.
     """
     if not detach:
-        return run(prepare, attend, afterwards, recall, foresee)
+        return run(prepare, attend, afterwards, foresee)
     # Both only where they are needed: the keeper of a run at a terminal has no use for them.
     from orchestra.cli.detaching import detached  # noqa: PLC0415
     from orchestra.supervise.runs.running import state_path  # noqa: PLC0415
 
     return detached(
         f"{state_path()}/runs",
-        lambda announcing: run(prepare, announcing(attend), afterwards, recall, foresee),
+        lambda announcing: run(prepare, announcing(attend), afterwards, foresee),
         wait_ready=wait_ready,
     )

@@ -10,7 +10,6 @@ if TYPE_CHECKING:
     from orchestra.supervise.attendance import Attend
     from orchestra.supervise.keeping.patience import Patience
     from orchestra.supervise.keeping.stacks import Stacks
-    from orchestra.supervise.resolver.document import Document
     from orchestra.supervise.resolver.process import Resolver
     from orchestra.supervise.summons import Summons
     from orchestra.supervise.warm.launching import Launched
@@ -31,7 +30,7 @@ class Kept:
 class Beginnings:
     """The run's mark, the keeper's pid, the descriptor on which signals arrive as bytes.
 
-    `given` is the resolver at work, or what an earlier one has handed over;
+    `resolver` is at work;
     `began` is now, in seconds since the epoch;
     `stacks` is where our processes write where they are; `attend` is what attends to the run besides;
     `summons` what the service manager wants that has started us;
@@ -43,8 +42,8 @@ class Beginnings:
         "ahead",
         "attend",
         "began",
-        "given",
         "keeper",
+        "resolver",
         "run_id",
         "signals",
         "stacks",
@@ -54,7 +53,7 @@ class Beginnings:
     def __init__(
         self,
         kept: Kept,
-        given: Resolver | Document,
+        resolver: Resolver,
         signals: int,
         attend: Attend | None,
         summons: Summons,
@@ -64,7 +63,7 @@ class Beginnings:
         self.run_id = kept.run_id
         self.keeper = kept.keeper
         self.stacks = kept.stacks
-        self.given = given
+        self.resolver = resolver
         self.signals = signals
         self.attend = attend
         self.summons = summons

@@ -20,7 +20,6 @@ from orchestra.supervise.keeping.standard_streams import say
 from orchestra.supervise.limits.confines import Confines
 from orchestra.supervise.loop import Loop
 from orchestra.supervise.outcome import FAILED, MISTAKE, UNSTOPPABLE, judge
-from orchestra.supervise.resolver.document import Document
 from orchestra.supervise.resolver.resolving import Collection, Refused
 from orchestra.supervise.runs import directory
 from orchestra.supervise.runs.furnishing import furnish
@@ -34,6 +33,7 @@ if TYPE_CHECKING:
     from orchestra.plan.model import Plan
     from orchestra.supervise.beginnings import Beginnings
     from orchestra.supervise.outcome import Outcome
+    from orchestra.supervise.resolver.document import Document
     from orchestra.supervise.resolver.process import Resolver
     from orchestra.supervise.runs.directory import RunDirectory
     from orchestra.supervise.surroundings import Surroundings
@@ -52,11 +52,7 @@ def conduct(beginnings: Beginnings) -> int:
     attention.on_dump = dump.take
     kin = Kin(beginnings.run_id)
     starts = Starts(loop, kin, beginnings.run_id, say, beginnings.ahead)
-    given = beginnings.given
-    if isinstance(given, Document):
-        document, resolver = given, None
-    else:
-        document, resolver = _collect(loop, given, attention, dump, starts)
+    document, resolver = _collect(loop, beginnings.resolver, attention, dump, starts)
     confines = Confines(loop, beginnings.run_id)
     unfit = confines.take_up(document.plan)
     starts.wanted = document.options.warm

@@ -28,7 +28,6 @@ from orchestra.supervise.keeping.signals import (
 from orchestra.supervise.keeping.stacks import Stacks
 from orchestra.supervise.keeping.standard_streams import fill_standard_descriptors
 from orchestra.supervise.resolver.process import fork_resolver
-from orchestra.supervise.resolver.recalling import recalled
 from orchestra.supervise.summons import taken
 
 TYPE_CHECKING = False  # `typing` itself costs more than the rest of this module
@@ -36,9 +35,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
     from orchestra.supervise.attendance import Attend
-    from orchestra.supervise.resolver.document import Document
     from orchestra.supervise.resolver.process import Prepare
-    from orchestra.supervise.resolver.recalling import Recall
     from orchestra.supervise.warm.launching import Launched
 
 
@@ -46,7 +43,6 @@ def run(
     prepare: Prepare,
     attend: Attend | None = None,
     afterwards: Callable[[str], None] | None = None,
-    recall: Recall | None = None,
     foresee: Callable[[], bool] | None = None,
 ) -> int:
     """Run what `prepare` describes and return the exit status of the design's table.
@@ -72,8 +68,7 @@ def run(
 
     `attend` is called in the supervisor process when the run is about to begin, and may import what it needs then.
     `afterwards` is called in the keeper with the run's mark when everything is over, whoever was killed before.
-    `recall` is called in the supervisor: where it returns a document `prepare` is not called. `foresee` tells there,
-    before there is a plan, whether nodes in Python are likely.
+    `foresee` tells in the supervisor, before there is a plan, whether nodes in Python are likely.
     """
     fill_standard_descriptors()
     kept = Kept(os.getpid(), run_mark(time.time_ns(), os.getpid()), Patience(), Stacks())
@@ -85,9 +80,7 @@ def run(
         if afterwards:
             afterwards(kept.run_id)
 
-    status = keep(
-        lambda: _supervise(prepare, attend, kept, recall, foresee), kept.patience, kept.stacks, bury
-    )
+    status = keep(lambda: _supervise(prepare, attend, kept, foresee), kept.patience, kept.stacks, bury)
     if afterwards:
         afterwards(kept.run_id)
     return status
@@ -97,7 +90,6 @@ def _supervise(
     prepare: Prepare,
     attend: Attend | None,
     kept: Kept,
-    recall: Recall | None,
     foresee: Callable[[], bool] | None,
 ) -> int:
     os.environ[RUN] = kept.run_id
@@ -108,35 +100,24 @@ def _supervise(
     import gc  # noqa: PLC0415 - the keeper has no use for it
 
     gc.disable()
-    document, prepare = recalled(recall, prepare)
-    given = document or fork_resolver(prepare, kept.stacks)
+    resolver = fork_resolver(prepare, kept.stacks)
     reset_signals(unblock=False)
     signals = receive_signals(received_signals())
     kept.stacks.show_on_request(chain=True)
     disregard_hang_up()
     unblock_signals()
     try:
-        ahead = _fork_server(document, kept.run_id, foresee)
+        ahead = _fork_server(kept.run_id) if foresee and foresee() else None
         # Imported while the resolver works, so that neither waits for the other.
         from orchestra.supervise.boundary import guarded_run  # noqa: PLC0415
     except BaseException:  # noqa: BLE001 - a forked child must not run on into its parent's code
         sys.excepthook(*sys.exc_info())
         return 3
-    return guarded_run(Beginnings(kept, given, signals, attend, summons, ahead))
+    return guarded_run(Beginnings(kept, resolver, signals, attend, summons, ahead))
 
 
-def _fork_server(
-    document: Document | None, run_id: str, foresee: Callable[[], bool] | None
-) -> Launched | None:
-    """Start the fork server before anything else, where it will be needed or is likely to be."""
-    if document is None:
-        wanted = foresee is not None and foresee()
-    else:
-        wanted = document.options.warm and any(
-            process.warm is not None and process.warm.warm for process in document.plan.processes
-        )
-    if not wanted:
-        return None
+def _fork_server(run_id: str) -> Launched | None:
+    """Start the fork server before anything else, where it is likely to be needed."""
     # Here, because not every run has nodes in Python; what is imported is needed by all that follows.
     from orchestra.supervise.process import open_files  # noqa: PLC0415
     from orchestra.supervise.warm.launching import environment_of, launch  # noqa: PLC0415

@@ -1,6 +1,6 @@
 """Runs `orchestra` with what it is given, and tells what has been imported in the supervisor before its first program.
 
-counting.py FILE WORDS...    the names of the modules go to FILE; with COUNT_RESOLVER=no a resolver is a mistake
+counting.py FILE WORDS...    the names of the modules go to FILE; with COUNT_RESOLVER=no it is a mistake to make a plan
 """
 
 import os
@@ -8,8 +8,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-import orchestra.supervise.run
-from orchestra.__main__ import main
+import orchestra.__main__
 
 
 def _told(file: str) -> None:
@@ -23,11 +22,11 @@ def _told(file: str) -> None:
 
 
 def _never(*_args: object) -> None:
-    raise AssertionError("a resolver was started")
+    raise AssertionError("a plan is made")
 
 
 if os.environ.get("COUNT_RESOLVER") == "no":
-    orchestra.supervise.run.fork_resolver = _never  # type: ignore[attr-defined,assignment]
+    orchestra.__main__._resolve = _never  # type: ignore[assignment]
 _told(sys.argv[1])
 sys.argv[1:] = sys.argv[2:]
-sys.exit(main())
+sys.exit(orchestra.__main__.main())

@@ -1,0 +1,63 @@
+"""Whether nodes in Python are likely is told by the launch file, and by the plan that is remembered."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from orchestra.cli.foresight import nodes_ahead
+from orchestra.cli.remembered import kept, key
+from orchestra.witness.place import entry
+
+_NODES = "launch:\n  - node: {pkg: demo, exec: talker}\n"
+_NONE = "launch:\n  - executable: {cmd: 'true'}\n"
+_WORDS = ["launch", "a.launch.yaml"]
+
+
+@pytest.fixture(autouse=True)
+def place(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with a package rclpy on the import path, and nothing remembered."""
+    (tmp_path / "rclpy").mkdir()
+    monkeypatch.setattr("sys.path", [str(tmp_path)])
+    monkeypatch.setenv("ORCHESTRA_CACHE", str(tmp_path / "cache"))
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def _remember(folder: Path, content: bytes) -> None:
+    name = key(_WORDS)
+    assert name is not None
+    path = Path(entry(str(folder / "cache/plans"), name))
+    path.parent.mkdir(parents=True)
+    path.write_bytes(content)
+    assert kept(_WORDS) == str(path)
+
+
+@pytest.mark.parametrize(("text", "likely"), [(_NODES, True), (_NONE, False), ("- include: {file: b}", True)])
+def test_a_launch_file_tells(place: Path, text: str, likely: bool) -> None:
+    (place / "a.launch.yaml").write_text(text)
+    assert nodes_ahead(_WORDS) is likely
+    assert nodes_ahead([*_WORDS, "--no-warm"]) is False
+
+
+def test_without_rclpy_there_are_none(place: Path) -> None:
+    (place / "a.launch.yaml").write_text(_NODES)
+    (place / "rclpy").rmdir()
+    assert nodes_ahead(_WORDS) is False
+
+
+@pytest.mark.parametrize("likely", [True, False])
+def test_a_plan_that_is_remembered_tells_more(place: Path, likely: bool) -> None:
+    (place / "a.launch.yaml").write_text(_NODES)
+    _remember(place, rb'{"document": "{\"warm\": {\"warm\": %b}}"}' % (b"true" if likely else b"false"))
+    assert nodes_ahead(_WORDS) is likely
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="everything can be read by root")
+def test_one_that_cannot_be_read_tells_nothing(place: Path) -> None:
+    (place / "a.launch.yaml").write_text(_NODES)
+    _remember(place, b"")
+    Path(str(kept(_WORDS))).chmod(0)
+    assert nodes_ahead(_WORDS) is True
