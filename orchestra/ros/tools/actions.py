@@ -119,7 +119,8 @@ class _Pursuit:
         """Send the goal, and return the exit status when it is reached or not."""
         self._say("Waiting for an action server to become available...\n")
         if not self._graph.wait(self._client.server_is_ready, self._deadline.left):
-            raise unknown("action", name, (known for known, _ in actions(self._graph)))
+            known = {other for other, _ in actions(self._graph)} - {name}  # which our client has made known
+            raise unknown("action", name, known)
         self._say(f"Sending goal:\n     {yaml_text(plain(goal))}\n", {"goal": plain(goal)})
         handle = self._done(
             self._client.send_goal_async(goal, self._heard), "the server did not answer the goal"

@@ -49,9 +49,11 @@ def ask(
     answers: list[Any] = []
     try:
         if not graph.wait(lambda: client.ready, deadline.left):
-            known = [name for name, _ in services(graph, every=False)]
-            if service in known:
+            if graph.node.count_services(service):
                 raise RunError(f"the service {service} was not reached within {deadline}")
+            known = {name for name, _ in services(graph, every=False)} - {
+                service
+            }  # which our client has made known
             raise unknown("service", service, known)
         asking()
         client.ask(request, answers.append, repeat=repeat)

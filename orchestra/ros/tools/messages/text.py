@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import re
 import sys
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
@@ -39,7 +40,9 @@ def yaml_text(value: Any, *, flow: bool = False) -> str:  # noqa: ANN401 - plain
 
 def _mapping(fields: dict[str, Any], indent: str) -> Iterator[str]:
     for name, value in fields.items():
-        yield f"{indent}{_scalar(name)}:"
+        if not _is_word(name):
+            raise _Unwritten  # no name of a field
+        yield f"{indent}{name}:"
         if isinstance(value, dict) and value:
             yield "\n"
             yield from _mapping(value, indent + "  ")
@@ -73,16 +76,25 @@ def _scalar(value: Any) -> str:  # noqa: ANN401 - as above
     if isinstance(value, int | float):
         return _number(value)
     if isinstance(value, str):
-        return value if _WORD.fullmatch(value) and value.lower() not in _NO_TEXT else _quoted(value)
+        return value if _is_word(value) else _quoted(value)
     if isinstance(value, dict | list):
         return "{}" if isinstance(value, dict) else "[]"
     raise _Unwritten
 
 
+def _is_word(text: Any) -> bool:  # noqa: ANN401 - keys of any kind
+    return isinstance(text, str) and _WORD.fullmatch(text) is not None and text.lower() not in _NO_TEXT
+
+
+@lru_cache
 def _quoted(text: str) -> str:
-    if text == "":
-        return "''"
-    raise _Unwritten
+    """Return what PyYAML makes of a text; where it may take several lines, they depend on all around it."""
+    if not text.isprintable():
+        raise _Unwritten
+    import yaml  # noqa: PLC0415 - most messages do without
+
+    written: str = yaml.safe_dump(text, allow_unicode=True, width=sys.maxsize)
+    return written.removesuffix("\n").removesuffix("\n...")
 
 
 def _number(value: float) -> str:

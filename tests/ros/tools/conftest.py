@@ -1,0 +1,107 @@
+"""Nodes that run in a domain of their own, and the commands that ask them."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import pytest
+
+from orchestra.testing.domain import free_domain
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+_PROGRAM = Path(__file__).parents[2] / "processes" / "talked_with.py"
+
+
+class Done(NamedTuple):
+    """How a command has ended."""
+
+    status: int
+    output: str
+    errors: str
+
+    @property
+    def data(self) -> Any:
+        """What it has written as JSON."""
+        assert self.status == 0, self.errors
+        return json.loads(self.output)
+
+
+class Graph:
+    """The nodes of one domain, and a shell beside them."""
+
+    def __init__(self, environment: dict[str, str]) -> None:
+        self.environment = environment
+
+    def ask(self, *words: str, given: str = "") -> Done:
+        """Carry a command out."""
+        done = subprocess.run(
+            self.command(*words),
+            env=self.environment,
+            input=given,
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=100,
+        )
+        return Done(done.returncode, done.stdout, done.stderr)
+
+    def told(self, *words: str) -> str:
+        """Return what a command writes that goes well."""
+        done = self.ask(*words)
+        assert done.status == 0, done.errors
+        return done.output
+
+    @contextmanager
+    def asking(self, *words: str) -> Iterator[subprocess.Popen[str]]:
+        """Have a command that does not end by itself."""
+        with subprocess.Popen(
+            self.command(*words),
+            env=self.environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+            text=True,
+        ) as process:
+            try:
+                yield process
+            finally:
+                process.kill()
+
+    @staticmethod
+    def command(*words: str) -> list[str]:
+        """Return the words of a command line."""
+        return [sys.executable, "-m", "orchestra", *words]
+
+
+@pytest.fixture(scope="session")
+def domain() -> Iterator[dict[str, str]]:
+    """An environment with a domain in which nobody else is."""
+    pytest.importorskip("rclpy", reason="needs ROS")
+    with free_domain({}) as number:
+        yield {
+            **os.environ,
+            "ROS_DOMAIN_ID": str(number),
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            "NO_COLOR": "1",
+        }
+
+
+@pytest.fixture(scope="session")
+def graph(domain: dict[str, str]) -> Iterator[Graph]:
+    """The nodes of `tests/processes/talked_with.py`."""
+    with subprocess.Popen(
+        [sys.executable, str(_PROGRAM)], env=domain, stdout=subprocess.PIPE, text=True
+    ) as process:
+        try:
+            assert process.stdout is not None
+            assert process.stdout.readline() == "ready\n"
+            yield Graph(domain)
+        finally:
+            process.kill()
