@@ -84,6 +84,13 @@ def stretches(span: Span, skipped: int = 0) -> Callable[[int, int], Span]:
     return part
 
 
+def is_within(part: Span, whole: Span) -> bool:
+    """Return whether a range of text is part of another one, or all of it."""
+    begin, end = (part.line, part.column), (part.end_line, part.end_column)
+    around = (whole.line, whole.column), (whole.end_line, whole.end_column)
+    return part.file == whole.file and around[0] <= begin and end <= around[1]
+
+
 def inside(span: Span, first: int, last: int) -> Span:
     """Return a part of a span that was made of offsets, by offsets from its beginning."""
     whole, begin, _ = span._offsets  # type: ignore[attr-defined] # noqa: SLF001 - its own module

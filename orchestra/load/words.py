@@ -128,6 +128,8 @@ KEYS_ELSEWHERE: Final[dict[str, tuple[str, ...]]] = {
     "val": ("value",),
     "value": ("default", "to"),
     "values": ("choices",),
+    "var": ("name",),
+    "variable": ("name",),
     "when": ("if",),
     "working_directory": ("cwd",),
 }

@@ -7,9 +7,10 @@ import re
 from itertools import islice
 from typing import TYPE_CHECKING
 
+from orchestra.compat.literals import argument
 from orchestra.compat.place import Argument, Letters
 from orchestra.description.text import Words
-from orchestra.location import Span
+from orchestra.location import Span, is_within
 from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
@@ -29,12 +30,23 @@ def blamed(written: Template, text: str, error: BaseException) -> tuple[Span | N
     if not isinstance(error, NameError | AttributeError):
         return (written.span if alone else None), False
     begin, end = _range(error, text)
-    for part, first, last in _placed(written, text):
+    for index, (part, first, last) in enumerate(_placed(written, text)):
         if first <= begin < last:
             if isinstance(part, Words):
                 return _inside(part, begin - first, min(end, last) - first), True
-            return part.span, False
+            return _used_at(index, written), False
     return None, False
+
+
+def _used_at(index: int, written: Template) -> Span:
+    """Return where a part of an expression stands in it; in Python it may have been made elsewhere, under a name."""
+    span, part = written.span, written.parts[index].span
+    if not isinstance(span, Argument):
+        return part
+    literal = argument(span.place, span.path)
+    if is_within(part, literal.whole) or not literal.holds(len(written.parts)):
+        return part
+    return literal.item(index, len(written.parts)).whole
 
 
 def meant_by(text: str, error: BaseException, names: Mapping[str, object]) -> str | None:
