@@ -67,7 +67,7 @@ def without_comment(line: str) -> str:
     for place, character in enumerate(line):
         if quote:
             quote = "" if character == quote and line[place - 1] != "\\" else quote
-        elif character in "'\"" and "=" in line[:place] + " ":
+        elif character in "'\"":
             quote = character
         elif character == "#":
             return line[:place]
