@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from orchestra.ros.warm.algebra import load_algebra
+from orchestra.ros.warm.type_supports import load_type_supports
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -126,6 +127,7 @@ def _import_interfaces(module: str, names: Iterable[str]) -> None:
             generated: Any = type(kind)
             if getattr(generated, "_TYPE_SUPPORT", ...) is None:
                 generated.__import_type_support__()
+    load_type_supports(module.partition(".")[0])
 
 
 def _is_interface(package: str) -> bool:
