@@ -30,8 +30,8 @@ class Standing:
     ) -> Iterator[Isolation]:
         """Let launch files in Python be loaded; see `isolated`."""
         if self._entered is None:
-            context = isolated(environment, argv, launching=launching)
-            self._entered = context, context.__enter__()
+            entering = isolated(environment, argv, launching=launching)
+            self._entered = entering, entering.__enter__()
         else:
             put_environment(environment)
             sys.argv = Arguments(argv)
