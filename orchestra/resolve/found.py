@@ -24,6 +24,7 @@ class Found:
     those of each event handler among them, `timed` those of timers that may still be cancelled. `unmet` wait for
     processes that are not there. `choices` are those of arguments, of each declaration. `visited` are the identities of
     the actions with a condition that have been carried out, `doubts` what is wrong with those that were left out.
+    `unpackaged` are programs that are nowhere and stand for nodes without a package.
     """
 
     processes: list[ResolvedProcess] = field(default_factory=list)
@@ -43,6 +44,7 @@ class Found:
     choices: dict[str, set[tuple[str, ...] | None]] = field(default_factory=dict)
     visited: set[int] = field(default_factory=set)
     doubts: list[tuple[Conditional, Problems]] = field(default_factory=list)
+    unpackaged: list[tuple[str, Location]] = field(default_factory=list)
 
     @property
     def size(self) -> int:

@@ -16,6 +16,7 @@ from orchestra.resolve.python.performing import perform_opaque
 from orchestra.resolve.resolution import Frame, LoadFile, Resolution
 from orchestra.resolve.scope import Scope
 from orchestra.resolve.settling import settled
+from orchestra.resolve.unpackaged import warn_of_unpackaged
 from orchestra.witness.variables import copied
 
 if TYPE_CHECKING:
@@ -53,6 +54,7 @@ def carry_through(description: Description, run: Resolution) -> Resolved:
         names = [Given(item.name, Location(item.span)) for item in run.inputs.arguments]
         settle(names, description, ledger, run)
     _tell_doubts(run)
+    warn_of_unpackaged(run)
     return outcome(description.file, run)
 
 
