@@ -29,6 +29,7 @@ _LEASE: Final = "qos_liveliness_lease_duration_seconds"
 _DURATIONS: Final = ("lifespan", "deadline", "liveliness_lease_duration")
 _ENDLESS: Final = 2**62  # what an endpoint of the graph has as an endless duration, in nanoseconds
 _NANOSECONDS: Final = 1e9
+_DEEP: Final = 1000  # nothing is lost while the process that hears does something else for a moment
 
 
 def chosen(options: Namespace, default: QoSProfile = qos_profile_sensor_data) -> tuple[QoSProfile, bool]:
@@ -51,9 +52,10 @@ def chosen(options: Namespace, default: QoSProfile = qos_profile_sensor_data) ->
 
 def matched(endpoints: Sequence[Any], profile: QoSProfile) -> tuple[QoSProfile, list[str]]:
     """Return a profile with which a subscription hears all of these publishers, and what is to be said about it."""
-    if not endpoints:
-        return profile, []
     made, notes = copied(profile), []
+    made.depth = _DEEP
+    if not endpoints:
+        return made, []
     reliable = sum(one.qos_profile.reliability == ReliabilityPolicy.RELIABLE for one in endpoints)
     keeping = sum(one.qos_profile.durability == DurabilityPolicy.TRANSIENT_LOCAL for one in endpoints)
     made.reliability = (
