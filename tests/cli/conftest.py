@@ -67,8 +67,25 @@ def orchestra_here(
 
 
 @pytest.fixture
-def orchestra(folder: Path, home: Path) -> Command:
+def orchestra_quickly(orchestra_beside: Command, orchestra_here: Command) -> Command:
+    """Run `orchestra WORDS` in this process where it starts nothing, else beside it."""
+
+    def run(*words: str, **environment: str) -> CompletedProcess[str]:
+        chosen = orchestra_beside if words[0] in ("launch", "run") else orchestra_here
+        return chosen(*words, **environment)
+
+    return run
+
+
+@pytest.fixture
+def orchestra(orchestra_beside: Command) -> Command:
     """Run `orchestra WORDS` and return what came of it."""
+    return orchestra_beside
+
+
+@pytest.fixture
+def orchestra_beside(folder: Path, home: Path) -> Command:
+    """Run `orchestra WORDS` in a process of its own."""
 
     def run(*words: str, **environment: str) -> CompletedProcess[str]:
         return subprocess.run(

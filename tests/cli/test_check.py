@@ -14,6 +14,13 @@ if TYPE_CHECKING:
 
 Command = Callable[..., CompletedProcess[str]]
 
+
+@pytest.fixture
+def orchestra(orchestra_quickly: Command) -> Command:
+    """Run the command; what starts nothing, in this process."""
+    return orchestra_quickly
+
+
 _ROBOT = """\
 launch:
   - arg: {name: robot}
@@ -36,11 +43,11 @@ def _told(found: CompletedProcess[str]) -> list[tuple[str, str, int]]:
     return [(problem["code"], problem["file"], problem["line"]) for problem in json.loads(found.stdout)]
 
 
-def test_nothing_wrong(orchestra: Command, folder: Path) -> None:
+def test_nothing_wrong(orchestra_beside: Command, folder: Path) -> None:
     _write(folder, fine="launch: [log: {message: hello}]\n")
-    found = orchestra("check", ".")
+    found = orchestra_beside("check", ".")
     assert (found.returncode, found.stderr, found.stdout) == (0, "", "no problems in 1 file\n")
-    assert orchestra("check", ".", "--format", "json").stdout == "[]\n"
+    assert orchestra_beside("check", ".", "--format", "json").stdout == "[]\n"
 
 
 def test_an_included_file_is_judged_by_how_it_is_used(orchestra: Command, folder: Path) -> None:

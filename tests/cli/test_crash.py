@@ -12,6 +12,13 @@ if TYPE_CHECKING:
 
     from .conftest import Command
 
+
+@pytest.fixture
+def orchestra(orchestra_quickly: Command) -> Command:
+    """Run the command; what starts nothing, in this process."""
+    return orchestra_quickly
+
+
 TWO_CRASHES = """\
 launch:
   - push_ros_namespace: {namespace: robot1}
@@ -62,11 +69,11 @@ def test_a_list_of_crashes(orchestra: Command) -> None:
 
 
 @pytest.mark.usefixtures("crashed")
-def test_nothing_to_show(orchestra: Command) -> None:
-    shown = orchestra("crash", "base")
+def test_nothing_to_show(orchestra_beside: Command) -> None:
+    shown = orchestra_beside("crash", "base")
     assert (shown.returncode, shown.stdout) == (0, "")
     assert "nothing has crashed in" in shown.stderr
-    unknown = orchestra("crash", "camra")
+    unknown = orchestra_beside("crash", "camra")
     assert unknown.returncode == 2
     assert "no process is called 'camra'; did you mean 'camera'?" in unknown.stderr
 

@@ -13,6 +13,13 @@ import pytest
 
 Command = Callable[..., CompletedProcess[str]]
 
+
+@pytest.fixture
+def orchestra(orchestra_quickly: Command) -> Command:
+    """Run the command; what starts nothing, in this process."""
+    return orchestra_quickly
+
+
 _ROOT = Path(__file__).parents[2]
 _UGLY = "launch:\n- log:   {message: a}  # x\n"
 _NICE = "launch:\n  - log: {message: a}  # x\n"

@@ -17,6 +17,13 @@ if TYPE_CHECKING:
 
 Command = Callable[..., CompletedProcess[str]]
 
+
+@pytest.fixture
+def orchestra(orchestra_quickly: Command) -> Command:
+    """Run the command; what starts nothing, in this process."""
+    return orchestra_quickly
+
+
 _GOOD = """\
 launch:
   - arg: {name: who, default: world, choices: [world, moon], description: whom to greet}
@@ -38,8 +45,8 @@ def _files(folder: Path) -> None:
         (folder / f"{name}.yaml").write_text(text)
 
 
-def test_text_is_the_rendered_plan(orchestra: Command) -> None:
-    found = orchestra("plan", "good.yaml", "who:=moon")
+def test_text_is_the_rendered_plan(orchestra_beside: Command) -> None:
+    found = orchestra_beside("plan", "good.yaml", "who:=moon")
     assert (found.returncode, found.stderr) == (0, "")
     assert found.stdout.startswith("good.yaml: 1 process\n")
     assert "who := moon  (default world)" in found.stdout

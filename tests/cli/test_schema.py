@@ -23,6 +23,13 @@ from tests.mistakes.corpus import cases
 
 Command = Callable[..., CompletedProcess[str]]
 
+
+@pytest.fixture
+def orchestra(orchestra_quickly: Command) -> Command:
+    """Run the command; what starts nothing, in this process."""
+    return orchestra_quickly
+
+
 _ROOT = Path(__file__).parents[2]
 _EVERYTHING = """\
 launch:
@@ -72,8 +79,8 @@ def test_the_command_prints_it(orchestra: Command, name: str) -> None:
     assert (found.returncode, found.stderr, found.stdout) == (0, "", schema_text(name))
 
 
-def test_the_launch_schema_is_the_default(orchestra: Command) -> None:
-    assert orchestra("schema").stdout == schema_text("launch")
+def test_the_launch_schema_is_the_default(orchestra_beside: Command) -> None:
+    assert orchestra_beside("schema").stdout == schema_text("launch")
 
 
 def test_a_plan_fulfils_its_schema(orchestra: Command, everything: str) -> None:

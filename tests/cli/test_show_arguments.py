@@ -11,6 +11,13 @@ if TYPE_CHECKING:
 
     from .conftest import Command
 
+
+@pytest.fixture
+def orchestra(orchestra_quickly: Command) -> Command:
+    """Run the command; what starts nothing, in this process."""
+    return orchestra_quickly
+
+
 _YAML = {
     "outer.launch.yaml": """\
 launch:
@@ -146,9 +153,9 @@ def _files(folder: Path) -> None:
 
 @pytest.mark.conforms("5.1 --show-args", "5.4 -s", "D46")
 @pytest.mark.parametrize("ending", ["yaml", "xml", "py"])
-def test_what_is_shown(orchestra: Command, home: Path, ending: str) -> None:
+def test_what_is_shown(orchestra_beside: Command, home: Path, ending: str) -> None:
     """Arguments of includes too, one of which is found by an argument, one behind a condition."""
-    found = orchestra("launch", "-s", f"outer.launch.{ending}", PLACE="/home")
+    found = orchestra_beside("launch", "-s", f"outer.launch.{ending}", PLACE="/home")
     assert found.stdout.replace(f".launch.{ending}", ".launch.END") == _SHOWN
     assert (found.returncode, found.stderr) == (0, "")
     assert not home.exists()

@@ -22,9 +22,12 @@ if TYPE_CHECKING:
 # Calls of the supervisor's two threads for one more program that starts, says nothing and ends: two pipes (pipe2,
 # close, FIONBIO, read to the end), what posix_spawn does, which looks at the action of every signal in the child before
 # the program begins, limits, a pidfd, epoll, waitid, wait4, and what is written of it.
-_MOST_CALLS = 48
+_MOST_CALLS = 40
 # How often the two threads wait for each other at the lock of the interpreter is a matter of time.
 _VARYING = "futex"
+# In how many rounds of the loop programs end is one too, and each looks into /proc: a file that the interpreter opens
+# and reads takes so many calls.
+_PER_FILE, _MOST_FILES = 9, 3
 _FEW, _MANY = 20, 60
 # What the interpreter keeps of what it has freed moves by some hundred kilobytes.
 _KEPT_AT_MOST = 400 * 1024
@@ -38,7 +41,9 @@ def test_a_start_and_an_end_take_few_calls(tmp_path: Path) -> None:
         name: (calls[_MANY].get(name, 0) - calls[_FEW].get(name, 0)) / (_MANY - _FEW) for name in calls[_MANY]
     }
     told = {name: round(count, 2) for name, count in more.items() if count > 0.1 and name != _VARYING}
-    assert sum(told.values()) <= _MOST_CALLS, str(told)
+    files = told.get("openat", 0)
+    assert sum(told.values()) - files * _PER_FILE <= _MOST_CALLS, str(told)
+    assert files <= _MOST_FILES
     assert told["pidfd_open"] == 1
     assert not {"fork", "vfork", "clone"} & told.keys()
 
