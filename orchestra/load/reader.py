@@ -20,6 +20,7 @@ from orchestra.location import Location, Span
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
+    import re
     from collections.abc import Iterable, Sequence
 
     from pydantic_core import ErrorDetails
@@ -35,6 +36,11 @@ _WANTED = {
 }
 _QUOTES = ("'", '"')
 _HALF_QUOTED = pattern(r"""[^\s"']*[^\s"'0-9]["']""")
+# Substitutions without their '$': of names that nobody puts in brackets for anything else.
+_BARE = pattern(
+    r"(?<![$\\\w])(?:\$[ ])?\((var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|path-join)[ ]"
+    r"(?:[^()]|\$\([^()]*\))+\)"
+)
 _LISTS = ("list_type", "tuple_type")
 
 
@@ -69,6 +75,8 @@ class Reader:
         if text[-1:] in _QUOTES and not written.quoted and _HALF_QUOTED.fullmatch(text):
             told = f"the {text[-1]} at the end of '{text}' is part of the text: nothing opens it"
             self.warning(Code.SURPRISING_SCALAR, told, written.inside, suggestion=text[-1] + text)
+        if "(" in text and (bare := _BARE.search(text)) is not None and self._is_lost(bare, written):
+            return Template((), text, written.inside, written.quoted, faulty=True)
         if text and "$" not in text and "\\" not in text:
             span = written.inside if written.quoted or type(written) is not Verbatim else written.span
             return new_template((new_words(text, span),), text, span, written.quoted)
@@ -83,6 +91,15 @@ class Reader:
         for problem in found:
             self.problems.report(replace(problem, included_from=self.included_from))
         return template
+
+    def _is_lost(self, bare: re.Match[str], written: Written) -> bool:
+        """Report a substitution without its '$'; return whether nothing else can be meant."""
+        certain = bare[1] != "var"
+        report = self.error if certain else self.warning
+        told = f"{bare[0]} is no substitution: a '$' is missing before it"
+        instead = f"${bare[0].lstrip('$ ')}"
+        report(Code.SUBSTITUTION_SYNTAX, told, written.spans(*bare.span()), suggestion=instead)
+        return certain
 
     def literal(self, written: Written) -> str:
         """Read a text without substitutions."""

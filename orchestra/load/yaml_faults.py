@@ -42,6 +42,8 @@ def explained(error: yaml.YAMLError, whole: Source) -> Fault:
     at = _offset(mark, whole) if mark is not None else 0
     context = _offset(error.context_mark, whole) if error.context_mark is not None else at
     failure = Failure(whole, at, context, error.problem or "", error.context or "")
+    if _is_doubled(failure):
+        return failure.fault("this '-' is one too many", context, context + 1)
     by_lines = of_lines(failure) if any(map(failure.problem.count, _OF_LINES)) else None
     return failure.of_quotes() or by_lines or _explanation(failure)(failure) or failure.plainly()
 
@@ -63,6 +65,13 @@ def _stray(failure: Failure) -> Fault | None:
     message = f"a text cannot begin with {failure.here} unless it is in quotes"
     end = _without_its_colon(failure, failure.at, found.end())
     return failure.fault(message, failure.at, end, _in_quotes(failure.text[failure.at : end]))
+
+
+def _is_doubled(failure: Failure) -> bool:
+    """Return whether the list that does not go on was begun by the second of two dashes, as in `- - name: a`."""
+    begin = failure.whole.lines[failure.line_of(failure.context) - 1]
+    before = failure.text[begin : failure.context].strip()
+    return before == "-" and failure.text.startswith("- ", failure.context) and "'-'" in failure.problem
 
 
 def _without_its_colon(failure: Failure, begin: int, end: int) -> int:

@@ -34,9 +34,9 @@ def unpackaged_words(executable: Value, action: Node, run: Resolution) -> tuple[
         notes = (f"it is an executable of {', '.join(map(repr, owners))}",)
         run.problems.error(Code.MISSING_KEY, told, run.at(action.span), notes=notes)
         return POISON
-    told = len(run.problems)
+    before = len(run.problems)
     words = program_words(name, executable.location, run)
-    if not code and len(name) >= SHORTEST and len(run.problems) == told:
+    if not code and len(name) >= SHORTEST and len(run.problems) == before:
         run.found.unpackaged.append((name, run.at(action.span)))
     return words
 
