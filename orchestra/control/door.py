@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import _socket
 import os
-import socket
 import stat
 import struct
 from typing import TYPE_CHECKING, NamedTuple
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, NamedTuple
 from orchestra.control.place import ENDING, folders, inside, open_folder
 
 if TYPE_CHECKING:
+    import socket
     from pathlib import Path
 
     from orchestra.supervise.surroundings import Surroundings
@@ -22,9 +23,13 @@ _WAITING = 128
 
 
 class Door(NamedTuple):
-    """A socket that listens for the clients of a run, and its path."""
+    """The descriptor of a socket that listens for the clients of a run, and the path of the socket.
 
-    listener: socket.socket
+    The first process of a run waits for it, and `socket` takes as long to import as twenty modules of ours: that one is
+    left to those who talk.
+    """
+
+    listener: int
     path: str
 
 
@@ -47,8 +52,8 @@ def told(error: OSError) -> str:
     return f"{error.strerror or error}" + (f": {error.filename}" if error.filename else "")
 
 
-def listen(run: str) -> tuple[socket.socket, str]:
-    """Return a socket that listens for the clients of a run, and its path. Raises `OSError` where there is no place."""
+def listen(run: str) -> tuple[int, str]:
+    """Return what `Door` is made of. Raises `OSError` where there is no place for a socket."""
     *others, last = folders()
     for path in others:
         try:
@@ -58,9 +63,9 @@ def listen(run: str) -> tuple[socket.socket, str]:
     return _listen(last, run + ENDING)
 
 
-def _listen(path: str, name: str) -> tuple[socket.socket, str]:
+def _listen(path: str, name: str) -> tuple[int, str]:
     folder = open_folder(path, create=True)
-    listener = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM | socket.SOCK_NONBLOCK)
+    listener = _socket.socket(_socket.AF_UNIX, _socket.SOCK_STREAM | _socket.SOCK_NONBLOCK)
     before = os.umask(0o177)
     try:
         # Nobody ever sees it without a listener, which is what a dead run leaves.
@@ -73,11 +78,13 @@ def _listen(path: str, name: str) -> tuple[socket.socket, str]:
     finally:
         os.umask(before)
         os.close(folder)
-    return listener, f"{path}/{name}"
+    return listener.detach(), f"{path}/{name}"
 
 
 def connect(path: str) -> socket.socket:
     """Return a connection to the socket at a path. Raises `OSError`, `PermissionError` where others may pose as it."""
+    import socket  # noqa: PLC0415 - see `Door`
+
     where, _, name = path.rpartition("/")
     folder = open_folder(where)
     connection = socket.socket(socket.AF_UNIX, socket.SOCK_STREAM)
@@ -96,7 +103,7 @@ def connect(path: str) -> socket.socket:
 def owner(connection: socket.socket) -> int:
     """Return the user on the other side of a connection."""
     size = _CREDENTIALS.size
-    uid: int = _CREDENTIALS.unpack(connection.getsockopt(socket.SOL_SOCKET, socket.SO_PEERCRED, size))[1]
+    uid: int = _CREDENTIALS.unpack(connection.getsockopt(_socket.SOL_SOCKET, _socket.SO_PEERCRED, size))[1]
     return uid
 
 

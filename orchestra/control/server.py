@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import os
 import select
+import socket
 import time
 from typing import TYPE_CHECKING, Any
 
@@ -20,7 +21,6 @@ from orchestra.control.subscribers import Subscribers
 from orchestra.control.waiting import Waiting
 
 if TYPE_CHECKING:
-    import socket
     from collections.abc import Callable
 
     from orchestra.control.protocol import Request
@@ -138,7 +138,9 @@ class Control:
         self._around = around
         self._desk = desk
         self._path = entrance.path
-        self._server = Server(around.loop, entrance.listener, hello, self._serve)
+        listener = socket.socket(fileno=entrance.listener)
+        listener.setblocking(False)
+        self._server = Server(around.loop, listener, hello, self._serve)
         around.recorder.listen(self._happened)
 
     def close(self) -> None:
