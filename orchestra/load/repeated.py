@@ -61,12 +61,13 @@ def _part(part: Part) -> _Part:
 def placed(shape: Shape, spans: Callable[[int, int], Span], quoted: bool) -> Template:
     """Return the template of such a shape with its spans in a file."""
     parts, raw, begin, end, _ = shape
+    whole = spans(begin, end)
     made: list[Part] = []
     for text, arguments, first, last in parts:
-        at = spans(first, last)
+        at = whole if first == begin and last == end else spans(first, last)
         if arguments is None:
             made.append(new_words(text, at))
         else:
             inner = [placed(argument, spans, argument.quoted) for argument in arguments]
             made.append(new_call(text, tuple(inner), at))
-    return new_template(tuple(made), raw, spans(begin, end), quoted)
+    return new_template(tuple(made), raw, whole, quoted)

@@ -78,11 +78,11 @@ class _Events:
         if type(self.following()) is not kind:
             raise _NotPlainError
 
-    def value(self, event: Any, head: Span | None, depth: int) -> Any:  # noqa: ANN401 - an event, a tree
-        """Return the tree that begins with an event; `head` is the place of the key before it."""
+    def value(self, event: Any, key: Any, depth: int) -> Any:  # noqa: ANN401 - events, a tree
+        """Return the tree that begins with an event; `key` is that of the key before it, None where there is none."""
         kind = type(event)
         if kind is MappingStartEvent and depth <= DEEPEST:
-            return self.mapping(event, head, depth)
+            return self.mapping(event, key, depth)
         if kind is SequenceStartEvent and depth <= DEEPEST:
             return self.sequence(event, depth)
         if kind is ScalarEvent:
@@ -111,39 +111,39 @@ class _Events:
         while (kind := type(event)) is not SequenceEndEvent:
             items.append(self.scalar(event) if kind is ScalarEvent else self.value(event, None, depth + 1))
             event = following()
-        listed = Listed(stretch(self.whole, start.start_mark.index, event.end_mark.index))
+        listed = Listed(_between(self.whole, start, event))
         listed += items
         return listed
 
-    def mapping(self, start: Any, head: Span | None, depth: int) -> Keyed:  # noqa: ANN401 - an event
-        self.check(start)
+    def mapping(self, start: Any, key: Any, depth: int) -> Keyed:  # noqa: ANN401 - events
+        if self.marked:
+            self.check(start)
         whole, following = self.whole, self.following
         found: dict[str, Any] = {}
-        marks: list[Any] = []
+        keys: list[Any] = []
         event = following()
         while (kind := type(event)) is ScalarEvent:
-            key: str = event.value
-            if key in found or key[:1] in _ODD:
+            name: str = event.value
+            if name in found or name[:1] in _ODD:
                 raise _NotPlainError
             if self.marked:
                 self.check(event)
-            mark = event.start_mark, event.end_mark
-            marks.append(mark)
+            keys.append(event)
             value = following()
             if type(value) is ScalarEvent:
-                found[key] = self.scalar(value)
+                found[name] = self.scalar(value)
             else:
-                found[key] = self.value(value, _between(whole, mark), depth + 1)
+                found[name] = self.value(value, event, depth + 1)
             event = following()
         if kind is not MappingEndEvent:
             raise _NotPlainError
-        span = _between(whole, (start.start_mark, event.end_mark))
-        if head is None:
-            flow = start.flow_style or not marks
-            head = inside(span, 0, 1) if flow else _between(whole, marks[0])
+        span = _between(whole, start, event)
+        if key is None and keys and not start.flow_style:
+            key = keys[0]
+        head = inside(span, 0, 1) if key is None else _between(whole, key, key)
         mapping = Keyed(span, head, found)
         mapping.place_later(
-            lambda: {key: _between(whole, mark) for key, mark in zip(found, marks, strict=True)}
+            lambda: {name: _between(whole, mark, mark) for name, mark in zip(found, keys, strict=True)}
         )
         return mapping
 
@@ -153,5 +153,5 @@ class _Events:
             raise _NotPlainError
 
 
-def _between(whole: Source, marks: tuple[Any, Any]) -> Span:
-    return stretch(whole, marks[0].index, marks[1].index)
+def _between(whole: Source, first: Any, last: Any) -> Span:  # noqa: ANN401 - events
+    return stretch(whole, first.start_mark.index, last.end_mark.index)

@@ -35,6 +35,8 @@ def components(
     resolved: Resolved, ids: Sequence[str], own: Sequence[str], sections: Sections, problems: Problems
 ) -> tuple[Component, ...]:
     """Return the components in order; `ids` are those of the processes, `own` those of the components."""
+    if not resolved.components:
+        return ()
     containers = _Containers(resolved)
     found = []
     for component, identity in zip(resolved.components, own, strict=True):

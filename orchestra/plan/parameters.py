@@ -96,6 +96,8 @@ def _are_apart(sources: Sequence[ParameterSource]) -> bool:
 
 def check_given(resolved: Resolved, problems: Problems) -> None:
     """Report parameters of the command line that are for no node of the description."""
+    if not resolved.given:
+        return
     names = _names(resolved)
     exact = frozenset(names)
     anonymous = any(process.kind != "process" and process.name is None for process in resolved.processes)

@@ -6,6 +6,7 @@ nodes would be passed on a thousand times else, and a change of one section woul
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 from orchestra.plan.ids import node_name
@@ -29,10 +30,14 @@ class Sections:
 
     def __init__(self, resolved: Resolved) -> None:
         self.given = tuple(section for item in resolved.given for section in item.sections)
-        self._nodes = {node_name(process) for process in resolved.processes}
+        self._processes = resolved.processes
         self._files: dict[int, Indexed] = {}
         self._others: dict[int, _Others] = {}
         self._passed_on: dict[tuple[object, ...], tuple[ParameterFile, ...]] = {}
+
+    @cached_property
+    def _nodes(self) -> set[str | None]:
+        return {node_name(process) for process in self._processes}
 
     def for_node(self, node: ResolvedProcess, own: str, full: str | None) -> list[Section]:
         """Return everything on upstream's command line that is for a node: for all nodes, then its own.

@@ -14,6 +14,8 @@ if TYPE_CHECKING:
 
 def check_remaps(process: ResolvedProcess | ResolvedComponent, problems: Problems) -> None:
     """Report rules that an earlier one, often of an outer scope, keeps from acting: the first that matches counts."""
+    if len(process.remaps) < 2:  # noqa: PLR2004 - nothing stands before it
+        return
     rules = [read_rule(rule.source.text, rule.target.text) for rule in process.remaps]
     namespace = process.namespace.text if process.namespace is not None else None
     for dead in dead_rules(rules, namespace, process.name.text if process.name is not None else None):

@@ -89,7 +89,8 @@ def visit(actions: Sequence[Action], run: Resolution) -> None:
         if conditional:
             run.found.visited.add(id(action))
         outer = run.held
-        run.held = (*outer, *_held(action, run))
+        if conditional:
+            run.held = (*outer, *_held(action, run))
         if action.origin is None:
             _visitor(type(action).__name__).visit(action, run)
         else:

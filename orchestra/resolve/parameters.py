@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from orchestra.description.parts import VALUE_TYPES, Override
-from orchestra.description.text import Constant, span_of, whole_span_of
+from orchestra.description.text import Constant, Template, Words, span_of, whole_span_of
 from orchestra.errors import Code
 from orchestra.location import is_python, point
 from orchestra.nearest import nearest
@@ -17,7 +17,15 @@ from orchestra.resolve.paths import beside
 from orchestra.resolve.rcl.overrides import override_value
 from orchestra.resolve.rcl.surprises import plainly
 from orchestra.resolve.refusals import refuse_value
-from orchestra.resolve.scalars import checked, coerced, described, differs, unified, upstream_value
+from orchestra.resolve.scalars import (
+    checked,
+    coerced,
+    described,
+    differs,
+    read_alike,
+    unified,
+    upstream_value,
+)
 from orchestra.resolve.wrong_lists import odd_in_text, odd_place, wrong_as_a_whole
 from orchestra.resolve.yaml_scalars import QUOTE
 
@@ -27,7 +35,6 @@ if TYPE_CHECKING:
     from orchestra.description.actions.set_parameter import SetParameter
     from orchestra.description.fields import Value as Typed
     from orchestra.description.parts import Param
-    from orchestra.description.text import Template
     from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
     from orchestra.values import ParameterValue
@@ -141,6 +148,9 @@ def _inline(
     if isinstance(type_word, Poison):
         return [None]
     at = run.at(span_of(param.value) or param.span)
+    plain = _read_at_once(param, quotes=quotes)
+    if plain is not None:
+        return [new_parameter(name, plain, at, everywhere, keys, (), ())]
     with run.scope.tracing() as reads:
         value = _typed(name, param.value, type_word, run, at, quotes=quotes)
     if isinstance(value, Poison):
@@ -150,6 +160,17 @@ def _inline(
     items = param.value if isinstance(param.value, tuple) else ()
     places = tuple(run.at(item.span) for item in items)
     return [new_parameter(name, value, at, everywhere, keys, places, tuple(reads))]
+
+
+def _read_at_once(param: Param | SetParameter, *, quotes: bool) -> ParameterValue | None:
+    """Return the value of a text without a type that everybody reads alike; None where it takes a closer look."""
+    value = param.value
+    if not isinstance(value, Template) or param.type is not None or value.faulty or len(value.parts) != 1:
+        return None
+    part = value.parts[0]
+    if type(part) is not Words:
+        return None
+    return part.text if value.quoted and quotes else read_alike(part.text)
 
 
 def _constant(name: str, value: Constant, type_word: str | None, run: Resolution) -> ParameterValue | Poison:

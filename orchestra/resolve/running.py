@@ -91,7 +91,7 @@ def _says_nothing(action: Running, run: Resolution) -> bool:
 
 def _as_it_is(action: Running, program: Program, run: Resolution) -> ResolvedProcess:
     """Return the process of an action that says nothing of how it runs: `_resolved` gives the same, in more time."""
-    location = run.at(action.span)
+    location, frame = run.at(action.span), run.frame
     places = output(action.output, run, location)
     return new_process(
         kind=program.kind,
@@ -118,8 +118,8 @@ def _as_it_is(action: Running, program: Program, run: Resolution) -> ResolvedPro
         ready=None,
         alive=None,
         stop=None,
-        depends_on=run.frame.depends_on,
-        labels=run.frame.labels,
+        depends_on=frame.depends_on,
+        labels=frame.labels,
         location=location,
         conditional=_is_conditional(action, run),
         faulty=isinstance(places, Poison) or program.faulty or action.faulty,

@@ -62,7 +62,7 @@ def differs(text: str) -> str | None:
 
     A text that upstream cannot read is no surprise but an error: None too.
     """
-    if _read_alike(text) is not None:
+    if read_alike(text) is not None:
         return None
     try:
         upstream = upstream_value(text)
@@ -131,11 +131,7 @@ def flow(value: ParameterValue) -> str:
     return f"[{', '.join(map(_shown, value))}]" if isinstance(value, tuple) else str(value)
 
 
-def _is_text(text: str) -> bool:
-    return not text.strip() or isinstance(read_scalars(text, by_pyyaml), str)
-
-
-def _read_alike(text: str) -> Scalar | None:
+def read_alike(text: str) -> Scalar | None:
     """Return what a text is to everybody who reads it, None where that is not plain to see."""
     number = _NUMBER.fullmatch(text)
     if number is not None:
@@ -143,8 +139,12 @@ def _read_alike(text: str) -> Scalar | None:
     return text if _WORD.fullmatch(text) and text.lower() not in _MEANT else None
 
 
+def _is_text(text: str) -> bool:
+    return not text.strip() or isinstance(read_scalars(text, by_pyyaml), str)
+
+
 def _value(text: str, construct: Construct) -> ParameterValue:
-    alike = _read_alike(text)
+    alike = read_alike(text)
     if alike is not None:
         return alike
     return (_parsed if len(text) > _LONGEST_KEPT else _parsed_once)(text, construct)

@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 
 from orchestra.resolve.scalars import (
     _parsed,
-    _read_alike,
     coerced,
     core_value,
     differs,
+    read_alike,
     unified,
     upstream_value,
 )
@@ -256,7 +256,7 @@ def test_numbers_are_those_of_pyyaml(text: str) -> None:
 
 @given(st.text("aeflnorstuyNOTFY_/.-0123456789", max_size=6) | st.floats().map(str) | st.integers().map(str))
 def test_what_needs_no_parser_is_what_the_parsers_say(text: str) -> None:
-    alike = _read_alike(text)
+    alike = read_alike(text)
     if alike is not None:
         assert _same(_parsed(text, by_pyyaml), alike)
         assert _same(_parsed(text, by_core), alike)

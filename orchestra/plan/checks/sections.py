@@ -50,9 +50,12 @@ def check_sections(resolved: Resolved, plan: Plan, problems: Problems) -> None:
         *(item for item in resolved.processes if item.kind != "process"),
         *resolved.components,
     ]
+    files = _files(nodes)
+    if not files:
+        return
     names = _Names(name for node in nodes if (name := node_name(node)) is not None)
     told: set[object] = set()
-    for file in _files(nodes):
+    for file in files:
         _check(file, names, resolved, problems, told)
 
 
@@ -81,10 +84,11 @@ def _files(nodes: Sequence[_Node]) -> list[_File]:
     """Return the files with the nodes that each is given to; one for all nodes of a scope is a file of its own."""
     files: dict[tuple[str, object], _File] = {}
     for node in nodes:
+        given = [item for item in node.parameters if isinstance(item, FileParameters) and item.sections]
+        if not given or _hands_on(node):
+            continue
         name = node_name(node)
-        for source in node.parameters:
-            if not isinstance(source, FileParameters) or not source.sections or _hands_on(node):
-                continue
+        for source in given:
             place = source.location if source.everywhere else None
             file = files.setdefault((source.path, place), _File(source))
             if name is None:

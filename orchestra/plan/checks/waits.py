@@ -28,6 +28,8 @@ def check_waits(resolved: Resolved, plan: Plan, problems: Problems) -> None:
         for edge in process.depends_on:
             if edge.required and edge.condition in ("completed", "exited"):
                 _check_end(by_id.get(edge.process), edge.condition, edge.location, problems)
+    if all(process.ready is None for process in plan.processes):
+        return
     nodes: list[ResolvedProcess | ResolvedComponent] = [*resolved.processes, *resolved.components]
     names = {name for node in nodes if (name := node_name(node)) is not None}
     for process, written in zip(plan.processes, resolved.processes, strict=True):
