@@ -11,11 +11,9 @@ from typing import TYPE_CHECKING
 
 from orchestra.fields import replace
 from orchestra.plan import codec
-from orchestra.supervise.keeping import shared_memory
 from orchestra.supervise.keeping.attention import Attention
 from orchestra.supervise.keeping.dump import Dump
 from orchestra.supervise.keeping.kin import Kin, send_to_groups
-from orchestra.supervise.keeping.leftovers import end_leftovers
 from orchestra.supervise.keeping.standard_streams import say
 from orchestra.supervise.limits.confines import Confines
 from orchestra.supervise.loop import Loop
@@ -171,6 +169,10 @@ def _collect_garbage() -> None:
 
 def _conclude(system: System, around: Surroundings, beginnings: Beginnings) -> Outcome:
     """Look for leftovers, and tell how it all ended: the last line and the last event."""
+    # Here, because no first process waits for it.
+    from orchestra.supervise.keeping import shared_memory  # noqa: PLC0415
+    from orchestra.supervise.keeping.leftovers import end_leftovers  # noqa: PLC0415
+
     around.observers.leave()
     around.starts.leave()
     around.questions.leave()

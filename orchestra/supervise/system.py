@@ -20,7 +20,6 @@ from orchestra.supervise.reactions.actions import Actions
 from orchestra.supervise.reactions.performance import Performance
 from orchestra.supervise.reactions.triggers import LONGEST_AT_THE_END, Triggers, held
 from orchestra.supervise.runs.furnishing import furnish
-from orchestra.supervise.state_report import state_report
 from orchestra.supervise.verdict import Verdict
 
 if TYPE_CHECKING:
@@ -108,6 +107,8 @@ class System:
 
     def state_report(self) -> str:
         """Return what runs and what is waited for, in lines for people."""
+        from orchestra.supervise.state_report import state_report  # noqa: PLC0415 - few ask for it
+
         return state_report(self.operation.processes(), self.stopping)
 
     # What the processes tell.

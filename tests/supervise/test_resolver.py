@@ -31,7 +31,7 @@ def test_its_status_is_that_of_the_run(tmp_path: Path, word: str, status: int, t
     run = finished(tmp_path, (word,))
     assert run.popen.returncode == status
     assert told in run.stderr if told else run.stderr == ""
-    assert not (tmp_path / "home/runs").exists()
+    assert not (tmp_path / "home").exists()
 
 
 def test_ctrl_c_ends_it_at_once(tmp_path: Path) -> None:

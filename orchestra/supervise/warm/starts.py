@@ -8,15 +8,12 @@ from __future__ import annotations
 
 import errno
 import itertools
+from functools import cached_property
 from typing import TYPE_CHECKING, Any, Protocol
 
 from orchestra.supervise.keeping import proc
 from orchestra.supervise.process.life import FINAL
 from orchestra.supervise.process.spawn import spawn
-from orchestra.supervise.warm import dialogue
-from orchestra.supervise.warm.launching import environment_of, launch
-from orchestra.supervise.warm.server import Server
-from orchestra.supervise.warm.start import Start
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
@@ -27,7 +24,8 @@ if TYPE_CHECKING:
     from orchestra.supervise.process.life import State
     from orchestra.supervise.process.spec import Spec
     from orchestra.supervise.warm.launching import Launched
-    from orchestra.supervise.warm.start import Told
+    from orchestra.supervise.warm.server import Server
+    from orchestra.supervise.warm.start import Start, Told
 
 # How long a warm start may take, the server's own imports included, on a machine that is busy; in seconds.
 _PATIENCE = 15.0
@@ -63,7 +61,7 @@ class Starts:
         self.wanted = True
         self._loop = loop
         self._kin = kin
-        self._environment = environment_of(run_id)
+        self._run_id = run_id
         self._prepared: set[tuple[str, str]] = set()
         self._server: Server | None = None
         self._former: list[Server] = []
@@ -76,6 +74,14 @@ class Starts:
         kin.unborn = self._is_unborn
         if ahead is not None:
             self._server = self._attended(ahead)
+
+    @cached_property
+    def _environment(self) -> dict[str, str]:
+        """What a server has, and all that it starts."""
+        # Here and below: what has to do with a server is imported where there is one.
+        from orchestra.supervise.warm.launching import environment_of  # noqa: PLC0415
+
+        return environment_of(self._run_id)
 
     @property
     def pid(self) -> int | None:
@@ -102,6 +108,9 @@ class Starts:
         if _warm(process) is None or spec.foremost or not self.wanted:
             _start_cold(spec, told)
             return
+        from orchestra.supervise.warm import dialogue  # noqa: PLC0415
+        from orchestra.supervise.warm.start import Start  # noqa: PLC0415
+
         differs = dialogue.obstacle(spec.environment, self._environment)
         server = None if differs else self._ready()
         if server is None:
@@ -152,6 +161,8 @@ class Starts:
     def _ready(self) -> Server | None:
         """Return the server, started where there is none; None where there will not be one."""
         if self._server is None and self._hopeless is None and self.wanted:
+            from orchestra.supervise.warm.launching import launch  # noqa: PLC0415
+
             try:
                 self._server = self._attended(launch(self._environment))
             except OSError as error:
@@ -159,6 +170,8 @@ class Starts:
         return self._server
 
     def _attended(self, launched: Launched) -> Server:
+        from orchestra.supervise.warm.server import Server  # noqa: PLC0415
+
         return Server(self._loop, self._kin, launched, self._say, (self._heard, self._lost))
 
     def _start_cold(self, spec: Spec, told: Told, reason: str) -> None:
