@@ -6,12 +6,12 @@ forks for several requests at once; a node is announced when it has ended: then 
 
 from __future__ import annotations
 
+import _socket  # `socket` imports three more modules
 import array
 import gc
 import json
 import os
 import signal
-import socket
 import sys
 import threading
 from contextlib import contextmanager
@@ -44,7 +44,7 @@ def serve(path: Sequence[str], modules: Collection[str]) -> Born:
     """
     kernel.set_name(NAME)
     kernel.die_with_parent(signal.SIGKILL, int(sys.argv[1]))
-    connection = socket.socket(fileno=os.dup(0))
+    connection = _socket.socket(fileno=os.dup(0))
     os.dup2(os.open(os.devnull, os.O_RDONLY | os.O_CLOEXEC), 0)
     try:
         with _quietly_interrupted():
@@ -72,7 +72,7 @@ class _quietly_interrupted:  # noqa: N801 - a context manager that reads like a 
         signal.signal(signal.SIGINT, self._before)
 
 
-def _make_ready(connection: socket.socket) -> None:
+def _make_ready(connection: _socket.socket) -> None:
     with _frozen(connection):
         try:
             preload_common()
@@ -82,7 +82,7 @@ def _make_ready(connection: socket.socket) -> None:
 
 
 @contextmanager
-def _frozen(connection: socket.socket) -> Iterator[None]:
+def _frozen(connection: _socket.socket) -> Iterator[None]:
     """Leave what is imported to all processes alike: the collector, which writes to what it looks at, never will."""
     gc.disable()
     yield
@@ -93,7 +93,7 @@ def _frozen(connection: socket.socket) -> Iterator[None]:
     gc.enable()
 
 
-def _refuse(connection: socket.socket, reason: str) -> NoReturn:
+def _refuse(connection: _socket.socket, reason: str) -> NoReturn:
     connection.send(json.dumps({"unusable": reason}).encode())
     _leave()
 
@@ -103,7 +103,7 @@ def _leave() -> NoReturn:
     os._exit(0)
 
 
-def _fork_all(connection: socket.socket, starts: list[Request]) -> Request | None:
+def _fork_all(connection: _socket.socket, starts: list[Request]) -> Request | None:
     """Fork for all; return one of them in the process that is to become its node."""
     for index in range(0, len(starts), _AT_ONCE):
         mine = _fork_some(connection, starts[index : index + _AT_ONCE])
@@ -112,7 +112,7 @@ def _fork_all(connection: socket.socket, starts: list[Request]) -> Request | Non
     return None
 
 
-def _received(connection: socket.socket) -> tuple[list[Request], list[tuple[str, str]]]:
+def _received(connection: _socket.socket) -> tuple[list[Request], list[tuple[str, str]]]:
     """Return all requests that wait, after the first of them, and what is to be imported for later ones."""
     starts: list[Request] = []
     targets: list[tuple[str, str]] = []
@@ -126,23 +126,23 @@ def _received(connection: socket.socket) -> tuple[list[Request], list[tuple[str,
             targets.extend((kind, name) for kind, name in facts["prepare"])
         else:
             starts.append(Request(facts, descriptors))
-        flags = socket.MSG_DONTWAIT
+        flags = _socket.MSG_DONTWAIT
 
 
-def _message(connection: socket.socket, flags: int) -> tuple[dict[str, Any], list[int]]:
+def _message(connection: _socket.socket, flags: int) -> tuple[dict[str, Any], list[int]]:
     """Return one message. Raises `ConnectionError` where there is nobody any more, `BlockingIOError` with that flag."""
-    space = socket.CMSG_SPACE(_DESCRIPTORS * array.array("i").itemsize)
-    content, ancillary, _, _ = connection.recvmsg(_LARGEST, space, flags | socket.MSG_CMSG_CLOEXEC)
+    space = _socket.CMSG_SPACE(_DESCRIPTORS * array.array("i").itemsize)
+    content, ancillary, _, _ = connection.recvmsg(_LARGEST, space, flags | _socket.MSG_CMSG_CLOEXEC)
     if not content:
         raise ConnectionResetError
     descriptors = array.array("i")
     for level, kind, data in ancillary:
-        if (level, kind) == (socket.SOL_SOCKET, socket.SCM_RIGHTS):
+        if (level, kind) == (_socket.SOL_SOCKET, _socket.SCM_RIGHTS):
             descriptors.frombytes(data[: len(data) - len(data) % descriptors.itemsize])
     return json.loads(content), list(descriptors)
 
 
-def _fork_some(connection: socket.socket, requests: list[Request]) -> Request | None:
+def _fork_some(connection: _socket.socket, requests: list[Request]) -> Request | None:
     """Fork for some requests; return one of them in the process that is to become its node."""
     readable, writable = os.pipe()
     between = fork()
