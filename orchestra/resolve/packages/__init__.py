@@ -31,7 +31,7 @@ class InstalledPackages:
         self._prefixes = ament.prefixes(environment)
         self._ament = cache(self._look_in_ament)
         self._python = cache(python.folder)
-        self._scripts = cache(scripts.console_scripts)
+        self._scripts = cache(scripts.declared_scripts)
         self._executables = cache(ament.executables)
         self._nodes = cache(python.nodes)
         self._prefix = cache(self._find_prefix)
@@ -75,7 +75,8 @@ class InstalledPackages:
         found = set() if prefix is None else set(self._executables(prefix, package))
         if folder is not None:
             found.update(self._nodes(folder))
-            found.update(script for owner, script in self._scripts() if owner == package)
+            scripts_here = {script.name for script in self._scripts() if package in script.owners}
+            found.update(name for name in scripts_here if self._script(package, name) is not None)
         return tuple(sorted(found))
 
     def _find_command(self, package: str, executable: str) -> tuple[str, ...] | None:
@@ -85,11 +86,14 @@ class InstalledPackages:
         folder = self._python(package)
         if folder is None:
             return None
-        if path := self._scripts().get((package, executable)):
+        if path := self._script(package, executable):
             return (str(path),)
         if executable in self._nodes(folder):
             return (sys.executable, "-m", f"{package}.nodes.{executable}")
         return None
+
+    def _script(self, package: str, name: str) -> Path | None:
+        return scripts.script_file(package, name, self._scripts())
 
     def _find_names(self) -> tuple[str, ...]:
         indexed = (name for prefix in self._prefixes for name in ament.packages(prefix))
