@@ -195,6 +195,12 @@ class Launched:
         wait_for(lambda: condition() or self.popen.poll() is not None, f"{what}; {self.stderr}")
         assert condition(), f"the run ended before {what}: {self.stderr}"
 
+    @property
+    def ending(self) -> float:
+        """How many seconds the end took, by the events: a busy machine is slow to tell us."""
+        begun, ended = (self.of_kind(kind)[0].monotonic for kind in ("run_stopping", "run_ended"))
+        return ended - begun
+
     def log(self, name: str) -> str:
         """The log file of a process."""
         return (self.directory / "logs" / f"{name}.log").read_text("utf-8")

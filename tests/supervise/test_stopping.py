@@ -32,10 +32,9 @@ def test_well_behaved_processes_end_within_three_seconds(tmp_path: Path) -> None
     with launched(tmp_path, plan(*many)) as run:
         for one in many:
             run.await_line(one.id, "up")
-        begin = time.monotonic()
         run.send(signal.SIGINT)
         assert run.wait() == 130
-        assert time.monotonic() - begin < 5.0
+        assert run.ending < 3.0
         assert not run.everything()
         assert all(signals(run, one.id) == ["SIGINT"] for one in many)
         assert all(run.log(one.id) == "up\nbye\n" for one in many)
@@ -88,12 +87,11 @@ def test_impatience_helps(tmp_path: Path) -> None:
     ) as run:
         run.await_line("a", "up")
         run.await_line("b", "up")
-        begin = time.monotonic()
         for count in (1, 2, 3):
             run.send(signal.SIGINT)
             run.await_event("signal_sent", "a", count=count)
         assert run.wait() == 130
-        assert time.monotonic() - begin < 4.5
+        assert run.ending < 4.5
         assert signals(run, "a") == ["SIGINT", "SIGTERM", "SIGKILL"]
         assert signals(run, "b")[:2] == ["SIGINT", "SIGTERM"]
         assert "SIGINT again: SIGTERM to everything" in run.stderr
