@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 from orchestra.cli.commands import COMMANDS
 from orchestra.cli.completing.candidates import Candidate, beginning_with
 from orchestra.cli.completing.paths import paths
+from orchestra.cli.ros.verbs import VerbParser
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Sequence
@@ -37,10 +38,22 @@ def candidates(before: Sequence[str], begun: str) -> list[Candidate]:
     if command not in COMMANDS:
         return []
     parser: CommandParser = import_module(COMMANDS[command].module).parser()
-    return beginning_with(begun, _of_command(command, parser, given, begun))
+    if not isinstance(parser, VerbParser):
+        return beginning_with(begun, _of_command(command, parser, given, begun, _words_of(command)))
+    verb = next((word for word in given if not word.startswith("-")), None)
+    if verb is None:
+        return beginning_with(begun, (Candidate(name, known.summary) for name, known in parser.verbs.items()))
+    if verb not in parser.verbs:
+        return []
+    given.remove(verb)
+    words_of = import_module("orchestra.cli.completing.verb_words").words_of(command, parser.of(verb))
+    return beginning_with(begun, _of_command(command, parser.of(verb), given, begun, words_of))
 
 
-def _of_command(command: str, parser: CommandParser, given: Sequence[str], begun: str) -> Iterable[Candidate]:
+def _of_command(
+    command: str, parser: CommandParser, given: Sequence[str], begun: str, function: Words | None
+) -> Iterable[Candidate]:
+    """Return what the word at the cursor can become; the function knows the words that are no options."""
     options = {name: option for option in parser.actions for name in option.option_strings}
     words, waiting, closed = _positional(given, options, intermixed=parser.intermixed)
     if waiting is not None:
@@ -51,7 +64,6 @@ def _of_command(command: str, parser: CommandParser, given: Sequence[str], begun
             found = _values(command, options[name], value)
             return (candidate._replace(word=f"{name}={candidate.word}") for candidate in found)
         return _options(options, given)
-    function = _words_of(command)
     return function(words, begun) if function else _choices(parser, words)
 
 

@@ -26,7 +26,7 @@ def graph(parser: CommandParser) -> None:
         type=seconds,
         default=_SPIN_TIME,
         metavar="SECONDS",
-        help=f"look at most so long where the answer is not complete before (default: {_SPIN_TIME})",
+        help=f"where the answer is not complete, look until nothing new comes for so long (default: {_SPIN_TIME})",
     )
     parser.add_argument("-s", "--use-sim-time", action="store_true", help="take the time from /clock")
     parser.add_argument("--no-daemon", action="store_true", help="nothing: there is no daemon")

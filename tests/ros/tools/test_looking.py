@@ -131,6 +131,14 @@ def test_a_frame_that_nobody_knows_ends_the_wait_in_time(graph: Graph) -> None:
     assert done.errors.endswith("there is no frame lasr; did you mean laser?\n")
 
 
+def test_names_in_the_graph_are_completed(graph: Graph) -> None:
+    for words, found in (
+        (("topic", "echo", "/robot1/ch"), "/robot1/chatter"),
+        (("param", "get", "/robot1/actor", "lim"), "limits.max"),
+    ):
+        assert graph.told("completion", "--complete", "zsh", *words) == f"{found}\t\n"
+
+
 @pytest.mark.parametrize(("number", "status"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
 def test_a_command_ends_quietly_on_a_signal(graph: Graph, number: signal.Signals, status: int) -> None:
     with graph.asking("topic", "echo", "/robot1/scan") as process:

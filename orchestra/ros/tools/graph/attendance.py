@@ -34,15 +34,17 @@ _PREFIX, _HOST = 12, 4
 
 
 class Attendance:
-    """Who is there of those who should be."""
+    """Who is there of those who should be; `news` is when something was last seen that is new."""
 
     def __init__(self, node: Node) -> None:
+        self.news = time.monotonic()
         self._node = node
         self._domain = node.context.get_domain_id()
         self._counted = get_rmw_implementation_identifier() == "rmw_fastrtps_cpp"
         alone = os.environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").upper() == "LOCALHOST"
         self._quiet = _QUIET if self._counted and alone else _QUIET_UNCOUNTED
         self._seen: Any = None
+        self._known: tuple[frozenset[bytes], frozenset[bytes]] = (frozenset(), frozenset())
         self._since = time.monotonic()
         self._call: RollCall | None = None
         self._called = -_CALL_AGAIN
@@ -51,6 +53,8 @@ class Attendance:
     def settled(self, seen: Any) -> bool:  # noqa: ANN401 - whatever is looked for
         """Tell whether nobody is missing, and this has been seen long enough."""
         now = time.monotonic()
+        if seen != self._seen:
+            self.news = now
         if seen != self._seen or not self.complete():
             self._seen, self._since = seen, now
         return now - self._since >= self._quiet
@@ -61,7 +65,9 @@ class Attendance:
             return True
         now = time.monotonic()
         ports = ports_here(self._domain)
-        found = self._participants()
+        found, named = self._participants(), self._named()
+        if (found, named) != self._known:
+            self._known, self.news = (found, named), now
         own = self._own()
         if not own:
             return False
@@ -69,7 +75,7 @@ class Attendance:
             self._call_missing(own, ports, now)
             return False
         self.close()
-        nameless = found - self._named()
+        nameless = found - named
         if nameless != self._nameless[0]:
             self._nameless = (frozenset(nameless), now)
         return not nameless or now - self._nameless[1] > _NAMELESS

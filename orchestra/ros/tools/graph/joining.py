@@ -8,10 +8,12 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 import rclpy
+from rclpy.exceptions import NameValidationException
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 
+from orchestra.errors import RunError
 from orchestra.ros.tools.graph.attendance import Attendance
 from orchestra.ros.tools.graph.ending import Ending
 
@@ -27,12 +29,17 @@ _SeenT = TypeVar("_SeenT")
 _PAUSE: Final = 0.1
 _LOOK: Final = 0.005
 _MEETING: Final = 0.02
+_CHANGING: Final = 6
+_NO_SUPPORT: Final = "Type support not from this implementation"
 # No log file: it would be a new one for each command.
 _ARGUMENTS: Final = ("--ros-args", "--disable-external-lib-logs")
 
 
 class Graph:
-    """What our node sees of the graph; `spin_time` is the longest time in seconds to wait until all of it is seen."""
+    """What our node sees of the graph.
+
+    `spin_time` is the longest time in seconds without anything new to wait for, where not all of it is seen.
+    """
 
     def __init__(self, node: Node, spin_time: float, ending: Ending) -> None:
         self.node = node
@@ -62,9 +69,15 @@ class Graph:
     def _has_met(self) -> bool:
         """Tell whether all others are known, and ask them to name themselves where they are not."""
         if not self._met:
-            late = time.monotonic() - self._began > self._spin_time
-            self._met = late or self._attendance.complete()
+            self._met = self._attendance.complete() or self._is_late()
         return self._met
+
+    def _is_late(self) -> bool:
+        """Tell whether nothing new has come for too long, or new things do not cease."""
+        now = time.monotonic()
+        return (
+            now - self._attendance.news > self._spin_time or now - self._began > _CHANGING * self._spin_time
+        )
 
     def found(self, look: Callable[[], _SeenT]) -> _SeenT:
         """Return the first that is seen and counts as true, else what is seen once all of the graph is."""
@@ -82,7 +95,7 @@ class Graph:
 
     def _is_whole(self, seen: Callable[[], Any]) -> bool:
         """Tell whether nobody is missing and nothing changes any more; a moment passes otherwise."""
-        if self._attendance.settled(seen()) or time.monotonic() - self._began > self._spin_time:
+        if self._attendance.settled(seen()) or self._is_late():
             return True
         time.sleep(_LOOK)
         self._ending.check()
@@ -103,10 +116,24 @@ def joined(options: Namespace) -> Iterator[Graph]:
             graph = Graph(_node(options), float(options.spin_time), ending)
             try:
                 yield graph
+            except NameValidationException as error:
+                raise RunError(
+                    " ".join(str(error).replace("^", "").split())
+                ) from None  # it points with a caret
+            except ValueError as error:
+                if _NO_SUPPORT in str(error):
+                    raise RunError(f"the libraries of a type are not to be found: {_reason(error)}") from None
+                raise
             finally:
                 graph.close()
     finally:
         rclpy.try_shutdown()
+
+
+def _reason(error: ValueError) -> str:
+    """Return the line of a message of rcl that says what is wrong."""
+    told = [line.strip() for line in str(error).splitlines()]
+    return next((line for line in told if "dlopen" in line), told[0])
 
 
 def _node(options: Namespace) -> Node:

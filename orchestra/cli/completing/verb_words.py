@@ -1,0 +1,84 @@
+"""Words of the ROS command line: names of what runs and of what is installed.
+
+Names in the graph are those that the commands themselves list; a process with rclpy looks for them.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.cli.completing.candidates import Candidate
+from orchestra.cli.completing.paths import paths
+from orchestra.cli.interfaces.index import Interfaces
+from orchestra.resolve.packages import InstalledPackages
+
+if TYPE_CHECKING:
+    from argparse import Action
+    from collections.abc import Callable, Iterable, Iterator, Sequence
+
+    from orchestra.cli.parser import CommandParser
+
+# Whoever waits at a prompt and does not want to any more presses Ctrl-C.
+_PATIENCE: Final = 60.0
+# What lists the words that a word of this name can be, and the key of a name in what it lists.
+_LISTED: Final = {
+    "TOPIC": (("topic", "list"), "name"),
+    "NODE": (("node", "list"), None),
+    "SERVICE": (("service", "list"), "name"),
+    "ACTION": (("action", "list"), "name"),
+}
+_OF_NODE: Final = {"NAME": (("param", "list"), "name"), "TRANSITION": (("lifecycle", "list"), "label")}
+_LIFECYCLE: Final = ("lifecycle", "nodes")
+_KIND: Final = {"topic": "msg", "service": "srv", "action": "action"}
+
+
+def words_of(command: str, parser: CommandParser) -> Callable[[Sequence[str], str], Iterable[Candidate]]:
+    """Return what knows the words of a verb, given those before the cursor and the one that is begun."""
+
+    def words(before: Sequence[str], begun: str) -> Iterable[Candidate]:
+        word = _at(parser, len(before))
+        return () if word is None else _words(command, str(word.metavar), before, begun)
+
+    return words
+
+
+def _at(parser: CommandParser, place: int) -> Action | None:
+    """Return the word that stands at a place; the last may be one of several."""
+    positional = [action for action in parser.actions if not action.option_strings]
+    if place < len(positional):
+        return positional[place]
+    return positional[-1] if positional and positional[-1].nargs == "+" else None
+
+
+def _words(command: str, metavar: str, before: Sequence[str], begun: str) -> Iterable[Candidate]:
+    if metavar in _LISTED:
+        words, key = _LISTED[metavar]
+        return _names(_LIFECYCLE if command == "lifecycle" and metavar == "NODE" else words, key)
+    if metavar in _OF_NODE and before:
+        words, key = _OF_NODE[metavar]
+        return _names((*words, before[0]), key)
+    if metavar == "TYPE":
+        kinds = (_KIND[command],) if command in _KIND else ("msg", "srv", "action")
+        return map(Candidate, Interfaces(os.environ).all(kinds))
+    if metavar == "PACKAGE":
+        return map(Candidate, InstalledPackages(os.environ).names())
+    return paths(begun) if metavar == "FILE" else ()
+
+
+def _names(words: Sequence[str], key: str | None) -> Iterator[Candidate]:
+    """Yield the names that a command lists; none where it cannot."""
+    command = [sys.executable, "-m", "orchestra", *words, "--format", "json"]
+    try:
+        done = subprocess.run(  # noqa: S603 - a program of ours
+            command, stdin=subprocess.DEVNULL, capture_output=True, timeout=_PATIENCE, check=True
+        )
+    except (subprocess.SubprocessError, OSError):
+        return
+    found: Any = json.loads(done.stdout)
+    items = [item for below in found.values() for item in below] if isinstance(found, dict) else found
+    for item in items:
+        yield Candidate(item if key is None else item[key])
