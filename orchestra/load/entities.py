@@ -13,7 +13,7 @@ from orchestra.errors import Code
 from orchestra.fields import field
 from orchestra.load.elements import Tagged, beginning_of, emptied
 from orchestra.load.exposed import exposed_action, exposes_action
-from orchestra.load.keys import action_meant, spelled
+from orchestra.load.keys import action_meant, as_written, spelled
 from orchestra.load.reader import Reader
 
 if TYPE_CHECKING:
@@ -189,7 +189,8 @@ class _Builder:
         if model is not None:
             return model, True
         near, slip = action_meant(name)
-        self.reader.error(Code.UNKNOWN_ACTION, f"unknown action '{name}'", at, suggestion=near)
+        instead = as_written(near, name) if near is not None and slip else near
+        self.reader.error(Code.UNKNOWN_ACTION, f"unknown action '{name}'", at, suggestion=instead)
         return (model_of(near) if near is not None and slip else None), False
 
     def _wrong(self, message: str, span: Span) -> None:

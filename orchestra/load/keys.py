@@ -90,7 +90,7 @@ def known_keys(
                 read.meant |= stands_for
                 free -= stands_for
                 continue
-            report(Code.UNKNOWN_KEY, f"unknown {noun(mapping, key)}", at, suggestion=_as_written(near, key))
+            report(Code.UNKNOWN_KEY, f"unknown {noun(mapping, key)}", at, suggestion=as_written(near, key))
             name, free = near, free - {near}
         if isinstance(mapping, Tagged) and isinstance(read.get(name), Listed) and isinstance(value, Listed):
             read[name].extend(value)
@@ -143,7 +143,7 @@ class _Strangers:
             ]
             stands_for = frozenset({instead}) if instead is not None else self.lacking
         self.lacking -= stands_for
-        suggestion = None if instead is None else _as_written(instead, key)
+        suggestion = None if instead is None else as_written(instead, key)
         report(Code.UNKNOWN_KEY, message, at, suggestion=suggestion, notes=notes)
         return stands_for
 
@@ -159,6 +159,6 @@ def _is_within(word: str, name: str) -> bool:
     return all(letter in letters for letter in word)
 
 
-def _as_written(key: str, word: str) -> str:
+def as_written(key: str, word: str) -> str:
     """Return a key with the joint of the word that stands for it."""
     return key.replace("_", "-") if "-" in word and "_" not in word else key

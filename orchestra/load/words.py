@@ -131,6 +131,8 @@ KEYS_ELSEWHERE: Final[dict[str, tuple[str, ...]]] = {
     "var": ("name",),
     "variable": ("name",),
     "when": ("if",),
+    "workdir": ("cwd",),
+    "working_dir": ("cwd",),
     "working_directory": ("cwd",),
 }
 

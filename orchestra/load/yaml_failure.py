@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 _PARSER: type[Any] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
 _WORD = re.compile(r"[^\s:,\[\]{}#]+")
+_INNER = re.compile(r"\[[^][{}]*\]|\{[^][{}]*\}")
 _QUOTES: Final = ("'", '"')
 _OPENS: Final = " \t\n[{(,:"
 _FOLLOWS: Final = " \t\r\n,]}:#"
@@ -124,3 +125,21 @@ class Failure:
     def unclosed(self, begin: int) -> Fault:
         """Return the fault of a quote without its other half."""
         return self.fault(f"this {self.text[begin]} is not closed", begin, begin + 1)
+
+    def is_open(self, closer: str, own: str) -> bool:
+        """Return whether a bracket is open that this one closes; `own`, which closes the innermost one, may follow."""
+        opener = "[" if closer == "]" else "{"
+        before, behind = self.text[: self.context], self.text[self.at : self.line_end(self.at)]
+        return before.count(opener) > before.count(closer) or own in behind
+
+    @property
+    def holds_pairs(self) -> bool:
+        """Whether there are names with values in the brackets that are read, others in it left out."""
+        return ": " in _INNER.sub("", self.text[self.context + 1 : self.at])
+
+    @property
+    def is_doubled(self) -> bool:
+        """Whether the list that does not go on was begun by the second of two dashes, as in `- - name: a`."""
+        begin = self.whole.lines[self.line_of(self.context) - 1]
+        before = self.text[begin : self.context].strip()
+        return before == "-" and self.text.startswith("- ", self.context) and "'-'" in self.problem

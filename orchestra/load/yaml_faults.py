@@ -42,7 +42,7 @@ def explained(error: yaml.YAMLError, whole: Source) -> Fault:
     at = _offset(mark, whole) if mark is not None else 0
     context = _offset(error.context_mark, whole) if error.context_mark is not None else at
     failure = Failure(whole, at, context, error.problem or "", error.context or "")
-    if _is_doubled(failure):
+    if failure.is_doubled:
         return failure.fault("this '-' is one too many", context, context + 1)
     by_lines = of_lines(failure) if any(map(failure.problem.count, _OF_LINES)) else None
     return failure.of_quotes() or by_lines or _explanation(failure)(failure) or failure.plainly()
@@ -65,13 +65,6 @@ def _stray(failure: Failure) -> Fault | None:
     message = f"a text cannot begin with {failure.here} unless it is in quotes"
     end = _without_its_colon(failure, failure.at, found.end())
     return failure.fault(message, failure.at, end, _in_quotes(failure.text[failure.at : end]))
-
-
-def _is_doubled(failure: Failure) -> bool:
-    """Return whether the list that does not go on was begun by the second of two dashes, as in `- - name: a`."""
-    begin = failure.whole.lines[failure.line_of(failure.context) - 1]
-    before = failure.text[begin : failure.context].strip()
-    return before == "-" and failure.text.startswith("- ", failure.context) and "'-'" in failure.problem
 
 
 def _without_its_colon(failure: Failure, begin: int, end: int) -> int:
@@ -101,6 +94,13 @@ def _open(failure: Failure) -> Fault:
     alone = failure.text[failure.context + 1 :].partition("\n")[0].strip() == ""
     if alone and failure.here == ":" and last is not None and "\n" in failure.text[last.begin : last.end]:
         return _without_comma(failure, last.begin, last.end, closer)
+    if failure.here in ("]", "}") and failure.here != closer and not failure.is_open(failure.here, closer):
+        message = f"'{opening}' and '{failure.here}' do not belong together"
+        if failure.holds_pairs != (opening == "{"):
+            return failure.fault(
+                message, failure.context, failure.context + 1, "{" if opening == "[" else "["
+            )
+        return failure.fault(message, failure.at, failure.at + 1, closer)
     begun_earlier = failure.line_of(begun) < failure.line_of(failure.at) and not failure.here.isalnum()
     if failure.here in ("", *"]}") or begun_earlier or "\n" in failure.text[around : failure.at]:
         message = f"this {opening} is not closed: a {closer} is missing"

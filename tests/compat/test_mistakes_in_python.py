@@ -283,7 +283,7 @@ _VALUES = {
         Code.WRONG_TYPE,
     ),
     "a parameter that no node can have": Mistake(
-        "[Node(**TALKER, parameters=[{'a': {'b': «[1, 'c']»}}])]",
+        "[Node(**TALKER, parameters=[{'a': {'b': [1, '«c»']}}])]",
         "parameter 'a.b': a list must hold values of one type, not 1 and 'c'",
         Code.PARAMETER_TYPE,
     ),
