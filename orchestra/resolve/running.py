@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 from orchestra.dataclass import dataclass
 from orchestra.description.running import ON_EXIT
 from orchestra.errors import Code
-from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import POISON, Poison, Read, Value
 from orchestra.resolve.dependencies import dependencies
+from orchestra.resolve.exit_codes import exit_codes
+from orchestra.resolve.for_all import emulate_tty, set_for_all
 from orchestra.resolve.idle_keys import check_keys
 from orchestra.resolve.limits import limits
 from orchestra.resolve.model import (
@@ -48,8 +49,6 @@ _settings = attrgetter(
 )
 _NOTHING = ((), None, (), *((None,) * 19))
 _FOR_ALL = ("launch-prefix", "launch-prefix-filter", "emulate_tty", "sigterm_timeout", "sigkill_timeout")
-_HIGHEST_STATUS = 255
-_HIGHEST_SIGNAL = 64
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -157,11 +156,11 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         parameters=program.parameters,
         remaps=program.remaps,
         output=sound(places) if isinstance(places, Poison) else places,
-        emulate_tty=sound(_emulate_tty(action, run)),
+        emulate_tty=sound(emulate_tty(action, run)),
         restart=again,
         required=sound(run.flag(action.required, default=on_exit is not None)) is True,
         shutdown_on_exit=on_exit is not None,
-        success_exit_codes=sound(_codes(action, run)),
+        success_exit_codes=sound(exit_codes(action, run)),
         ready=sound(readiness(action.ready, run)),
         alive=sound(life(action.alive, run)),
         stop=sound(stop(action, run)),
@@ -240,24 +239,6 @@ def _cwd(action: Running, run: Resolution) -> str | Poison | None:
     return value.text if isinstance(value, Value) else value
 
 
-def _codes(action: Running, run: Resolution) -> tuple[int, ...] | Poison | None:
-    if action.success_exit_codes is None:
-        return None
-    codes = [_code(code, run) for code in action.success_exit_codes]
-    sound = tuple(code for code in codes if isinstance(code, int))
-    return sound if len(sound) == len(codes) else POISON
-
-
-def _code(written: Template, run: Resolution) -> int | Poison | None:
-    """Return an exit status, or the negative number of a signal (waitpid(2))."""
-    code = run.integer(written)
-    if isinstance(code, int) and not -_HIGHEST_SIGNAL <= code <= _HIGHEST_STATUS:
-        message = f"a process ends with a status from 0 to {_HIGHEST_STATUS}, not with {code}"
-        run.problems.error(Code.BAD_VALUE, message, run.at(written.span))
-        return POISON
-    return code
-
-
 def _prefix(action: Running, program: Program, run: Resolution) -> tuple[str, ...] | Poison:
     """Return the words of the launch prefix: the action's own, or the one of the whole launch through its filter.
 
@@ -268,7 +249,7 @@ def _prefix(action: Running, program: Program, run: Resolution) -> tuple[str, ..
     if action.launch_prefix is not None:
         own = run.evaluate(action.launch_prefix)
         return _words_of_prefix(own, run) if isinstance(own, Value) else POISON
-    prefix, chosen = _setting("launch-prefix", run), _setting("launch-prefix-filter", run)
+    prefix, chosen = set_for_all("launch-prefix", run), set_for_all("launch-prefix-filter", run)
     if prefix is None or not prefix.text or not program.words:
         return ()
     try:
@@ -289,24 +270,6 @@ def _words_of_prefix(prefix: Value, run: Resolution) -> tuple[str, ...] | Poison
     except ValueError as error:
         run.problems.error(Code.BAD_VALUE, f"'launch-prefix' is no command: {error}", prefix.location)
         return POISON
-
-
-def _emulate_tty(action: Running, run: Resolution) -> bool | Poison | None:
-    setting = _setting("emulate_tty", run)
-    if setting is None:
-        return run.flag(action.emulate_tty)
-    flag = boolean(setting.text)
-    if flag is not None:
-        return flag
-    message = f"'emulate_tty' is true or false, not '{setting.text}'"
-    run.problems.error(Code.BAD_VALUE, message, setting.location)
-    return POISON
-
-
-def _setting(name: str, run: Resolution) -> Value | None:
-    """Return a variable that upstream gives a meaning of its own."""
-    variable = run.scope.variables.get(name)
-    return variable.value if variable is not None and isinstance(variable.value, Value) else None
 
 
 def _environment(action: Running, run: Resolution) -> dict[str, tuple[EnvironmentChange, ...]] | Poison:
