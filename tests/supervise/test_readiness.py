@@ -34,8 +34,9 @@ def client(name: str = "server") -> Process:
 
 @contextlib.contextmanager
 def closed_port() -> Iterator[socket.socket]:
-    """A port that is taken, so that it stays closed until we listen."""
+    """A port that is taken, so that it stays closed until we listen, or who says that he shares it with us."""
     with socket.socket() as opened:
+        opened.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEPORT, 1)
         opened.bind(("127.0.0.1", 0))
         yield opened
 
@@ -159,19 +160,20 @@ def test_nothing_is_tried_any_more_once_it_is_ready(tmp_path: Path) -> None:
 
 def test_a_process_may_be_ready_by_http(tmp_path: Path) -> None:
     script = (
-        "import http.server, pathlib, sys\n"
+        "import http.server, sys\n"
+        "http.server.HTTPServer.allow_reuse_port = True\n"
         "server = http.server.HTTPServer(('127.0.0.1', int(sys.argv[1])), http.server.SimpleHTTPRequestHandler)\n"
         "server.serve_forever()\n"
     )
     with closed_port() as port:
         number = port.getsockname()[1]
-    server = process(
-        "server",
-        command=(*stand_in()[:1], "-c", script, str(number)),
-        cwd=str(tmp_path),
-        ready=ready(http=f"http://localhost:{number}/", timeout=30.0),
-    )
-    run = finished(tmp_path, plan(server, client()))
+        server = process(
+            "server",
+            command=(*stand_in()[:1], "-c", script, str(number)),
+            cwd=str(tmp_path),
+            ready=ready(http=f"http://localhost:{number}/", timeout=30.0),
+        )
+        run = finished(tmp_path, plan(server, client()))
     assert run.popen.returncode == 0
     assert f"waiting for server: http://localhost:{number}/" in run.stderr
 
