@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code, Problems
@@ -33,7 +34,6 @@ class Targets:
         self.nodes: dict[str, list[str]] = {}
         self.names: dict[str, list[str]] = {}
         self.labels: dict[str, list[str]] = {}
-        self.actions: dict[int, list[str]] = {}
         for identity, process in self.process.items():
             full = node_name(process)
             if full is not None:
@@ -44,8 +44,15 @@ class Targets:
                 self.names.setdefault(called, []).append(identity)
             for label in process.labels:
                 self.labels.setdefault(label, []).append(identity)
-            for action in {id(outer) for outer in process.around} if process.around else ():
-                self.actions.setdefault(action, []).append(identity)
+
+    @cached_property
+    def actions(self) -> dict[int, list[str]]:
+        """The processes inside of each object of a Python launch file: as many for each as includes are deep."""
+        found: dict[int, list[str]] = {}
+        for identity, process in self.process.items():
+            for action in {id(outer) for outer in process.around}:
+                found.setdefault(action, []).append(identity)
+        return found
 
 
 def dependencies(
