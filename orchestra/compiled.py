@@ -10,6 +10,7 @@ from __future__ import annotations
 import marshal
 import os
 import sys
+from _imp import _fix_co_filename  # type: ignore[attr-defined]
 from importlib.machinery import ModuleSpec, SourceFileLoader
 from importlib.util import MAGIC_NUMBER
 
@@ -89,7 +90,11 @@ def _compiled(path: str, cached: str) -> CodeType | None:
     ):
         return None
     code: CodeType = marshal.loads(memoryview(content)[_HEADER:])  # noqa: S302 - bytecode, as the interpreter does
-    return code if code.co_filename == path else None  # it may have been compiled in another place
+    if code.co_filename != path:
+        _fix_co_filename(
+            code, path
+        )  # it was compiled in another place, or by another name: as the import system does
+    return code
 
 
 def _word(number: int) -> bytes:

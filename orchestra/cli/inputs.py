@@ -115,6 +115,8 @@ def warn(plan: Plan, options: Namespace) -> None:
 def warnings_text(problems: tuple[Problem, ...], options: Namespace) -> str:
     """Return the text that shows warnings on standard error."""
     telling = boundary.Telling.of("", options)
+    if not problems and telling.problem_format == "text":
+        return ""  # as what renders them would return, and needs not be imported for
     return boundary.problems_text(
         problems, telling.problem_format, sys.stderr, command_line=telling.command_line
     )

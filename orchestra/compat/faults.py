@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import sysconfig
 from types import ModuleType
 from typing import TYPE_CHECKING
 
@@ -14,6 +13,7 @@ from orchestra.compat.seam import debugging
 from orchestra.compat.syntax_errors import span_of_syntax
 from orchestra.compat.wrong import WrongValue
 from orchestra.errors import Code, Problem
+from orchestra.witness.origins import INSTALLED, PYTHON
 
 if TYPE_CHECKING:
     from types import TracebackType
@@ -21,8 +21,6 @@ if TYPE_CHECKING:
     from orchestra.errors import Problems
     from orchestra.location import Span
 
-_PYTHON = sysconfig.get_path("stdlib")
-_INSTALLED = tuple({sysconfig.get_path("purelib"), sysconfig.get_path("platlib")})
 _MOST_CALLS = 8
 
 
@@ -67,9 +65,9 @@ def _calls(traceback: TracebackType | None) -> list[TracebackType]:
     installed: list[TracebackType] = []
     while traceback is not None:
         file = traceback.tb_frame.f_code.co_filename
-        if file.startswith(_INSTALLED):
+        if file.startswith(INSTALLED):
             installed.append(traceback)
-        elif not is_own(file) and not file.startswith(("<", _PYTHON)):
+        elif not is_own(file) and not file.startswith(("<", *PYTHON)):
             own.append(traceback)
         traceback = traceback.tb_next
     return own or installed[-1:]

@@ -9,7 +9,6 @@ from __future__ import annotations
 import importlib
 import os
 import sys
-import sysconfig
 from contextlib import contextmanager
 from importlib.machinery import ModuleSpec
 from importlib.util import find_spec
@@ -20,6 +19,7 @@ from typing import TYPE_CHECKING, Final
 from orchestra.compat import pristine
 from orchestra.compat.borrowed import borrowing
 from orchestra.compat.place import is_own
+from orchestra.witness.origins import INSTALLED, PYTHON
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -27,9 +27,7 @@ if TYPE_CHECKING:
 else:  # nobody asks for what they add, and they import some thirty modules
     Loader = MetaPathFinder = object
 
-_INSTALLED: Final = tuple(
-    os.path.realpath(sysconfig.get_path(name)) for name in ("stdlib", "platstdlib", "purelib", "platlib")
-)
+_INSTALLED: Final = (*PYTHON, *INSTALLED)
 SERVED: Final = frozenset(entry.name for entry in Path(__file__).parent.iterdir() if entry.is_dir())
 _ROOM: Final = __name__.rpartition(".")[0]
 

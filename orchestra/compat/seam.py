@@ -6,16 +6,20 @@ Nothing here imports that stage, which stands above: it connects itself while la
 from __future__ import annotations
 
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, MutableMapping, Sequence
+    from typing import Protocol
 
     from orchestra.compat.exposures import Exposures
     from orchestra.description.entity import Action, Entity
     from orchestra.description.source import Keyed, Written
     from orchestra.description.text import Template
     from orchestra.errors import Problem, Severity
+
+else:  # only type checkers know what it adds, and three of them take 0.3 ms to make
+    Protocol = object
 
 EntityT = TypeVar("EntityT", bound="Entity")
 

@@ -5,7 +5,6 @@ CPython counts columns in bytes up to 3.12 where it reads bytes, and always in w
 
 from __future__ import annotations
 
-import linecache
 from typing import TYPE_CHECKING
 
 from orchestra.compat.place import code_points, shown
@@ -17,6 +16,8 @@ if TYPE_CHECKING:
 
 def span_of_syntax(error: SyntaxError) -> Span:
     """Return the range of the text that is wrong, one character at least."""
+    import linecache  # noqa: PLC0415 - slow, and of no use to launch files in YAML and XML
+
     file = str(error.filename)
     line, column = error.lineno or 1, max(error.offset or 1, 1)
     end_line, end_column = error.end_lineno or line, error.end_offset or 0
@@ -35,6 +36,8 @@ def span_of_syntax(error: SyntaxError) -> Span:
 def _in_code_points(error: SyntaxError, file: str, given: tuple[int, int, int, int]) -> tuple[int, int]:
     """Return first and last column: as of the text where that cannot be parsed, else converted."""
     line, column, end_line, end_column = given
+    import linecache  # noqa: PLC0415 - as above
+
     source = "".join(linecache.getlines(file))
     try:
         compile(source, file, "exec", dont_inherit=True)

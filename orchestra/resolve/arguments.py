@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import linecache
 from typing import TYPE_CHECKING
 
 from orchestra.compat import argv
@@ -79,6 +78,8 @@ def _is_in_code(name: str, description: Description) -> bool:
     """Return whether a launch file in Python has a name as a text: a branch that was not taken may read it."""
     if not description.path.endswith(".py"):
         return False
+    import linecache  # noqa: PLC0415 - slow, and other launch files have no use for it
+
     source = "".join(linecache.getlines(description.path))
     return any(f"{quote}{name}{quote}" in source for quote in ("'", '"'))
 

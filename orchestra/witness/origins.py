@@ -14,15 +14,16 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 OURS: Final = os.path.dirname(os.path.dirname(os.path.abspath(__file__))) + os.sep
+_PATHS: Final = sysconfig.get_paths()
 PYTHON: Final = tuple(
     os.path.join(path, "")
     for name in ("stdlib", "platstdlib")
-    for path in {sysconfig.get_path(name), os.path.realpath(sysconfig.get_path(name))}
+    for path in {_PATHS[name], os.path.realpath(_PATHS[name])}
 )
 INSTALLED: Final = tuple(
     os.path.join(path, "")
     for name in ("purelib", "platlib")
-    for path in {sysconfig.get_path(name), os.path.realpath(sysconfig.get_path(name))}
+    for path in {_PATHS[name], os.path.realpath(_PATHS[name])}
 )
 OF_THE_KERNEL: Final = ("/proc/", "/sys/", "/dev/")
 

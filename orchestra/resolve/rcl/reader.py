@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 from typing import TYPE_CHECKING
 
 import yaml
@@ -97,7 +96,7 @@ class Reader:
         elif is_section(name) or (self.node.count and is_misspelt_section(name)):
             self.open_section(name, event, told=beside)
         else:
-            self.before_key = copy.copy(self.node)
+            self.before_key = replace(self.node)
             self.node.grow(name)
         self.last_key, self.last_key_at, self.expects_key = name, self.at(event), False
 
@@ -118,7 +117,7 @@ class Reader:
         elif name != SECTION_KEY:
             self.surprise(f"rcl reads '{name}' as '{SECTION_KEY}'", at)
         self.found.append(OpenSection(pattern, named, sound=fault is None))
-        self.before_key = copy.copy(self.node)
+        self.before_key = replace(self.node)
         self.node.shrink()
         self.node_depth, self.inside, self.parameter = len(self.keys), True, None
 
