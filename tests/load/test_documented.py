@@ -22,7 +22,7 @@ _SCHEMA = json.loads((_ROOT / "schemas" / "launch.schema.json").read_text("utf-8
 _BLOCKS = re.findall(r"^```yaml\n(.*?)^```$", _PAGE, re.DOTALL | re.MULTILINE)
 _ADDED = _PAGE.partition("## What Orchestra adds")[2].partition("### In Python")[0]
 _OTHERS = """
-- node: {exec: simulation, name: simulation, ready: {message: /clock}}
+- node: {pkg: bringup, exec: simulation, name: simulation, ready: {message: /clock}}
 - executable: {cmd: recorder}
 """
 
