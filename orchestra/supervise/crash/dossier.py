@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import itertools
 import shlex
-from dataclasses import asdict, field
 from typing import TYPE_CHECKING, Any
 
 from orchestra.dataclass import dataclass
+from orchestra.fields import field
 from orchestra.supervise.keeping.marks import PROCESS, RUN
 
 if TYPE_CHECKING:
@@ -100,6 +100,8 @@ class Dossier:
 
 def as_document(dossier: Dossier) -> dict[str, Any]:
     """Return the dossier as JSON data."""
+    from dataclasses import asdict  # noqa: PLC0415 - every run needs this module, few a document
+
     return {"version": VERSION, **asdict(dossier)}
 
 
