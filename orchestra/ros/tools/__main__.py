@@ -24,10 +24,9 @@ def main() -> int:
     from importlib import import_module  # noqa: PLC0415 - after the path is as it should be
 
     from orchestra.cli.boundary import Telling, guarded  # noqa: PLC0415 - as above
+    from orchestra.ros.tools.postponing import postpone  # noqa: PLC0415 - as above
 
-    # The package of which messages need one small function would import a compiler of templates beside it, and goes on
-    # without where that is not to be had (0.15 s of CPU).
-    sys.modules.setdefault("rosidl_generator_py.generate_py_impl", None)  # type: ignore[arg-type]
+    postpone()
     question = json.loads(sys.argv[1])
     signal.signal(signal.SIGTERM, _leave)
     command: str = question["command"]

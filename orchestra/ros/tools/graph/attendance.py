@@ -27,6 +27,7 @@ _QUIET_UNCOUNTED: Final = 0.5
 # After this time, a participant that names no node is taken to have none.
 _NAMELESS: Final = 0.5
 _CALL_AGAIN: Final = 0.4
+_LOOK_AGAIN: Final = 0.03  # a look at 20 nodes takes 2 ms
 _DISCOVERY: Final = "ros_discovery_info"  # each participant of ROS publishes there which nodes it has
 _UNKNOWN: Final = "_NODE_NAME_UNKNOWN_"
 _OF_NODES: Final = ("/parameter_events", "/rosout")
@@ -44,7 +45,10 @@ class Attendance:
         alone = os.environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").upper() == "LOCALHOST"
         self._quiet = _QUIET if self._counted and alone else _QUIET_UNCOUNTED
         self._seen: Any = None
-        self._known: tuple[frozenset[bytes], frozenset[bytes]] = (frozenset(), frozenset())
+        self._own = b""
+        self._found: frozenset[bytes] = frozenset()
+        self._looked = -_LOOK_AGAIN
+        self._nobody_missing = False
         self._since = time.monotonic()
         self._call: RollCall | None = None
         self._called = -_CALL_AGAIN
@@ -64,20 +68,27 @@ class Attendance:
         if not self._counted:
             return True
         now = time.monotonic()
+        if now - self._looked >= _LOOK_AGAIN:
+            self._looked = now
+            self._nobody_missing = self._look(now)
+        return self._nobody_missing
+
+    def _look(self, now: float) -> bool:
+        if not self._own:
+            self._own = self._identity()
+            if not self._own:
+                return False
         ports = ports_here(self._domain)
-        found, named = self._participants(), self._named()
-        if (found, named) != self._known:
-            self._known, self.news = (found, named), now
-        own = self._own()
-        if not own:
-            return False
-        if len({one for one in found if one[:_HOST] == own[:_HOST]}) < len(ports):
-            self._call_missing(own, ports, now)
+        found = self._participants()
+        if found != self._found:
+            self._found, self.news = found, now
+        if len({one for one in found if one[:_HOST] == self._own[:_HOST]}) < len(ports):
+            self._call_missing(ports, now)
             return False
         self.close()
-        nameless = found - named
+        nameless = frozenset(found - self._named())
         if nameless != self._nameless[0]:
-            self._nameless = (frozenset(nameless), now)
+            self._nameless, self.news = (nameless, now), now
         return not nameless or now - self._nameless[1] > _NAMELESS
 
     def close(self) -> None:
@@ -86,13 +97,13 @@ class Attendance:
             self._call.close()
             self._call = None
 
-    def _call_missing(self, own: bytes, ports: dict[int, str], now: float) -> None:
+    def _call_missing(self, ports: dict[int, str], now: float) -> None:
         port = own_port(ports)
         if port is None or now - self._called < _CALL_AGAIN:
             return
         if self._call is not None:
             self._call.close()
-        self._call, self._called = RollCall(own[:_HOST], port), now
+        self._call, self._called = RollCall(self._own[:_HOST], port), now
         self._call.call(one for one in ports if one != port)
 
     def _participants(self) -> frozenset[bytes]:
@@ -103,14 +114,14 @@ class Attendance:
     def _named(self) -> frozenset[bytes]:
         """Return those of which nodes are known."""
         ask: Callable[[str], Any] = self._node.get_publishers_info_by_topic
-        return frozenset(
-            bytes(endpoint.endpoint_gid[:_PREFIX])
-            for topic in _OF_NODES
-            for endpoint in ask(topic)
-            if endpoint.node_name != _UNKNOWN
-        )
+        named: set[bytes] = set()
+        for topic in _OF_NODES:
+            if not self._found <= named:
+                known = (one for one in ask(topic) if one.node_name != _UNKNOWN)
+                named.update(bytes(one.endpoint_gid[:_PREFIX]) for one in known)
+        return frozenset(named)
 
-    def _own(self) -> bytes:
+    def _identity(self) -> bytes:
         """Return our own identity, nothing until it is known."""
         for endpoint in self._node.get_publishers_info_by_topic(_OF_NODES[0]):
             if endpoint.node_name == self._node.get_name():

@@ -17,17 +17,21 @@ _PER_DOMAIN: Final = 250
 _FIRST: Final = 10
 # The columns of /proc/net/udp (proc(5)): local address, inode.
 _LOCAL, _INODE = 1, 9
+_DIGITS: Final = 4
 
 
 def participants_ports(domain: int, table: str) -> dict[int, str]:
     """Return the ports of participants of a domain in the text of /proc/net/udp, with the inode of each socket."""
     first = _BASE + _PER_DOMAIN * domain + _FIRST
+    theirs = {f"{port:04X}": port for port in range(first, first + _PER_DOMAIN - _FIRST)}
     bound: dict[int, str] = {}
     for line in table.splitlines()[1:]:
-        columns = line.split()
-        bound[int(columns[_LOCAL].rpartition(":")[2], 16)] = columns[_INODE]
-    theirs = range(first, first + _PER_DOMAIN - _FIRST, 2)
-    return {port: bound[port] for port in theirs if port in bound and port + 1 in bound}
+        address = line.split(None, _LOCAL + 1)[_LOCAL]
+        if (port := theirs.get(address[-_DIGITS:])) is not None:
+            bound[port] = line.split()[_INODE]
+    return {
+        port: inode for port, inode in sorted(bound.items()) if (port - first) % 2 == 0 and port + 1 in bound
+    }
 
 
 def ports_here(domain: int) -> dict[int, str]:

@@ -1,0 +1,24 @@
+"""Imports that are put off until somebody uses the module: most commands end before (0.1 s of CPU)."""
+
+from __future__ import annotations
+
+import sys
+from importlib.util import LazyLoader, find_spec, module_from_spec
+from typing import Final
+
+# What rclpy and the messages of its own services import, and use for arrays of a fixed length and parameter files.
+_SELDOM: Final = ("numpy", "yaml")
+# The package of which messages need one small function would import a compiler of templates beside it, and goes on
+# without where that is not to be had.
+_NEVER: Final = "rosidl_generator_py.generate_py_impl"
+
+
+def postpone() -> None:
+    """Have these modules imported when they are used. For a process with one thread of Python."""
+    sys.modules.setdefault(_NEVER, None)  # type: ignore[arg-type]  # as the import system has it
+    for name in _SELDOM:
+        spec = None if name in sys.modules else find_spec(name)
+        if spec is not None and spec.loader is not None:
+            loader = spec.loader = LazyLoader(spec.loader)
+            module = sys.modules[name] = module_from_spec(spec)
+            loader.exec_module(module)
