@@ -71,7 +71,7 @@ def orchestra_quickly(orchestra_beside: Command, orchestra_here: Command) -> Com
     """Run `orchestra WORDS` in this process where it starts nothing, else beside it."""
 
     def run(*words: str, **environment: str) -> CompletedProcess[str]:
-        chosen = orchestra_beside if words[0] in ("launch", "run") else orchestra_here
+        chosen = orchestra_beside if words[:1] in (("launch",), ("run",)) else orchestra_here
         return chosen(*words, **environment)
 
     return run

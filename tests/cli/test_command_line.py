@@ -20,6 +20,13 @@ if TYPE_CHECKING:
 
 Command = Callable[..., subprocess.CompletedProcess[str]]
 
+
+@pytest.fixture
+def orchestra(orchestra_quickly: Command) -> Command:
+    """Run the command; what starts nothing, in this process."""
+    return orchestra_quickly
+
+
 _HEAVY = {
     "pydantic",
     "pydantic_core",
@@ -42,8 +49,8 @@ json.dump(sorted(sys.modules), sys.stderr)
 """
 
 
-def test_help_lists_every_command(orchestra: Command) -> None:
-    found = orchestra("--help")
+def test_help_lists_every_command(orchestra_beside: Command) -> None:
+    found = orchestra_beside("--help")
     assert (found.returncode, found.stderr) == (0, "")
     for name, command in COMMANDS.items():
         assert f"{name} " in found.stdout
@@ -57,8 +64,8 @@ def test_every_command_explains_itself(orchestra: Command, name: str) -> None:
     assert f"usage: orchestra {name}" in found.stdout
 
 
-def test_version(orchestra: Command) -> None:
-    assert orchestra("--version").stdout == f"orchestra {version('orchestra')}\n"
+def test_version(orchestra_beside: Command) -> None:
+    assert orchestra_beside("--version").stdout == f"orchestra {version('orchestra')}\n"
 
 
 @pytest.mark.parametrize(

@@ -13,6 +13,13 @@ if TYPE_CHECKING:
 
     from .conftest import Command
 
+
+@pytest.fixture
+def orchestra(orchestra_quickly: Command) -> Command:
+    """Run the command; what starts nothing, in this process."""
+    return orchestra_quickly
+
+
 _YAML = "launch:\n  - arg: {name: a, default: x}\n  - executable: {cmd: 'echo [$(var a)]', name: tell}\n"
 _XML = '<launch><arg name="a" default="x"/><executable cmd="echo [$(var a)]" name="tell"/></launch>\n'
 _PYTHON = """\
