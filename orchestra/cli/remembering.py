@@ -22,7 +22,7 @@ if TYPE_CHECKING:
 
 # What look-ups import when they are first used. While somebody watches, an import reads the folders of the
 # import path, and a plan would depend on everything that comes and goes there.
-_WANTED = ("array", "encodings.utf_8_sig", "socket", "unicodedata")
+_WANTED = ("encodings.utf_8_sig", "unicodedata")
 _MOST = 32 * 1024 * 1024  # bytes that all plans may take together
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+import _socket  # without its enumerations, which take longer to import than all of this
 import re
-import socket
 from typing import Final
 
 from orchestra.patterns import pattern
@@ -72,7 +72,7 @@ def _no_address(text: str) -> UnfitError:
 
 def _is_ipv6(text: str) -> bool:
     try:
-        socket.inet_pton(socket.AF_INET6, text.partition("%")[0])
+        _socket.inet_pton(_socket.AF_INET6, text.partition("%")[0])
     except (OSError, UnicodeError):
         return False
     return True
