@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 import json
+import sys
 from typing import TYPE_CHECKING, Final
 
 from orchestra.plan.codec import encode
 
 try:
     # What `hashlib` has, without the library of ciphers that it loads first.
-    from _sha256 import sha256  # type: ignore[import-not-found]
+    if sys.version_info >= (3, 12):
+        from _sha2 import sha256
+    else:
+        from _sha256 import sha256  # type: ignore[import-not-found]
 except ImportError:  # not every interpreter has it by this name
     from hashlib import sha256
 
