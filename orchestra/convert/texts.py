@@ -21,8 +21,17 @@ _FOLDERS = frozenset({"dirname", "find-pkg-prefix", "find-pkg-share"})
 # What comes to nothing, and is written without quotes.
 _NOTHING = (("if", ("false",), ("x",), ()),)
 _PIECE = re.compile(r"\\.|\$\(|.", re.DOTALL)
+_ALIASES = {"log_dir": "launch_log_dir"}
 _OPTIONAL_ARGUMENTS = {"if": 3}
 _DEFAULTS = {"command": "fail", "eval": "math"}
+
+
+class _Alias(str):
+    """The name of a substitution, which has another one that its author has written."""
+
+    __slots__ = ("written",)
+
+    written: str
 
 
 def written(template: Template) -> str:
@@ -79,7 +88,16 @@ def _call(call: Call) -> Iterable[Any]:
         arguments[1] = (re.sub(r"\s*,\s*", ",", str(arguments[1][0]).strip()),)
     while len(arguments) < _OPTIONAL_ARGUMENTS.get(call.name, 0):
         arguments.append(())
-    yield ("launch_log_dir" if call.name == "log_dir" else call.name, *arguments)
+    yield (_named(call.name), *arguments)
+
+
+def _named(name: str) -> str:
+    """Return what is equal for names of one substitution, and knows which of them was written."""
+    if name not in _ALIASES:
+        return name
+    alias = _Alias(_ALIASES[name])
+    alias.written = name
+    return alias
 
 
 def _is_plain_path(arguments: list[tuple[Any, ...]]) -> bool:
@@ -96,6 +114,7 @@ def _written(part: Any) -> str:  # noqa: ANN401 - a part of a description, whate
     if isinstance(part, str):
         return escaped(part)
     name, *arguments = part
+    name = name.written if isinstance(name, _Alias) else name
     while len(arguments) > SIGNATURES[name].minimum and name in _OPTIONAL_ARGUMENTS and not arguments[-1]:
         arguments.pop()
     texts = ["".join(map(_written, argument)) for argument in arguments]

@@ -9,8 +9,12 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from orchestra.convert.converting import convert
+from orchestra.convert.texts import normal, written
+from orchestra.description.text import Template
 from orchestra.errors import Problems
 from orchestra.load.files import load
+from orchestra.load.grammar import parse_template
+from orchestra.location import point
 from tests.convert.turning import round_trip, same_everywhere
 from tests.load import test_grammar_tables as grammar
 from tests.load import test_language_tables as language_tables
@@ -143,3 +147,13 @@ def test_what_upstream_was_recorded_to_accept_says_the_same_everywhere(kind: str
         load(str(path), problems)
         if not problems.errors and "value: []" not in text:
             same_everywhere(path, environment)
+
+
+@pytest.mark.parametrize("name", ["log_dir", "launch_log_dir"])
+def test_a_substitution_keeps_the_name_that_was_written(name: str) -> None:
+    problems = Problems()
+    parsed = parse_template(f"echo $({name})/x", lambda *_: point("a.launch.yaml"), problems)
+    assert (
+        written(Template(parsed.parts, "", parsed.span)) == f"echo $({name})/x"
+    )  # put together, not as it stood
+    assert normal(parsed) == ("echo ", ("launch_log_dir",), "/x")
