@@ -56,9 +56,13 @@ class FaultyCall:
         self.told: set[tuple[Step, ...]] = set()
         self.found: list[Problem] = []
         self.is_lost = False
+        self.is_shortened = False
 
     def explain(self, error: Exception) -> bool:
         """Find what an error means and leave that out; return whether it is known."""
+        if self.is_shortened:  # what else is wrong may follow from what was left out
+            self.is_lost = True
+            return True
         if isinstance(error, ReportedError):
             self.found += error.problems
             self.is_lost = True
@@ -78,8 +82,16 @@ class FaultyCall:
         message = f"{name} takes {index or 'no'} argument{'s' * (index != 1)} without a name"
         note = f"it is written {name}({shown(self.parameters)})"
         self._tell(Code.WRONG_TYPE, message, self._at((f"*{index}",)), notes=(note,))
-        self.is_lost = True
+        self.surplus, self.is_shortened = None, True
+        self.is_lost = not _is_entity(self.kind) or any(_is_entity(type(value)) for value in self.given)
+        self._take_by_order(index)
         return True
+
+    def _take_by_order(self, index: int) -> None:
+        """Give a word without a name that is one too many to the first argument that has to be named."""
+        left = [name for name in self.parameters if name not in self.named]
+        if left:
+            self.named[left[0]] = self.given[index]
 
     def _unknown(self, names: list[str]) -> bool:
         for name in names:
@@ -139,6 +151,10 @@ class FaultyCall:
     ) -> None:
         if (code, span) not in [(problem.code, problem.span) for problem in self.found]:
             self.found.append(Problem(code, Severity.ERROR, message, span, (), suggestion, notes))
+
+
+def _is_entity(kind: type[Any]) -> bool:
+    return callable(getattr(kind, "visit", None))
 
 
 def _owner(made: type[Any], constructor: Callable[..., None]) -> type[Any]:

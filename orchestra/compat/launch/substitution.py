@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import sys
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.described import said
-from orchestra.compat.place import here
-from orchestra.compat.refusing import Refusing
+from orchestra.compat.place import here, is_own
+from orchestra.compat.refusing import Refusing, collector
 from orchestra.description.text import Call, Opaque, Template, Words
 from orchestra.description.written import called, escaped
+from orchestra.errors import Code
+from orchestra.location import Location
 
 if TYPE_CHECKING:
     from orchestra.compat.launch.launch_context import LaunchContext
@@ -26,6 +29,14 @@ class Substitution(Refusing):
     def __str__(self) -> str:
         """Return the class: what users make texts of, as in an f-string, shows that there is no text yet."""
         return f"<{type(self).__name__}>"
+
+    def __eq__(self, other: object) -> bool:
+        """Return whether this is the same object, as upstream; a text is never equal, which is told."""
+        if isinstance(other, str) and other and not is_own(sys._getframe(1).f_code.co_filename):
+            _tell_unequal(self, other)
+        return self is other
+
+    __hash__ = object.__hash__
 
     def describe(self) -> str:
         """Return what the substitution is, for people."""
@@ -50,6 +61,21 @@ class Substitution(Refusing):
     def __rtruediv__(self, other: Any) -> Substitution:
         """Join two parts of a path (newer ROS releases)."""
         return _Joined(other, self)
+
+
+def _tell_unequal(compared: Substitution, text: str) -> None:
+    """Warn of a comparison with a text in the code of a launch file, where there is no text yet."""
+    collecting = collector()
+    if collecting is not None:
+        problems, chain = collecting
+        name = type(compared).__name__
+        told = f"{name} is no text before the launch file is visited: it is never equal to {text!r}"
+        notes = (
+            "a condition compares when it is visited: IfCondition(EqualsSubstitution(a, b))",
+            f"a function that OpaqueFunction calls has the text: {name}(...).perform(context)",
+        )
+        at = Location(here().span, chain)
+        problems.warning(Code.IMPOSSIBLE_CONDITION, told, at, notes=notes)
 
 
 class _Joined(Substitution):
