@@ -73,6 +73,26 @@ try:
 except SystemExit as end:
     sys.stderr.write(json.dumps([end.code, sorted(sys.modules)]))
 """
+_LAUNCH = """
+import sys
+from pathlib import Path
+import orchestra.__main__ as start
+
+class Telling:
+    '''Tells what the resolver has imported before it hands the plan over.'''
+    def __init__(self, stream):
+        self.stream = stream
+    def write(self, plan):
+        Path("modules").write_text(" ".join(sys.modules))
+        return self.stream.write(plan)
+    def __getattr__(self, name):
+        return getattr(self.stream, name)
+
+resolve = start._resolve
+start._resolve = lambda words, stream: resolve(words, Telling(stream))
+sys.argv[1:] = ["launch", "one.launch.yaml"]
+sys.exit(start.main())
+"""
 _LATER = """
 from orchestra.description.core import PydanticCustomError, ValidationError
 from orchestra.description.actions.let import Let
@@ -123,6 +143,27 @@ def test_a_plan_is_made_without_pydantic(folder: Path, name: str) -> None:
     assert (status, "first" in done.stdout) == (0, True), done.stderr
     assert "pydantic_core._pydantic_core" in modules
     assert not {"pydantic", "pydantic_core", "typing_extensions", "asyncio"} & set(modules)
+
+
+def test_a_first_launch_resolves_without_pydantic(tmp_path: Path) -> None:
+    (tmp_path / "one.launch.yaml").write_text("launch:\n  - executable: {cmd: 'true', name: first}\n")
+    subprocess.run(
+        [sys.executable, "-c", _LAUNCH],
+        cwd=tmp_path,
+        env={
+            **os.environ,
+            "ORCHESTRA_HOME": str(tmp_path / "home"),
+            "ORCHESTRA_CACHE": str(tmp_path / "cache"),
+            "XDG_RUNTIME_DIR": str(tmp_path),
+            "_ROS_WHEELS_BOOTSTRAP_COMPLETE": "1",
+        },
+        capture_output=True,
+        check=True,
+        timeout=100,
+    )
+    modules = set((tmp_path / "modules").read_text().split())
+    assert {"orchestra.description.actions.executable", "pydantic_core._pydantic_core"} <= modules
+    assert not {"pydantic", "pydantic_core", "typing_extensions", "asyncio"} & modules
 
 
 @pytest.mark.parametrize("between", ["", "Let.model_fields", "import pydantic.main"])
