@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 DONE = "_ROS_WHEELS_BOOTSTRAP_COMPLETE"
 LIBRARY_PATH = "LD_LIBRARY_PATH"
-# A link of this name is in a folder that stands for those of the wheels (`supervise.libraries`).
+# A file of this name is in a folder that stands for those of the wheels (`supervise.libraries`).
 STAMP = ".wheels"
 
 
@@ -56,5 +56,5 @@ def as_called(environment: Mapping[str, str]) -> Mapping[str, str]:
     called = {name: value for name, value in environment.items() if name not in {DONE, LIBRARY_PATH}}
     added = frozenset(library_folders(Path(sys.prefix)))
     entries = filter(None, environment.get(LIBRARY_PATH, "").split(":"))
-    before = [entry for entry in entries if entry not in added and not os.path.islink(f"{entry}/{STAMP}")]  # noqa: PTH114
+    before = [entry for entry in entries if entry not in added and not os.path.exists(f"{entry}/{STAMP}")]  # noqa: PTH110
     return {**called, LIBRARY_PATH: ":".join(before)} if before else called

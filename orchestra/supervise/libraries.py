@@ -61,7 +61,7 @@ def _bring_up_to_date(folder: str, bundled: tuple[str, ...]) -> None:
     if state.st_uid != os.geteuid() or state.st_mode & _OTHERS_WRITE:
         raise PermissionError
     stamp = _stamp(bundled)
-    if _target(f"{folder}/{STAMP}") == stamp:
+    if _read(f"{folder}/{STAMP}") == stamp:
         return
     wanted: dict[str, str] = {}
     for one in bundled:
@@ -72,13 +72,15 @@ def _bring_up_to_date(folder: str, bundled: tuple[str, ...]) -> None:
         if not name.startswith(".") and not os.path.exists(f"{folder}/{name}"):  # noqa: PTH110 - as above
             with suppress(FileNotFoundError):
                 os.unlink(f"{folder}/{name}")  # noqa: PTH108 - as above
-    for name, target in (*wanted.items(), (STAMP, stamp)):
+    for name, target in wanted.items():
         _link(folder, name, target)
+    _write(folder, STAMP, stamp)
 
 
-def _stamp(bundled: tuple[str, ...]) -> str:
+def _stamp(bundled: tuple[str, ...]) -> bytes:
     """Return what changes when a library comes or goes: the time of that is its folder's."""
-    return " ".join(f"{os.path.basename(folder)}:{os.stat(folder).st_mtime_ns:x}" for folder in bundled)  # noqa: PTH116, PTH119
+    facts = (f"{os.path.basename(folder)} {os.stat(folder).st_mtime_ns}\n" for folder in bundled)  # noqa: PTH116, PTH119
+    return os.fsencode("".join(facts))
 
 
 def _link(folder: str, name: str, target: str) -> None:
@@ -88,6 +90,22 @@ def _link(folder: str, name: str, target: str) -> None:
     fresh = f"{folder}/.{os.getpid()}.{name}"
     os.symlink(target, fresh)  # noqa: PTH211 - as above
     os.replace(fresh, f"{folder}/{name}")  # noqa: PTH105 - as above
+
+
+def _write(folder: str, name: str, content: bytes) -> None:
+    """Write a file, as `_link` does it."""
+    fresh = f"{folder}/.{os.getpid()}.{name}"
+    with open(fresh, "wb") as file:  # noqa: PTH123 - as above
+        file.write(content)
+    os.replace(fresh, f"{folder}/{name}")  # noqa: PTH105 - as above
+
+
+def _read(path: str) -> bytes | None:
+    try:
+        with open(path, "rb") as file:  # noqa: PTH123 - as above
+            return file.read()
+    except FileNotFoundError:
+        return None
 
 
 def _target(link: str) -> str | None:

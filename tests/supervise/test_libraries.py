@@ -48,6 +48,19 @@ def test_one_folder_stands_for_all_and_the_first_of_a_name_counts(tmp_path: Path
     assert environment(host, of_the_caller)[LIBRARY_PATH] == ":".join((*host.libraries, "/mine"))
 
 
+def test_whoever_goes_through_the_folder_finds_files_alone(tmp_path: Path) -> None:
+    host = gathered(installed(tmp_path / "site", a="x", b="y"), f"{tmp_path}/libraries")
+    assert all(path.is_file() for path in Path(host.libraries[-1]).iterdir())
+
+
+def test_nothing_is_done_where_nothing_has_changed(tmp_path: Path) -> None:
+    host = installed(tmp_path / "site", a="x", b="y")
+    folder = Path(gathered(host, f"{tmp_path}/libraries").libraries[-1])
+    before = folder.stat().st_mtime_ns
+    gathered(host, f"{tmp_path}/libraries")
+    assert folder.stat().st_mtime_ns == before
+
+
 def test_what_comes_and_goes_is_followed(tmp_path: Path) -> None:
     gathered(installed(tmp_path / "site", a="x y", b="z"), f"{tmp_path}/libraries")
     (tmp_path / "site" / "ros_a.libs" / "y").unlink()
