@@ -117,6 +117,29 @@ def test_problems_come_in_the_same_order_however_many_look(orchestra: Command, f
         assert orchestra("check", ".").stdout.replace(", 12 unchanged", "") == alone.stdout
 
 
+def test_what_code_of_one_file_changes_is_not_there_for_the_next(orchestra: Command, folder: Path) -> None:
+    changes = ("chdir('/')", "environ.update(WORLD='flat')", "sys.path.clear()")
+    reading = (
+        "launch: [log: {message: $(file-content beside.txt) $(eval \"__import__('os').environ['WORLD']\")}]\n"
+    )
+    _write(folder, {"beside.txt": "x", "0.launch.yaml": _FINE})
+    for number, change in enumerate(changes):
+        code = f"__import__('os').{change}"
+        changing = f'launch: [log: {{message: $(eval "{code}")}}]\n'
+        _write(folder, {f"{number}a.launch.yaml": changing, f"{number}b.launch.yaml": reading})
+    together = orchestra("check", ".", "--jobs", "1", "--no-cache", "--format", "json")
+    found = json.loads(together.stdout)
+    alone = [
+        problem
+        for path in _looked_at(folder)
+        for problem in json.loads(orchestra("check", path, "--no-cache", "--format", "json").stdout)
+    ]
+    assert found == alone
+    assert [problem["file"] for problem in found] == [
+        f"{number}b.launch.yaml" for number in range(len(changes))
+    ]
+
+
 def test_files_behind_conditions_are_looked_at(orchestra: Command, folder: Path) -> None:
     _write(
         folder,
