@@ -175,8 +175,9 @@ class Problems:
 
     def forget(self, code: Code, first: int) -> None:
         """Forget the problems of a code but for those among the first so many."""
-        found = enumerate(self._found.items())
-        self._found = {key: known for at, (key, known) in found if at < first or known.code is not code}
+        for key in list(self._found)[first:] if len(self._found) > first else ():
+            if self._found[key].code is code:
+                del self._found[key]
 
     def __iter__(self) -> Iterator[Problem]:
         return iter(self._found.values())

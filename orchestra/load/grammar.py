@@ -33,6 +33,8 @@ if TYPE_CHECKING:
 # How deep substitutions may nest: far more than anybody writes, far from the interpreter's recursion limit.
 DEEPEST: Final = 50
 
+_MOST_LINES: Final = 50  # of a file, with a fault each, that are read anew
+
 _NAME = pattern(r"[A-Za-z][A-Za-z0-9_-]*")
 _KEPT_QUOTES = pattern(r"""(['"])([^'" ()$\\]*)\1(?=[ )])""")
 _ESCAPE = pattern(r"\\(.)", re.DOTALL)
@@ -140,7 +142,9 @@ class _Reader:
             begin = self.crowded if self.crowded is not None and self.crowded > start else start
             self.fault(begin, begin + 2, "this substitution is not closed: a ')' is missing")
         line = self.text.find("\n", start)
-        if not depth and line >= 0:  # a file is read as one text: its other lines stay what they are
+        if (
+            not depth and line >= 0 and self.faults < _MOST_LINES
+        ):  # a file is read as one text: its other lines stay what they are
             self.at, self.lost = line, False
 
     def name(self, start: int, within: str) -> tuple[str, Span | None]:
