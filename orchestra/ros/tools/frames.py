@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from bisect import bisect_left
 from collections import deque
-from dataclasses import dataclass, field
 from math import acos, asin, atan2, copysign, pi, sin, sqrt
+
+from orchestra.dataclass import dataclass
+from orchestra.fields import field
 
 Vector = tuple[float, float, float]
 Quaternion = tuple[float, float, float, float]  # x, y, z, w

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections import deque
-from dataclasses import dataclass
 from math import fsum, sqrt
 from typing import Any
+
+from orchestra.dataclass import dataclass
 
 _KILO, _MEGA = 1000, 1_000_000
 

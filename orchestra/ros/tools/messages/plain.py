@@ -6,9 +6,9 @@ What it gives is what `message_to_ordereddict` of rosidl_runtime_py gives, which
 from __future__ import annotations
 
 from array import array
-from dataclasses import dataclass
 from typing import Any
 
+from orchestra.dataclass import dataclass
 from orchestra.ros.tools.messages.fields import Kind, fields_of, is_message, is_nested, name_of
 
 ELLIPSIS = "..."
