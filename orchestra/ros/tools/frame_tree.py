@@ -28,6 +28,8 @@ def tree(options: Namespace) -> int:
         began = time.monotonic()
         moving = graph.node.count_publishers("/tf") > 0
         graph.wait(lambda: False, options.wait if moving else min(_SETTLED, options.wait))
+        if moving:  # somebody who is slow is waited for once more
+            graph.wait(lambda: any(not edge.static for edge in frames.edges.values()), options.spin_time)
         heard = time.monotonic() - began
     if not frames.edges:
         raise RunError("nobody publishes transforms on /tf or /tf_static")

@@ -113,7 +113,7 @@ def test_services_are_listed_found_and_told_of(graph: Graph) -> None:
 
 
 def test_frames_are_drawn(graph: Graph) -> None:
-    lines = graph.told("tf", "tree", "--wait", "1").splitlines()
+    lines = graph.told("tf", "tree", "--wait", "1", "--spin-time", "60").splitlines()
     assert lines[0] == "odom"
     assert lines[1].startswith("└─ base  (")
     assert lines[2] == "   └─ laser  (static)"
