@@ -25,8 +25,10 @@ if TYPE_CHECKING:
 _QUIET: Final = 0.1
 _QUIET_UNCOUNTED: Final = 0.5
 # After this time, a participant that names no node is taken to have none.
-_NAMELESS: Final = 0.5
-_CALL_AGAIN: Final = 0.4
+_NAMELESS: Final = 2.0
+_CALL_AGAIN: Final = 0.4  # and then after twice as long each time
+# A machine that has no time for this process has none for the others: so many looks a second are wanted as well.
+_LOOKS: Final = 16
 _LOOK_AGAIN: Final = 0.03  # a look at 20 nodes takes 2 ms
 _DISCOVERY: Final = "ros_discovery_info"  # each participant of ROS publishes there which nodes it has
 _UNKNOWN: Final = "_NODE_NAME_UNKNOWN_"
@@ -35,10 +37,10 @@ _PREFIX, _HOST = 12, 4
 
 
 class Attendance:
-    """Who is there of those who should be; `news` is when something was last seen that is new."""
+    """Who is there of those who should be."""
 
     def __init__(self, node: Node) -> None:
-        self.news = time.monotonic()
+        self._news(time.monotonic())
         self._node = node
         self._domain = node.context.get_domain_id()
         self._counted = get_rmw_implementation_identifier() == "rmw_fastrtps_cpp"
@@ -52,16 +54,25 @@ class Attendance:
         self._since = time.monotonic()
         self._call: RollCall | None = None
         self._called = -_CALL_AGAIN
+        self._patience = _CALL_AGAIN / 2
         self._nameless: tuple[frozenset[bytes], float] = (frozenset(), 0.0)
 
     def settled(self, seen: Any) -> bool:  # noqa: ANN401 - whatever is looked for
         """Tell whether nobody is missing, and this has been seen long enough."""
         now = time.monotonic()
         if seen != self._seen:
-            self.news = now
+            self._news(now)
         if seen != self._seen or not self.complete():
             self._seen, self._since = seen, now
         return now - self._since >= self._quiet
+
+    def silent(self, seconds: float) -> bool:
+        """Tell whether nothing new has been seen for this time, though it was looked for."""
+        looked = not self._counted or self._looks >= _LOOKS * seconds
+        return looked and time.monotonic() - self._news_at > seconds
+
+    def _news(self, now: float) -> None:
+        self._news_at, self._looks = now, 0
 
     def complete(self) -> bool:
         """Tell whether nobody is missing; those who are, are asked to name themselves."""
@@ -70,6 +81,7 @@ class Attendance:
         now = time.monotonic()
         if now - self._looked >= _LOOK_AGAIN:
             self._looked = now
+            self._looks += 1
             self._nobody_missing = self._look(now)
         return self._nobody_missing
 
@@ -81,14 +93,16 @@ class Attendance:
         ports = ports_here(self._domain)
         found = self._participants()
         if found != self._found:
-            self._found, self.news = found, now
+            self._found = found
+            self._news(now)
         if len({one for one in found if one[:_HOST] == self._own[:_HOST]}) < len(ports):
             self._call_missing(ports, now)
             return False
         self.close()
         nameless = frozenset(found - self._named())
         if nameless != self._nameless[0]:
-            self._nameless, self.news = (nameless, now), now
+            self._nameless = (nameless, now)
+            self._news(now)
         return not nameless or now - self._nameless[1] > _NAMELESS
 
     def close(self) -> None:
@@ -99,8 +113,9 @@ class Attendance:
 
     def _call_missing(self, ports: dict[int, str], now: float) -> None:
         port = own_port(ports)
-        if port is None or now - self._called < _CALL_AGAIN:
+        if port is None or now - self._called < self._patience:
             return
+        self._patience *= 2
         if self._call is not None:
             self._call.close()
         self._call, self._called = RollCall(self._own[:_HOST], port), now

@@ -74,10 +74,8 @@ class Graph:
 
     def _is_late(self) -> bool:
         """Tell whether nothing new has come for too long, or new things do not cease."""
-        now = time.monotonic()
-        return (
-            now - self._attendance.news > self._spin_time or now - self._began > _CHANGING * self._spin_time
-        )
+        changing = time.monotonic() - self._began
+        return self._attendance.silent(self._spin_time) or changing > _CHANGING * self._spin_time
 
     def found(self, look: Callable[[], _SeenT]) -> _SeenT:
         """Return the first that is seen and counts as true, else what is seen once all of the graph is."""
