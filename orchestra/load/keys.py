@@ -6,7 +6,7 @@ depends on it is reported missing.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Final, Protocol
 
 from orchestra.description.actions import ACTIONS
 from orchestra.description.source import Keyed, Listed
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
     from orchestra.location import Span
+
+
+_SHORTEST: Final = 3  # letters that another word may be the beginning of
 
 
 class Report(Protocol):
@@ -59,7 +62,14 @@ def key_meant(word: str, known: Iterable[str]) -> tuple[str | None, bool]:
     """Return the known key that another word probably means, and whether it is only a slip."""
     known = frozenset(known)
     others = {name: next((key for key in keys if key in known), "") for name, keys in KEYS_ELSEWHERE.items()}
-    return meant(word, known, others)
+    near, slip = meant(word, known, others)
+    return (near, slip) if near is not None else (_begun(word, known), False)
+
+
+def _begun(word: str, known: frozenset[str]) -> str | None:
+    """Return the one key that a word is the beginning of: `desc` of `description`."""
+    found = [key for key in known if key.startswith(snake(word))] if len(word) >= _SHORTEST else []
+    return found[0] if len(found) == 1 else None
 
 
 def action_meant(word: str) -> tuple[str | None, bool]:

@@ -151,6 +151,8 @@ def _invalid(at: int, whole: Source, opened: Opened | None) -> Fault:
     if ampersand >= 0 and re.fullmatch(r"&[\w.#-]*", text[ampersand:at]):
         return _fault("'&' begins an entity: write &amp;", whole, ampersand, ampersand + 1, "&amp;")
     here = text[at : at + 1]
+    if here.isspace() and text.endswith("/", 0, at) and begin >= 0 and text[at:].lstrip().startswith("<"):
+        return _fault("this '/' needs a '>' behind it", whole, at - 1, at, "/>")
     if here and (here < " " or here in "\ufffe\uffff"):
         return _fault(f"the character U+{ord(here):04X} cannot stand in XML", whole, at, at + 1)
     if begin >= 0 and (fault := _in_tag(begin, at, whole) or _unfinished(begin, at, whole)):
