@@ -11,7 +11,7 @@ import pytest
 
 from orchestra.supervise.keeping import proc, remnants
 from orchestra.supervise.keeping.marks import RUN, number_of, run_mark, run_of
-from tests.supervise.plans import assert_ended, launched, plan, process, stand_in, wait_for
+from tests.supervise.plans import PATIENCE, assert_ended, launched, plan, process, stand_in, wait_for
 
 if TYPE_CHECKING:
     from tests.supervise.plans import Launched
@@ -33,7 +33,9 @@ def test_the_guard_ends_everything(tmp_path: Path, first: str) -> None:
         for pid in ours if first == "keeper" else reversed(ours):
             os.kill(pid, signal.SIGKILL)
         run.popen.wait()
-        run.assert_gone()
+        run.assert_gone(
+            PATIENCE
+        )  # 6 s are promised where one of ours is killed; the guard looks at all of the machine
         assert_ended(before)
         assert not [path for path in tmp_path.rglob("*") if path.is_socket()]
 
