@@ -135,7 +135,7 @@ class Server:
         if self._socket is None:
             return
         try:
-            content = self._socket.recv(_LARGEST)
+            content = _received(self._socket, _LARGEST)
         except BlockingIOError:
             return
         except OSError:
@@ -172,6 +172,14 @@ class Server:
     def _waits(self) -> bool:
         """Tell whether something that it has sent is still to be read."""
         try:
-            return self._socket is not None and bool(self._socket.recv(1, _socket.MSG_PEEK))
+            return self._socket is not None and bool(_received(self._socket, 1, _socket.MSG_PEEK))
         except OSError:
             return False
+
+
+def _received(connection: _socket.socket, size: int, flags: int = 0) -> bytes:
+    """Read a message. That the other end has not read all of ours the kernel tells once, before its last words."""
+    try:
+        return connection.recv(size, flags)
+    except ConnectionResetError:
+        return connection.recv(size, flags)
