@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from orchestra.dataclass import dataclass, maker
+from orchestra.dataclass import changer, dataclass, maker
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -257,6 +257,16 @@ def test_everything_of_ours_is_made_so() -> None:
         and "dataclass" in [alias.name for alias in node.names]
     ]
     assert set(wrong) <= _OF_THEIR_OWN
+
+
+def test_what_a_changer_changes_is_one_field_of_another_object() -> None:
+    before = Inherited("a", (1,))
+    for item in filter(lambda item: item.init, dataclasses.fields(Inherited)):
+        value = getattr(Inherited("b", (2,)), item.name)
+        made = changer(Inherited, item.name)(before, value)
+        assert type(made) is Inherited
+        assert made == dataclasses.replace(before, **{item.name: value})
+    assert before == Inherited("a", (1,))
 
 
 def test_what_a_maker_makes_is_what_the_class_makes() -> None:

@@ -20,7 +20,9 @@ _WILDCARDS = frozenset({"*", "**"})
 
 def matches(pattern: str, full_name: str) -> bool:
     """Return whether a pattern, with or without its first slash, matches a full node name."""
-    if "*" not in pattern:  # as most are: an expression would take longer to compile than all else about a node
+    if (
+        "*" not in pattern
+    ):  # as most are: an expression would take longer to compile than all else about a node
         return full_name == (pattern if pattern.startswith("/") else f"/{pattern}")
     return _expression(pattern).fullmatch(full_name) is not None
 
