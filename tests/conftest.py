@@ -46,6 +46,8 @@ def pytest_configure(config: pytest.Config) -> None:
     # The control sockets of this session's runs, among which no other's are, nor those of the user.
     os.environ["XDG_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="orchestra-tests-")
     os.environ["ORCHESTRA_CACHE"] = f"{os.environ['XDG_RUNTIME_DIR']}/cache"
+    # Hundreds of commands are started: without bytecode each of them would compile all that it imports.
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     config.stash[_HELD] = ExitStack()
     if not hasattr(config, "workerinput"):
         _hold_domains(config.stash[_HELD])
