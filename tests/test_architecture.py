@@ -21,7 +21,18 @@ _LONGEST_FUNCTION = 50
 
 # Each row may import from its own rooms and from the rows above it: the order of docs/design.md.
 _ROWS = (
-    ("fields", "dataclass", "errors", "location", "events", "nearest", "values", "wheels", "compiled", "patterns"),
+    (
+        "fields",
+        "dataclass",
+        "errors",
+        "location",
+        "events",
+        "nearest",
+        "values",
+        "wheels",
+        "compiled",
+        "patterns",
+    ),
     ("settings", "witness"),
     ("description",),
     ("compat",),
