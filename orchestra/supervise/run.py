@@ -119,11 +119,13 @@ def _supervise(
 def _fork_server(run_id: str) -> Launched | None:
     """Start the fork server before anything else, where it is likely to be needed."""
     # Here, because not every run has nodes in Python; what is imported is needed by all that follows.
+    from orchestra.supervise.host import this_host  # noqa: PLC0415
     from orchestra.supervise.process import open_files  # noqa: PLC0415
     from orchestra.supervise.warm.launching import environment_of, launch  # noqa: PLC0415
 
     open_files.keep_to_ourselves()
     try:
-        return launch(environment_of(run_id))
+        # The libraries are the same as those of nodes; the folder that has them is made when there is a plan.
+        return launch(environment_of(run_id, this_host()))
     except OSError:
         return None  # it is tried again when it is needed, and then told

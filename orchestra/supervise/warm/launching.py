@@ -9,11 +9,11 @@ from typing import TYPE_CHECKING, NamedTuple
 
 from orchestra.supervise.environment import node_environment
 from orchestra.supervise.keeping.marks import PROCESS
-from orchestra.supervise.libraries import host_of_run
 from orchestra.supervise.process.spawn import spawn
 from orchestra.supervise.process.spec import Spec
 
 if TYPE_CHECKING:
+    from orchestra.supervise.environment import Host
     from orchestra.supervise.process.child import Child
 
 # By its file: with `-m`, or another option, nodes would have other flags than those that are started cold.
@@ -28,11 +28,9 @@ class Launched(NamedTuple):
     environment: dict[str, str]
 
 
-def environment_of(run_id: str) -> dict[str, str]:
+def environment_of(run_id: str, host: Host) -> dict[str, str]:
     """Return the environment of a server: what is the same for all nodes of a run."""
-    environment = node_environment(
-        os.environ, host_of_run(), {}, log_folder="", colour=False, marks=(run_id, "")
-    )
+    environment = node_environment(os.environ, host, {}, log_folder="", colour=False, marks=(run_id, ""))
     del environment[PROCESS]
     return environment
 

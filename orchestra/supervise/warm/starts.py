@@ -79,9 +79,10 @@ class Starts:
     def _environment(self) -> dict[str, str]:
         """What a server has, and all that it starts."""
         # Here and below: what has to do with a server is imported where there is one.
+        from orchestra.supervise.libraries import host_of_run  # noqa: PLC0415
         from orchestra.supervise.warm.launching import environment_of  # noqa: PLC0415
 
-        return environment_of(self._run_id)
+        return environment_of(self._run_id, host_of_run())
 
     @property
     def pid(self) -> int | None:
