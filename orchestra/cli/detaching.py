@@ -11,6 +11,7 @@ import os
 import select
 import signal
 import sys
+from contextlib import suppress
 
 TYPE_CHECKING = False  # `typing` itself costs more than this module, which the keeper carries
 if TYPE_CHECKING:
@@ -59,25 +60,49 @@ def detached(runs: str, start: Callable[[Callable[[Attend], Attend]], int], *, w
     heard, told = os.pipe()
     for stream in (sys.stdout, sys.stderr):
         stream.flush()
+    mask = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     pid = os.fork()
     if not pid:
         os.close(heard)
-        _begin(start, console, told)
+        _begin(start, console, told, mask)
     os.close(told)
     keeper = os.pidfd_open(pid)
+    interrupts = _handed_on(keeper)
+    signal.pthread_sigmask(signal.SIG_SETMASK, mask)
     try:
-        return _accompany(pid, keeper, heard, console, wait_ready=wait_ready)
-    except KeyboardInterrupt:
-        return _interrupted(pid)
+        status = _accompany(heard, keeper, console, wait_ready=wait_ready)
+        return _status(pid) if status is None or interrupts else status
     finally:
         console.show()
         console.remove()
 
 
-def _begin(start: Callable[[Callable[[Attend], Attend]], int], console: Console, told: int) -> None:
+def _handed_on(keeper: int) -> list[int]:
+    """Hand every Ctrl-C on, as a terminal would; return the list of those that come.
+
+    An exception would be lost where it is raised in a call that the interpreter makes by itself, as imports have them.
+    """
+    seen: list[int] = []
+
+    def hand_on(number: int, _: object) -> None:
+        seen.append(number)
+        with suppress(ProcessLookupError):  # it has ended by itself
+            signal.pidfd_send_signal(keeper, number)
+
+    signal.signal(signal.SIGINT, hand_on)
+    return seen
+
+
+def _begin(
+    start: Callable[[Callable[[Attend], Attend]], int],
+    console: Console,
+    told: int,
+    mask: set[int | signal.Signals],
+) -> None:
     """Become the keeper of the run; this does not return."""
     status = 3
     try:
+        signal.pthread_sigmask(signal.SIG_SETMASK, mask)
         os.setsid()
         signal.signal(signal.SIGHUP, signal.SIG_IGN)
         nothing = os.open(os.devnull, os.O_RDONLY)
@@ -109,29 +134,18 @@ def _announcing(attend: Attend, console: str, told: int) -> Attend:
     return announced
 
 
-def _accompany(pid: int, keeper: int, heard: int, console: Console, *, wait_ready: bool) -> int:
-    """Wait until the run has begun, or is ready, and tell its name; return its status where it ended before."""
+def _accompany(heard: int, keeper: int, console: Console, *, wait_ready: bool) -> int | None:
+    """Wait until the run has begun, or is ready, and tell its name; return None where it ended before."""
     poll = select.poll()
     poll.register(heard, select.POLLIN)
     poll.register(keeper, select.POLLIN)
     poll.poll()
     directory = os.read(heard, 65536) if _readable(heard) else b""
     if not directory:
-        return _status(pid)
+        return None
     from orchestra.cli.readiness import begun  # noqa: PLC0415 - only the command needs it, and only now
 
-    status = begun(os.fsdecode(directory), console.show, wait_ready=wait_ready)
-    return _status(pid) if status is None else status
-
-
-def _interrupted(pid: int) -> int:
-    """Hand every Ctrl-C on, as a terminal would, and return the status of what ends by that."""
-    while True:
-        os.kill(pid, signal.SIGINT)
-        try:
-            return _status(pid)
-        except KeyboardInterrupt:
-            continue
+    return begun(os.fsdecode(directory), console.show, wait_ready=wait_ready)
 
 
 def _readable(descriptor: int) -> bool:

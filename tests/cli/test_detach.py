@@ -8,6 +8,7 @@ import pty
 import signal
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, TypeAlias
 
@@ -60,7 +61,8 @@ def files(folder: Path, home: Path) -> Iterator[None]:
     yield
     for run in registry.living(home / "runs"):
         for pid in (*proc.descendants(run.identity.keeper), run.identity.keeper):
-            os.kill(pid, signal.SIGKILL)
+            with suppress(ProcessLookupError):  # they end each other
+                os.kill(pid, signal.SIGKILL)
 
 
 def _only(home: Path) -> Run:

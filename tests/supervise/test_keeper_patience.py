@@ -22,10 +22,11 @@ STUBBORN = ("ignore=INT,TERM", "say=up", "linger")
 def test_what_a_child_asks_for_its_parent_sees() -> None:
     patience = Patience()
     assert patience.remaining() < 0
-    if os.fork() == 0:
+    child = os.fork()
+    if child == 0:
         patience.grant(100.0)
         os._exit(0)
-    os.wait()
+    os.waitpid(child, 0)
     assert 100.0 < patience.remaining() < 110.0
 
 
