@@ -1,4 +1,4 @@
-"""A plan in the DOT language of Graphviz (graphviz.org/doc/info/lang.html)."""
+"""A graph, as that of a plan, in the DOT language of Graphviz (graphviz.org/doc/info/lang.html)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from orchestra.plan.model import Plan
-    from orchestra.plan.render.graph import Edge, Group, Node, Shape
+    from orchestra.plan.render.drawing import Edge, Graph, Group, Node, Shape
 
 # In labels `&amp;` is an entity, as in HTML, and a backslash begins an escape.
 _ESCAPES = {"&": "&amp;", "\\": "\\\\", '"': '\\"'}
@@ -22,15 +22,20 @@ _SHAPES: Final[dict[Shape, str]] = {
     "container": "box3d",
     "component": "component",
     "trigger": "hexagon",
+    "topic": "box",
 }
 
 
 def render(plan: Plan, setting: Setting = Setting(), /) -> str:  # noqa: B008 - it is frozen
-    """Return the text of the graph."""
+    """Return the text of the graph of a plan."""
     del setting
-    drawn = graph(plan)
+    return text(graph(plan), "plan")
+
+
+def text(drawn: Graph, name: str) -> str:
+    """Return the text of a graph."""
     lines = [
-        "digraph plan {",
+        f"digraph {name} {{",
         f"  label={quoted((drawn.title,))}; labelloc=t; rankdir=LR; compound=true;",
         '  node [fontname="sans-serif"]; edge [fontname="sans-serif"];',
         *(f"  {_node(node)}" for node in drawn.outside),

@@ -1,14 +1,12 @@
-"""A plan as a graph: what the formats share that draw it.
+"""A plan as a graph.
 
 Namespaces are groups, processes, components and triggers are nodes, and what waits for what is an edge.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Literal, TypeAlias
+from typing import TYPE_CHECKING
 
-from orchestra.dataclass import dataclass
-from orchestra.fields import field
 from orchestra.plan.reactions import (
     ChangeStateAction,
     LoadAction,
@@ -17,6 +15,7 @@ from orchestra.plan.reactions import (
     StartAction,
     StopAction,
 )
+from orchestra.plan.render.drawing import Edge, Graph, Group, Node, at
 from orchestra.plan.render.triggers import action_line, event_line
 
 if TYPE_CHECKING:
@@ -24,46 +23,7 @@ if TYPE_CHECKING:
 
     from orchestra.plan.model import Component, Plan, Process
     from orchestra.plan.reactions import Trigger, TriggeredAction
-
-Shape: TypeAlias = Literal["process", "node", "container", "component", "trigger"]
-
-
-@dataclass(frozen=True, slots=True)
-class Node:
-    """A node of the graph; `key` is unique and made of letters and digits, `lines` are its text."""
-
-    key: str
-    shape: Shape
-    lines: tuple[str, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class Edge:
-    """An arrow between two keys; `dashed` where it says what a trigger does or what a container holds."""
-
-    source: str
-    target: str
-    label: str
-    dashed: bool = False
-
-
-@dataclass(slots=True)
-class Group:
-    """A namespace: its nodes, and the namespaces below it by the last part of their names."""
-
-    title: str
-    nodes: list[Node] = field(default_factory=list)
-    below: dict[str, Group] = field(default_factory=dict)
-
-
-@dataclass(frozen=True, slots=True)
-class Graph:
-    """All of it: the nodes outside all namespaces, the namespaces, the edges."""
-
-    title: str
-    outside: tuple[Node, ...]
-    root: Group
-    edges: tuple[Edge, ...]
+    from orchestra.plan.render.drawing import Shape
 
 
 def graph(plan: Plan) -> Graph:
@@ -76,7 +36,7 @@ def graph(plan: Plan) -> Graph:
         if record.namespace is None:
             outside.append(node)
         else:
-            _at(root, record.namespace).nodes.append(node)
+            at(root, record.namespace).nodes.append(node)
     triggers = [_trigger(number, trigger) for number, trigger in enumerate(plan.triggers, 1)]
     edges = [*_waits(plan, keys), *_held(plan, keys), *_reactions(plan, keys)]
     return Graph(plan.file, (*outside, *triggers), root, tuple(edges))
@@ -90,13 +50,6 @@ def _nodes(plan: Plan, keys: dict[str, str]) -> Iterator[tuple[Process | Compone
     for component in plan.components:
         lines = (component.id, f"{component.package}/{component.plugin}")
         yield component, Node(keys[component.id], "component", lines)
-
-
-def _at(root: Group, namespace: str) -> Group:
-    here = root
-    for token in filter(None, namespace.split("/")):
-        here = here.below.setdefault(token, Group(f"{here.title.rstrip('/')}/{token}"))
-    return here
 
 
 def _trigger(number: int, trigger: Trigger) -> Node:

@@ -1,4 +1,4 @@
-"""A plan as a Mermaid flowchart (mermaid.js.org), which many web pages and editors draw."""
+"""A graph, as that of a plan, as a Mermaid flowchart (mermaid.js.org), which many web pages and editors draw."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from orchestra.plan.model import Plan
-    from orchestra.plan.render.graph import Edge, Group, Node, Shape
+    from orchestra.plan.render.drawing import Edge, Graph, Group, Node, Shape
 
 # Everything else of ASCII is written as a number: quotes, brackets, `#`, `%%` and colons have meanings of their own,
 # some of them even between quotes.
@@ -23,13 +23,18 @@ _BOXES: Final[dict[Shape, tuple[str, str]]] = {
     "container": ("[[", "]]"),
     "component": ("([", "])"),
     "trigger": ("{{", "}}"),
+    "topic": ("[", "]"),
 }
 
 
 def render(plan: Plan, setting: Setting = Setting(), /) -> str:  # noqa: B008 - it is frozen
-    """Return the text of the flowchart."""
+    """Return the text of the flowchart of a plan."""
     del setting
-    drawn = graph(plan)
+    return text(graph(plan))
+
+
+def text(drawn: Graph) -> str:
+    """Return the text of the flowchart of a graph."""
     lines = ["flowchart LR", *(_node(node) for node in drawn.outside)]
     lines += _members(drawn.root)
     lines += [_edge(edge) for edge in drawn.edges]

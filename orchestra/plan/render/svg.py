@@ -1,4 +1,4 @@
-"""A plan as an SVG image, which Graphviz draws."""
+"""A graph, as that of a plan, as an SVG image, which Graphviz draws."""
 
 from __future__ import annotations
 
@@ -18,13 +18,20 @@ _PATIENCE = 60.0
 
 
 def render(plan: Plan, setting: Setting = Setting(), /) -> str:  # noqa: B008 - it is frozen
-    """Return the image. Raises `UsageError` where Graphviz is not installed, `RunError` where it fails."""
+    """Return the image of a plan. Raises as `image` does."""
+    return image(dot.render(plan, setting))
+
+
+def image(source: str) -> str:
+    """Return what Graphviz draws of a text in DOT.
+
+    Raises `UsageError` where Graphviz is not installed, `RunError` where it fails.
+    """
     program = shutil.which("dot")
     if program is None:
         raise UsageError(
             "the program `dot` of Graphviz draws this, and it is not installed; --format dot needs none"
         )
-    source = dot.render(plan, setting)
     try:
         done = subprocess.run(  # noqa: S603 - the program that was found
             [program, "-Tsvg"], input=source.encode(), capture_output=True, timeout=_PATIENCE, check=False
