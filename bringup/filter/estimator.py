@@ -1,6 +1,8 @@
 """The state estimate: how single measurements are taken in and how time passes between them."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TypeAlias
 
 import numpy as np
 
@@ -9,6 +11,9 @@ from bringup.filter.control import controlled
 from bringup.filter.measurement import Measurement
 from bringup.filter.settings import NANOSECONDS, Control, Estimation
 from bringup.filter.state import POSE, TWIST, Array, Indices
+
+# Hears of a measurement before it corrects the estimate: the measurement, and state and covariance predicted for it.
+Observer: TypeAlias = Callable[[Measurement, Array, Array], None]
 
 _NO_COMMAND = (0.0,) * 6
 _PLACED_VARIANCE = 1e-6
@@ -34,6 +39,7 @@ class Estimator:
     def __init__(self, estimation: Estimation, control: Control | None = None) -> None:
         self._estimation = estimation
         self._control = control
+        self.observer: Observer | None = None
         self.reset()
 
     def reset(self) -> None:
@@ -71,6 +77,8 @@ class Estimator:
             self.predict_to(measurement.stamp)
         if len(indices) == 0:
             return True
+        if self.observer is not None:
+            self.observer(measurement, self.state, self.covariance)
         corrected = kalman.correct(self.state, self.covariance, indices, values, noise, measurement.threshold)
         if corrected is None:
             return False

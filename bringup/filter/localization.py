@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bringup.filter import readings
-from bringup.filter.estimator import Estimator
+from bringup.filter.estimator import Estimator, Observer
 from bringup.filter.frames import FrameResolver
 from bringup.filter.fusion import Fusion
 from bringup.filter.intake import ClockJumpError, Intake
@@ -57,6 +57,10 @@ class Localization:
             self.reset()
             self.notices.warn("time_jump", f"the stamps of {sensor} jumped back: the filter starts afresh")
             self._intake.receive(sensor, message, now)
+
+    def observe(self, observer: Observer) -> None:
+        """Tell `observer` of each measurement that is about to be fused, with what was predicted for it."""
+        self._estimator.observer = observer
 
     def command(self, velocities: tuple[float, ...], stamp: int) -> None:
         """Note the velocities (vx vy vz vroll vpitch vyaw) that the robot is told to drive."""
