@@ -52,6 +52,8 @@ COMMANDS: Final[dict[str, Command]] = {
     "interface": Command("orchestra.cli.ros.interface", "show types of messages, services and actions"),
     "pkg": Command("orchestra.cli.ros.pkg", "show the packages that are installed"),
     "tf": Command("orchestra.cli.ros.tf", "show the transforms between frames"),
+    "graph": Command("orchestra.cli.ros.graph", "draw which nodes talk on which topics"),
+    "doctor": Command("orchestra.cli.ros.doctor", "say what is wrong in the running graph"),
     "completion": Command(
         "orchestra.cli.completion", "print what makes a shell complete these command lines"
     ),

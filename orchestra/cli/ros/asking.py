@@ -22,8 +22,13 @@ _PROGRAM: Final = str(Path(__file__).parents[2] / "ros" / "tools" / "__main__.py
 
 
 def answered(command: str, verb: Verb, options: Namespace) -> NoReturn:
-    """Answer with the tool of a verb. This process goes on as that one, with its streams and its number."""
-    question = {"command": f"{command} {options.verb}", "tool": verb.tool, "options": vars(options)}
+    """Answer with the tool of a verb."""
+    become(f"{command} {options.verb}", verb.tool, options)
+
+
+def become(command: str, tool: str, options: Namespace) -> NoReturn:
+    """Go on as the process of a tool, `module:function`, with the streams and the number of this one."""
+    question = {"command": command, "tool": tool, "options": vars(options)}
     sys.stdout.flush()
     # The wheels would start an interpreter without this environment a second time.
     environment = common_environment(

@@ -23,10 +23,10 @@ if TYPE_CHECKING:
 
 _DEPTH: Final = 1000
 # Everybody is heard: who publishes reliably, and who does not.
-_MOVING: Final = QoSProfile(
+MOVING: Final = QoSProfile(
     history=HistoryPolicy.KEEP_LAST, depth=_DEPTH, reliability=ReliabilityPolicy.BEST_EFFORT
 )
-_STATIC: Final = QoSProfile(
+STATIC: Final = QoSProfile(
     history=HistoryPolicy.KEEP_LAST, depth=_DEPTH, durability=DurabilityPolicy.TRANSIENT_LOCAL
 )
 _TELL_AGAIN: Final = 1.0
@@ -48,8 +48,8 @@ def listen(graph: Graph, frames: Frames) -> None:
                 static=static,
             )
 
-    subscribe(graph.node, kind, "/tf", _MOVING, lambda message, _: hear(message, static=False))
-    subscribe(graph.node, kind, "/tf_static", _STATIC, lambda message, _: hear(message, static=True))
+    subscribe(graph.node, kind, "/tf", MOVING, lambda message, _: hear(message, static=False))
+    subscribe(graph.node, kind, "/tf_static", STATIC, lambda message, _: hear(message, static=True))
 
 
 def echo(options: Namespace) -> int:

@@ -18,7 +18,8 @@ if TYPE_CHECKING:
 
     from tests.cli.conftest import Command
 
-_COMMANDS = [name for name, command in COMMANDS.items() if command.module.startswith("orchestra.cli.ros.")]
+_ALL = [name for name, command in COMMANDS.items() if command.module.startswith("orchestra.cli.ros.")]
+_COMMANDS = [name for name in _ALL if isinstance(import_module(COMMANDS[name].module).parser(), VerbParser)]
 
 
 def _parser(command: str) -> VerbParser:

@@ -15,6 +15,7 @@ from typing import Final
 _BASE: Final = 7400
 _PER_DOMAIN: Final = 250
 _FIRST: Final = 10
+_LAST: Final = 101  # beyond it are ports that the kernel hands out to anybody
 # The columns of /proc/net/udp (proc(5)): local address, inode.
 _LOCAL, _INODE = 1, 9
 _DIGITS: Final = 4
@@ -40,6 +41,16 @@ def ports_here(domain: int) -> dict[int, str]:
         return participants_ports(domain, Path("/proc/self/net/udp").read_text("ascii"))
     except OSError:
         return {}
+
+
+def domains_here(own: int) -> dict[int, int]:
+    """Return how many participants this machine has in our own domain and each other; none where it does not tell."""
+    try:
+        table = Path("/proc/self/net/udp").read_text("ascii")
+    except OSError:
+        return {}
+    counts = {domain: len(participants_ports(domain, table)) for domain in sorted({own, *range(_LAST + 1)})}
+    return {domain: count for domain, count in counts.items() if count}
 
 
 def own_port(ports: dict[int, str]) -> int | None:
