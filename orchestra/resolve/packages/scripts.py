@@ -1,75 +1,32 @@
 """Console scripts of the installed distributions, by the package that they start something in or are shipped with.
 
-Read from `entry_points.txt` and `RECORD` (packaging.python.org, "Entry points specification" and "Recording
-installed projects") without `importlib.metadata`, which costs more to import than all of this. Where a script lies is
-found out for those that somebody asks for: records are long.
+Where a script lies is read from `RECORD` (packaging.python.org, "Recording installed projects"), and only for those
+that somebody asks for: records are long.
 """
 
 from __future__ import annotations
 
 import os
-import sys
 from pathlib import Path
-from typing import TYPE_CHECKING, Final, NamedTuple
 
-if TYPE_CHECKING:
-    from collections.abc import Iterator
+from orchestra.resolve.packages.entry_points import EntryPoint, declared
 
-_KINDS: Final = (".dist-info", ".egg-info")
-
-
-class Script(NamedTuple):
-    """A script as a distribution declares it; `owners` are the packages by which it is called."""
-
-    name: str
-    owners: tuple[str, str]
-    metadata: str
+Script = EntryPoint
 
 
 def declared_scripts() -> tuple[Script, ...]:
     """Return all scripts that are declared, in the order of the import path."""
-    return tuple(script for place in dict.fromkeys(sys.path) for script in _declared_in(place or "."))
+    return declared("console_scripts")
 
 
-def script_file(package: str, name: str, declared: tuple[Script, ...]) -> Path | None:
+def script_file(package: str, name: str, scripts: tuple[Script, ...]) -> Path | None:
     """Return the file of a script that can be executed: the first by that name of a package."""
-    for script in declared:
+    for script in scripts:
         if script.name == name and package in script.owners:
             path = _script_path(Path(script.metadata), name)
             if os.access(path, os.X_OK):
                 return path
     return None
-
-
-def _declared_in(place: str) -> Iterator[Script]:
-    try:
-        names = sorted(os.listdir(place))  # noqa: PTH208 - pathlib is slow
-    except OSError:
-        return
-    for kind in _KINDS:
-        for name in names:
-            if name.endswith(kind):
-                shipped_with = name.partition("-")[0].removesuffix(".egg").replace(".", "_")
-                metadata = os.path.join(place, name)  # noqa: PTH118 - as above
-                for package, script in _listed(os.path.join(metadata, "entry_points.txt")):  # noqa: PTH118 - as above
-                    yield Script(script, (package, shipped_with), metadata)
-
-
-def _listed(entry_points: str) -> Iterator[tuple[str, str]]:
-    """Yield the pairs of top-level package and script name of one distribution."""
-    try:
-        with open(entry_points, encoding="utf-8") as file:  # noqa: PTH123 - as above
-            lines = file.read().splitlines()
-    except OSError:
-        return
-    section = ""
-    for line in lines:
-        text = line.strip()
-        if text.startswith("["):
-            section = text
-        elif section == "[console_scripts]" and "=" in text and not text.startswith(("#", ";")):
-            script, _, target = text.partition("=")
-            yield target.partition(":")[0].strip().partition(".")[0], script.strip()
 
 
 def _script_path(metadata: Path, script: str) -> Path:

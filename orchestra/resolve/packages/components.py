@@ -1,0 +1,41 @@
+"""Components in Python, by what a launch file calls them; nothing is imported to find one.
+
+A distribution declares its components as entry points of the group `rclpy_components`, the name that the proposed
+package of rclpy has for them (ros2/rclpy#599): `demo::Talker = demo.talker:Talker`. Whatever is not declared is named
+by its module: `demo.talker:Talker`.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Final
+
+from orchestra.resolve.packages.entry_points import declared
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from orchestra.resolve.packages.entry_points import EntryPoint
+
+GROUP: Final = "rclpy_components"
+_BY_MODULE: Final = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
+
+
+def declared_components() -> tuple[EntryPoint, ...]:
+    """Return the components that distributions declare."""
+    return declared(GROUP)
+
+
+def is_named_by_module(plugin: str) -> bool:
+    """Tell whether a component is named as `module:Class`."""
+    return _BY_MODULE.fullmatch(plugin) is not None
+
+
+def target_of(package: str, plugin: str, known: Iterable[EntryPoint]) -> str | None:
+    """Return `module:Class` of a component, None where it is none in Python that is known."""
+    names = (plugin, f"{package}::{plugin}")
+    found = [point for point in known if point.name in names]
+    own = [point for point in found if package in point.owners]
+    if found:
+        return (own or found)[0].target
+    return plugin if is_named_by_module(plugin) else None
