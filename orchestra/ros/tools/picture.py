@@ -9,14 +9,14 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.plan.render import dot, mermaid, svg
 from orchestra.plan.render.drawing import Edge, Graph, Group, Node, at
 from orchestra.ros.tools.graph.joining import joined
-from orchestra.ros.tools.graph.system import COMMON, System, mismatch, system
+from orchestra.ros.tools.graph.system import COMMON, mismatch, system
 from orchestra.ros.tools.telling import json_line
 
 if TYPE_CHECKING:
     from argparse import Namespace
     from collections.abc import Callable, Iterable, Sequence
 
-    from orchestra.ros.tools.graph.system import End
+    from orchestra.ros.tools.graph.system import End, System
 
 _NAME: Final = "ros"
 
@@ -109,15 +109,7 @@ def _of(topic: str, ends: Iterable[End]) -> list[End]:
 
 def _plain(seen: System) -> System:
     """Return it without what is hidden, and without the topics that every node has."""
-    shown = seen.without_hidden()
-    return System(
-        shown.nodes,
-        *(
-            tuple(end for end in ends if end.topic not in COMMON)
-            for ends in (shown.publishers, shown.subscriptions)
-        ),
-        services=shown.services,
-    )
+    return seen.without_hidden().only(lambda _: True, lambda end: end.topic not in COMMON)
 
 
 def _chosen(seen: System, globs: Sequence[str]) -> System:
@@ -129,14 +121,7 @@ def _chosen(seen: System, globs: Sequence[str]) -> System:
         return any(fnmatchcase(node, glob) for glob in globs)
 
     theirs = {end.topic for end in (*seen.publishers, *seen.subscriptions) if fits(end.node)}
-    return System(
-        tuple(filter(fits, seen.nodes)),
-        *(
-            tuple(end for end in ends if end.topic in theirs)
-            for ends in (seen.publishers, seen.subscriptions)
-        ),
-        services=seen.services,
-    )
+    return seen.only(fits, lambda end: end.topic in theirs)
 
 
 _FORMATS: Final[dict[str, Callable[[System], str]]] = {

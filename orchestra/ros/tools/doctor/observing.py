@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import time
+from functools import partial
 from typing import TYPE_CHECKING, Any, Final
 
 from rcl_interfaces.srv import GetParameters
@@ -19,7 +20,6 @@ from orchestra.ros.tools.transforms import MOVING, STATIC
 
 if TYPE_CHECKING:
     from argparse import Namespace
-    from collections.abc import Iterable
 
     from orchestra.ros.tools.graph.joining import Graph
     from orchestra.ros.tools.graph.system import System
@@ -103,9 +103,7 @@ def _sim_time(graph: Graph, seen: System, timeout: float) -> dict[str, bool | No
             if node not in asked and client.ready:
                 asked.add(node)
                 client.ask(
-                    GetParameters.Request(names=[_SIM_TIME]),
-                    lambda response, node=node: answers.__setitem__(node, _taken(response.values)),
-                    repeat=True,
+                    GetParameters.Request(names=[_SIM_TIME]), partial(_answer, answers, node), repeat=True
                 )
             client.look()
         return len(answers) == len(clients)
@@ -118,8 +116,8 @@ def _sim_time(graph: Graph, seen: System, timeout: float) -> dict[str, bool | No
     return {node: answers.get(node) for node in nodes}
 
 
-def _taken(values: Iterable[Any]) -> bool:
-    return any(value.bool_value for value in values)
+def _answer(answers: dict[str, bool | None], node: str, response: Any) -> None:  # noqa: ANN401 - of an untyped package
+    answers[node] = response is not None and any(value.bool_value for value in response.values)
 
 
 def _seconds(stamp: Any) -> float:  # noqa: ANN401 - of an untyped package

@@ -11,7 +11,7 @@ from orchestra.ros.tools.graph.names import Names, hidden, nodes, services, topi
 from orchestra.ros.tools.graph.qos import data_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from orchestra.declared.interfaces.compatibility import Misfit
     from orchestra.ros.tools.graph.joining import Graph
@@ -57,15 +57,17 @@ class System:
     services: Names
 
     def without_hidden(self) -> System:
-        """Return it without hidden nodes and topics."""
-        return System(
-            tuple(node for node in self.nodes if not hidden(node)),
-            *(
-                tuple(end for end in ends if not (hidden(end.node) or hidden(end.topic)))
-                for ends in (self.publishers, self.subscriptions)
-            ),
-            services=[(name, types) for name, types in self.services if not hidden(name)],
+        """Return it without hidden nodes, topics and services."""
+        shown = [(name, types) for name, types in self.services if not hidden(name)]
+        bare = System(self.nodes, self.publishers, self.subscriptions, shown)
+        return bare.only(
+            lambda node: not hidden(node), lambda end: not (hidden(end.node) or hidden(end.topic))
         )
+
+    def only(self, node: Callable[[str], bool], end: Callable[[End], bool]) -> System:
+        """Return the nodes and the ends for which these hold."""
+        publishers, subscriptions = filter(end, self.publishers), filter(end, self.subscriptions)
+        return System(tuple(filter(node, self.nodes)), tuple(publishers), tuple(subscriptions), self.services)
 
     def pairs(self) -> Iterator[tuple[End, End]]:
         """Yield each publisher with each subscription of its topic and type."""
@@ -89,11 +91,11 @@ def system(graph: Graph) -> System:
         for ends, look in zip(found, looks, strict=True):
             ends += [_end(topic, one) for one in look(topic) if one.node_name != ours]
     own = f"/{ours}/"
-    return System(
-        tuple(nodes(graph, every=True)),
-        *(tuple(sorted(ends, key=lambda end: (end.topic, end.node, end.key))) for ends in found),
-        services=[(name, types) for name, types in services(graph) if not name.startswith(own)],
+    publishers, subscriptions = (
+        tuple(sorted(ends, key=lambda end: (end.topic, end.node, end.key))) for ends in found
     )
+    offered = [(name, types) for name, types in services(graph) if not name.startswith(own)]
+    return System(tuple(nodes(graph, every=True)), publishers, subscriptions, offered)
 
 
 def _end(topic: str, endpoint: Any) -> End:  # noqa: ANN401 - of an untyped package

@@ -32,8 +32,8 @@ def check(seen: Observed) -> Iterator[Finding]:
     if circle := _circle(single):
         message = f"the frames {' -> '.join([*circle, circle[0]])} are in a circle"
         yield Finding("frames", message, tuple(circle), {"circle": circle})
-    elif not several:
-        yield from _unconnected(single)
+    else:
+        yield from _unconnected(parents)
     for child in sorted(single):
         yield from _times(seen, [heard for heard in seen.transforms if heard.child == child])
 
@@ -49,29 +49,38 @@ def _circle(parents: dict[str, str]) -> list[str]:
     return []
 
 
-def _unconnected(parents: dict[str, str]) -> Iterator[Finding]:
+def _unconnected(parents: dict[str, set[str]]) -> Iterator[Finding]:
     """Yield trees that nothing connects though frames of both have one prefix.
 
     Robots have trees of their own: their frames differ in prefixes, or but for numbers not at all.
     """
-    trees: dict[str, set[str]] = {}
-    for frame in sorted({*parents, *parents.values()}):
-        root = frame
-        while root in parents:
-            root = parents[root]
-        trees.setdefault(root, set()).add(frame)
-    groups: dict[str, dict[str, set[str]]] = {}
-    for root, frames in trees.items():
-        for prefix in sorted({frame.rpartition("/")[0] for frame in frames}):
-            groups.setdefault(prefix, {})[root] = frames
+    groups: dict[str, dict[tuple[str, ...], set[str]]] = {}
+    for frames in _connected(parents):
+        roots = tuple(sorted(frames - {*parents}))
+        for prefix in {frame.rpartition("/")[0] for frame in frames}:
+            groups.setdefault(prefix, {})[roots] = frames
     told = set()
-    for members in groups.values():
-        kinds = {_without_digits(frames): root for root, frames in members.items()}
-        roots = tuple(sorted(members))
-        if len(kinds) > 1 and roots not in told:
+    for _, members in sorted(groups.items()):
+        roots = tuple(", ".join(found) for found in sorted(members))
+        if len({_without_digits(frames) for frames in members.values()}) > 1 and roots not in told:
             told.add(roots)
-            message = f"nothing connects the frames below {' and those below '.join(roots)}"
+            message = f"nothing connects the frames below {' with those below '.join(roots)}"
             yield Finding("frames", message, roots, {"roots": list(roots)})
+
+
+def _connected(parents: dict[str, set[str]]) -> list[set[str]]:
+    """Return the sets of frames that transforms connect, whichever way."""
+    sets: list[set[str]] = []
+    for child, above in parents.items():
+        joined = {child, *above}
+        apart = []
+        for found in sets:
+            if found & joined:
+                joined |= found
+            else:
+                apart.append(found)
+        sets = [*apart, joined]
+    return sets
 
 
 def _without_digits(frames: set[str]) -> frozenset[str]:

@@ -34,7 +34,7 @@ def check(seen: Observed) -> Iterator[Finding]:
         yield Finding(
             "time",
             f"{_listed(simulated)} {_have(simulated)} use_sim_time, {_listed(real)} {_have(real)} not",
-            tuple(min(simulated, real, key=len)),
+            tuple(simulated if len(simulated) < len(real) else real),
             {"use_sim_time": simulated, "real_time": real},
         )
 
