@@ -41,7 +41,7 @@ def base_identity(process: ResolvedProcess | ResolvedComponent) -> str:
     """Return the name of a process before repeats are told apart."""
     namespace = process.namespace.text if process.namespace is not None else "/"
     if isinstance(process, ResolvedComponent):
-        unnamed = process.plugin.rpartition("::")[2]
+        unnamed = process.plugin.rpartition(":")[2]
     elif process.kind == "process":
         return process.label or process.executable
     else:

@@ -24,7 +24,8 @@ class Found:
     those of each event handler among them, `timed` those of timers that may still be cancelled. `unmet` wait for
     processes that are not there. `choices` are those of arguments, of each declaration. `visited` are the identities of
     the actions with a condition that have been carried out, `doubts` what is wrong with those that were left out.
-    `unpackaged` are programs that are nowhere and stand for nodes without a package.
+    `unpackaged` are programs that are nowhere and stand for nodes without a package. `stand_ins` are containers of ours
+    of which it is still open whether they can be.
     """
 
     processes: list[ResolvedProcess] = field(default_factory=list)
@@ -45,6 +46,7 @@ class Found:
     visited: set[int] = field(default_factory=set)
     doubts: list[tuple[Conditional, Problems]] = field(default_factory=list)
     unpackaged: list[tuple[str, Location]] = field(default_factory=list)
+    stand_ins: list[Any] = field(default_factory=list)
 
     @property
     def size(self) -> int:

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
 from orchestra.location import displayed
+from orchestra.resolve.containers import own_words
 from orchestra.resolve.context import POISON
 from orchestra.resolve.paths import beside, folder_of, near_path
 from orchestra.resolve.refusals import report_missing_executable, report_missing_package
@@ -61,6 +62,9 @@ def packaged_words(
     where it is reported.
     """
     packages = run.context.packages
+    own = own_words(package, executable, written[0], run)
+    if own is not None:
+        return own
     if packages.prefix(package.text) is None:
         report_missing_package(package.text, written[0], run.context, package)
         return ("${prefix:" + package.text + "}/lib/" + f"{package.text}/{executable.text}",)

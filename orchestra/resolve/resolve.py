@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.location import Location
 from orchestra.resolve.arguments import Given, settle
+from orchestra.resolve.containers import settle_containers
 from orchestra.resolve.context import CommandRunner, Context, Packages, Value
 from orchestra.resolve.found import Found
 from orchestra.resolve.given import given_sections
@@ -68,6 +69,7 @@ def _tell_doubts(run: Resolution) -> None:
 
 def outcome(file: str, run: Resolution) -> Resolved:
     """Return what has been found so far; triggers only those since the last time."""
+    settle_containers(run)
     return Resolved(
         file,
         tuple(run.found.arguments.values()),

@@ -2,25 +2,26 @@
 
 A node class of rclpy calls `Node.__init__` with what it decides itself, most with nothing but a name, so what the
 container is told of a component must be added there. Rejected: to require constructors that pass keywords on, which
-hardly any has; and a class of ours in front of `Node` in the order of base classes, which `LifecycleNode` and others pass by.
+hardly any has; and a class of ours in front of `Node` in the order of base classes, which `LifecycleNode` and others
+pass by.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import wraps
 from typing import TYPE_CHECKING, Any
 
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 
 from orchestra.dataclass import dataclass
 from orchestra.fields import field
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
-
-    from rclpy.parameter import Parameter
+    from collections.abc import Iterator
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,110 @@
+"""Containers that Orchestra has itself, for components in Python.
+
+They are called as those of rclcpp_components, whose place they take where that is not installed and whatever is loaded
+into them is in Python. This is known when everything has been visited.
+"""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING, Final
+
+from orchestra.dataclass import dataclass
+from orchestra.description.text import Template
+from orchestra.fields import replace
+from orchestra.resolve.context import Context, Value
+from orchestra.resolve.names import full_name
+from orchestra.resolve.packages.components import declared_components, target_of
+from orchestra.resolve.refusals import report_missing_package
+from orchestra.witness.once import once
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from orchestra.errors import Problem
+    from orchestra.resolve.model import ResolvedComponent, ResolvedProcess
+    from orchestra.resolve.packages.entry_points import EntryPoint
+    from orchestra.resolve.resolution import Resolution
+
+_CPP: Final = "rclcpp_components"
+# Those after the first are ours alone: `rclpy_components` as it is proposed for rclpy, where that is not installed.
+_PACKAGES: Final = (_CPP, "rclpy_components", "orchestra")
+_EXECUTABLES: Final = ("component_container", "component_container_mt", "component_container_isolated")
+# What such a container is called where nobody gives it a name.
+_NAME: Final = "ComponentManager"
+
+
+@dataclass(frozen=True, slots=True)
+class StandIn:
+    """A container of ours in the place of another: the words of both, and what to tell of that one's package."""
+
+    words: tuple[str, ...]
+    others: tuple[str, ...]
+    package: Value
+    written: Template
+    context: Context
+
+
+def own_words(
+    package: Value, executable: Value, written: Template, run: Resolution
+) -> tuple[str, ...] | None:
+    """Return the words that start a container of ours, None where it is none; `written` names the package."""
+    if package.text not in _PACKAGES or executable.text not in _EXECUTABLES:
+        return None
+    if package.text != _PACKAGES[-1] and run.context.packages.prefix(package.text) is not None:
+        return None
+    words = (sys.executable, "-m", "orchestra.ros.container", executable.text)
+    if package.text == _CPP:
+        others = (f"${{prefix:{_CPP}}}/lib/{_CPP}/{executable.text}",)
+        run.found.stand_ins.append(StandIn(words, others, package, written, replace(run.context)))
+    return words
+
+
+def known_components() -> tuple[EntryPoint, ...]:
+    """Return the components that distributions declare."""
+    return once(("components", *sys.path), declared_components)
+
+
+def settle_containers(run: Resolution) -> None:
+    """Put back the containers into which components are loaded that are not in Python."""
+    stand_ins, run.found.stand_ins = run.found.stand_ins, []
+    for stand_in in stand_ins:
+        for index, process in enumerate(run.found.processes):
+            if process.program is stand_in.words:
+                _settle(stand_in, index, run)
+
+
+def _settle(stand_in: StandIn, index: int, run: Resolution) -> None:
+    process = run.found.processes[index]
+    foreign = [one for one in _loaded_into(index, process, run) if not _is_ours(one)]
+    if not foreign:
+        return
+    run.found.processes[index] = replace(process, program=stand_in.others)
+    known = {id(problem) for problem in run.problems}
+    report_missing_package(stand_in.package.text, stand_in.written, stand_in.context, stand_in.package)
+    first, others = foreign[0], len(foreign) - 1
+    more = f" and {others} more are" if others else " is"
+    note = f"Orchestra's own container takes components in Python: '{first.plugin}'{more} not"
+
+    def explained(problem: Problem) -> Problem:
+        return problem if id(problem) in known else replace(problem, notes=(*problem.notes, note))
+
+    run.problems.amend(explained)
+
+
+def _is_ours(component: ResolvedComponent) -> bool:
+    return component.faulty or target_of(component.package, component.plugin, known_components()) is not None
+
+
+def _loaded_into(index: int, process: ResolvedProcess, run: Resolution) -> Iterator[ResolvedComponent]:
+    namespace = "/" if process.namespace is None else process.namespace.text
+    name = full_name(namespace, _NAME if process.name is None else process.name.text)
+    for component in run.found.components:
+        if component.container_process is not None:
+            found = component.container_process == index
+        elif component.container is not None:
+            found = component.container.text == name
+        else:
+            found = process.origin is not None and component.container_origin is process.origin
+        if found:
+            yield component
