@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from nav_msgs.msg import Odometry
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from std_msgs.msg import String
+from std_msgs.msg import String, UInt32
 
 from bringup.fleet.discovery import inside
 from bringup.fleet.frames import Place
@@ -38,6 +38,7 @@ class Ears:
         self._node = node
         self._odometry = visited.subscribe(node, Odometry, inside(robot, settings.odometry), _LAST)
         self._mode = visited.subscribe(node, String, mode_topic(robot, settings), _LATCHED)
+        self._contacts = visited.subscribe(node, UInt32, inside(robot, "contacts"), _LATCHED)
 
     def heard(self, robot: Robot, now: int) -> Robot:
         """Return the robot as it is after what has come since the last time, at a ROS time in ns."""
@@ -45,11 +46,13 @@ class Ears:
             robot = replace(robot, motion=_motion(message, now))
         for message in visited.messages(self._mode):
             robot = replace(robot, mode=message.data)
+        for message in visited.messages(self._contacts):
+            robot = replace(robot, contacts=message.data)
         return robot
 
     def close(self) -> None:
         """End the subscriptions."""
-        for each in (self._odometry, self._mode):
+        for each in (self._odometry, self._mode, self._contacts):
             self._node.destroy_subscription(each)
 
 

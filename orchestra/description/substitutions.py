@@ -68,6 +68,12 @@ SIGNATURES: Final[Mapping[str, Signature]] = MappingProxyType({
     ),
     "string-join": _takes("delimiter", "[text...]", summary="texts with a delimiter between them"),
     "var": _takes("name", "[default]", summary="a launch argument or variable"),
+    "yaml-value": _takes(
+        "path",
+        "key",
+        "[default]",
+        summary="what stands in a YAML file under a key (a.b); of a list the items, of a mapping the keys, with commas",
+    ),
 })  # fmt: skip
 
 # What people write who come from ROS 1, from Python or from a later distribution.

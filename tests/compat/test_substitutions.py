@@ -37,6 +37,7 @@ from orchestra.compat.launch.substitutions import (
     TextSubstitution,
     ThisLaunchFile,
     ThisLaunchFileDir,
+    YamlValue,
 )
 from orchestra.compat.launch.utilities import perform_substitutions
 from orchestra.compat.text import normalized, template
@@ -98,6 +99,8 @@ class Shouted(Substitution):
         (Command(["xacro ", LC("a")]), "Command('xacro ' + LaunchConfig('a'))", "$(command 'xacro $(var a)')"),
         (Command("ls", on_stderr="warn"), "Command('ls')", "$(command ls warn)"),
         (FileContent(Path("a") / "b"), "FileContent('a/b')", "$(file-content a/b)"),
+        (YamlValue("a.yaml", ["b.", LC("c")]), "YamlValue('a.yaml', 'b.' + LaunchConfig('c'))", "$(yaml-value a.yaml b.$(var c))"),
+        (YamlValue(Path("a"), "b", default=""), "YamlValue('a', 'b')", "$(yaml-value a b '')"),
         (ThisLaunchFile(), "ThisLaunchFile()", "$(filename)"),
         (ThisLaunchFileDir(), "ThisLaunchFileDir()", "$(dirname)"),
         (LaunchLogDir(), "LaunchLogDir()", "$(launch_log_dir)"),
@@ -442,4 +445,4 @@ def test_everything_is_exported_and_nothing_heavy_imported() -> None:
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
     assert done.stdout.split() == []
-    assert len(names.__all__) == 26
+    assert len(names.__all__) == 27

@@ -24,6 +24,7 @@ _MODULES: Final = {
         *("IfElseSubstitution", "LaunchConfiguration", "LaunchLogDir", "NotEqualsSubstitution"),
         *("NotSubstitution", "OrSubstitution", "PathJoinSubstitution", "PythonExpression"),
         *("StringJoinSubstitution", "TextSubstitution", "ThisLaunchFile", "ThisLaunchFileDir"),
+        "YamlValue",
     ),
     "launch_ros.actions": (
         *("ComposableNodeContainer", "LifecycleNode", "LoadComposableNodes", "Node", "PushROSNamespace"),

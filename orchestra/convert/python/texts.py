@@ -40,6 +40,7 @@ _KEYWORDS: Final = {
     "env": ("EnvironmentVariable", ("", "default_value")),
     "find-exec": ("FindExecutable", ("name",)),
     "var": ("LaunchConfiguration", ("", "default")),
+    "yaml-value": ("YamlValue", ("", "", "default")),
 }
 _FOLDERS: Final = frozenset({"dirname", "find-pkg-prefix", "find-pkg-share"})
 

@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
+from orchestra.location import displayed
 from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON, Poison
 from orchestra.resolve.refusals import refuse
@@ -22,7 +23,12 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
 
     Upstream looks in the working folder only.
     """
-    written = call.arguments[0]
+    found = content(call.arguments[0], context, evaluate)
+    return found if isinstance(found, Poison) else made(call, context, found[1])
+
+
+def content(written: Template, context: Context, evaluate: Evaluate) -> tuple[str, str] | Poison:
+    """Return the name of the file that an argument names, as it is told, and its text."""
     path = evaluate(written, context)
     if isinstance(path, Poison):
         return POISON
@@ -33,7 +39,7 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
             return _missing(folders[0] / path.text, path.text, written, context)
         if not found.is_file():
             return refuse(written, context, Code.UNREADABLE_FILE, f"{path.text!r} is not a regular file")
-        return made(call, context, found.read_text(encoding="utf-8"))
+        return displayed(str(found)), found.read_text(encoding="utf-8")
     except (OSError, ValueError) as error:
         return refuse(written, context, Code.UNREADABLE_FILE, f"{path.text!r} cannot be read: {error}")
 

@@ -22,6 +22,7 @@ from orchestra.resolve.substitutions import (
     logic,
     param,
     var,
+    yaml_value,
 )
 
 if TYPE_CHECKING:
@@ -55,4 +56,5 @@ SUBSTITUTIONS: Final[Mapping[str, Substitution]] = MappingProxyType({
     "path-join": joining.path,
     "string-join": joining.string,
     "var": var.perform,
+    "yaml-value": yaml_value.perform,
 })  # fmt: skip

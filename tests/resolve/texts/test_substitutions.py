@@ -261,6 +261,66 @@ class TestFileContent:
         assert [problem.code for problem in place.problems] == [Code.UNREADABLE_FILE] * 4
 
 
+class TestYamlValue:
+    @pytest.fixture(autouse=True)
+    def _files(self, place: Place, tmp_path: Path) -> None:
+        text = "robots:\n  robot1: {x: 1.50, mode: }\n  robot2:\nseeds: [1, 'two']\ndeep: [[1]]\nflag: yes\n"
+        (tmp_path / "fleet.yaml").write_text(text)
+        (tmp_path / "list.yaml").write_text("[a, b]")
+        (tmp_path / "empty.yaml").write_text("# nothing\n")
+        (tmp_path / "broken.yaml").write_text("a: 1\nb: [1\n")
+        (tmp_path / "twice.yaml").write_text("a: 1\na: 2\n")
+        place.context = replace(place.context, file=str(tmp_path / "main.yaml"))
+
+    @pytest.mark.parametrize(
+        ("text", "value"),
+        [
+            ("$(yaml-value fleet.yaml robots)", "robot1, robot2"),
+            ("$(yaml-value fleet.yaml robots.robot1.x)", "1.50"),
+            ("$(yaml-value fleet.yaml robots.robot1.mode)", ""),
+            ("$(yaml-value fleet.yaml seeds)", "1, two"),
+            ("$(yaml-value fleet.yaml flag)", "yes"),
+            ("$(yaml-value fleet.yaml robots.robot2.x '$(var a)')", "A"),
+            ("$(yaml-value fleet.yaml robots '$(var missing)')", "robot1, robot2"),
+            ("$(yaml-value list.yaml a none)", "none"),
+            ("$(yaml-value empty.yaml a none)", "none"),
+        ],
+    )
+    def test_gives_what_stands_under_the_key(self, text: str, value: str, place: Place) -> None:
+        assert place.value(text) == value
+        assert not len(place.problems)
+
+    @pytest.mark.parametrize(
+        ("text", "code", "suggestion"),
+        [
+            ("$(yaml-value fleet.yaml robts)", Code.UNDEFINED_VARIABLE, "robots"),
+            ("$(yaml-value fleet.yaml robots.robt1.x)", Code.UNDEFINED_VARIABLE, "robots.robot1.x"),
+            ("$(yaml-value fleet.yaml flag.x)", Code.UNDEFINED_VARIABLE, None),
+            ("$(yaml-value empty.yaml a)", Code.UNDEFINED_VARIABLE, None),
+            ("$(yaml-value fleet.yaml deep)", Code.BAD_VALUE, None),
+        ],
+    )
+    def test_a_key_that_is_not_there_is_told(
+        self, text: str, code: Code, suggestion: str | None, place: Place
+    ) -> None:
+        problem = place.refusal(text)
+        assert (problem.code, problem.suggestion) == (code, suggestion)
+
+    def test_a_file_that_is_not_there_suggests_the_one_beside(self, place: Place) -> None:
+        problem = place.refusal("$(yaml-value flet.yaml robots)")
+        assert (problem.code, problem.suggestion) == (Code.MISSING_FILE, "fleet.yaml")
+
+    @pytest.mark.parametrize(("name", "line"), [("broken.yaml", 2), ("twice.yaml", 2)])
+    def test_what_is_wrong_in_the_file_is_told_there(
+        self, name: str, line: int, place: Place, tmp_path: Path
+    ) -> None:
+        place.value(f"$(yaml-value {name} a)")
+        place.value(f"$(yaml-value {name} b x)")
+        (problem,) = place.problems
+        assert problem.span is not None
+        assert (problem.span.file, problem.span.line) == (str(tmp_path / name), line)
+
+
 class TestCommand:
     def test_one_final_line_break_goes_away(self, place: Place) -> None:
         assert place.value("<$(command \"printf 'a\\\\n\\\\n'\")>") == "<a\n>"

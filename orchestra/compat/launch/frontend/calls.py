@@ -33,6 +33,7 @@ CALLS: Final = MappingProxyType({
     "path-join": "launch:PathJoinSubstitution",
     "string-join": "launch:StringJoinSubstitution",
     "var": "launch:LaunchConfiguration",
+    "yaml-value": "launch:YamlValue",
 })  # fmt: skip
 
 

@@ -33,6 +33,7 @@ _NAMES = {
     "TextSubstitution": "text_substitution",
     "ThisLaunchFile": "this_launch_file",
     "ThisLaunchFileDir": "this_launch_file_dir",
+    "YamlValue": "yaml_value",
 }
 
 __all__ = sorted(_NAMES)  # noqa: PLE0605 - the names are those of the table
