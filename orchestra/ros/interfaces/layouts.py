@@ -138,7 +138,7 @@ class Members(Structure):
 
 
 class ServiceHandle(Structure):
-    """`rosidl_service_type_support_t`; what is there for events, which only service introspection needs, is null."""
+    """`rosidl_service_type_support_t`."""
 
     _fields_ = (
         ("typesupport_identifier", c_char_p),
@@ -149,6 +149,21 @@ class ServiceHandle(Structure):
         ("event_typesupport", c_void_p),
         ("event_message_create_handle_function", c_void_p),
         ("event_message_destroy_handle_function", c_void_p),
+        ("get_type_hash_func", c_void_p),
+        ("get_type_description_func", c_void_p),
+        ("get_type_description_sources_func", c_void_p),
+    )
+
+
+class ActionHandle(Structure):
+    """`rosidl_action_type_support_t`."""
+
+    _fields_ = (
+        ("goal_service_type_support", c_void_p),
+        ("result_service_type_support", c_void_p),
+        ("cancel_service_type_support", c_void_p),
+        ("feedback_message_type_support", c_void_p),
+        ("status_message_type_support", c_void_p),
         ("get_type_hash_func", c_void_p),
         ("get_type_description_func", c_void_p),
         ("get_type_description_sources_func", c_void_p),

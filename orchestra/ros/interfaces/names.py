@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.errors import UsageError
 from orchestra.nearest import nearest
+from orchestra.ros.interfaces.definitions import provide
 from orchestra.ros.interfaces.tf_package import MESSAGE, PACKAGE, tf_message_type
 
 if TYPE_CHECKING:
@@ -30,10 +31,11 @@ def message_type(name: str) -> MessageClass:
     package, message = _split(name)
     if (package, message) == (PACKAGE, MESSAGE):
         return tf_message_type()
+    provide(package)
     module = _messages_of(package, name)
     found = getattr(module, message, None)
     if not _is_message(found):
-        known = [word for word, value in vars(module).items() if _is_message(value)]
+        known = [word for word in dir(module) if _is_message(getattr(module, word))]
         raise UnknownMessageTypeError(
             f"{name}: package {package} has no message {message}{_hint(message, known)}"
         )
@@ -57,10 +59,6 @@ def _messages_of(package: str, name: str) -> ModuleType:
     except ModuleNotFoundError as error:
         if error.name not in (package, f"{package}.msg"):
             raise
-    if package == PACKAGE:
-        raise UnknownMessageTypeError(
-            f"{name}: package tf2_msgs is not installed; without it, only TFMessage is here"
-        )
     raise UnknownMessageTypeError(
         f"{name}: package {package} is not installed or has no messages{_hint(package, _installed())}"
     )

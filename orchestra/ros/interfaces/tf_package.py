@@ -1,11 +1,11 @@
-"""The package tf2_msgs: the installed one, or its one message made here."""
+"""The package tf2_msgs: the installed one, or one made of its definitions here."""
 
 from __future__ import annotations
 
 import importlib
-import sys
-from types import ModuleType
 from typing import Any
+
+from orchestra.ros.interfaces.definitions import provide
 
 # A class of a package without type information.
 MessageClass = Any
@@ -29,16 +29,5 @@ def tf_message_type() -> MessageClass:
 
 
 def install() -> bool:
-    """Make `import tf2_msgs.msg` work in this process; returns whether that was needed.
-
-    Only TFMessage is in the module, none of the other types of tf2_msgs.
-    """
-    found = tf_message_type()
-    if PACKAGE in sys.modules:
-        return False
-    package, messages = ModuleType(PACKAGE), ModuleType(f"{PACKAGE}.msg")
-    package.__path__ = []
-    vars(package)["msg"] = messages
-    vars(messages)[MESSAGE] = found
-    sys.modules |= {package.__name__: package, messages.__name__: messages, found.__module__: messages}
-    return True
+    """Make `import tf2_msgs.msg` work in this process, and its services and actions; return whether that was needed."""
+    return provide(PACKAGE)

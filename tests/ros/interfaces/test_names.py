@@ -33,7 +33,7 @@ def test_tf_needs_no_package(name: str) -> None:
         ("std_msgs/msg/_string", "has no message _string"),
         ("os/msg/path", "package os is not installed or has no messages"),
         ("std_srvs/srv/Trigger", "names a type of kind srv"),
-        ("tf2_msgs/msg/TF2Error", "tf2_msgs is not installed; without it, only TFMessage is here"),
+        ("tf2_msgs/msg/TF2Eror", "package tf2_msgs has no message TF2Eror; did you mean TF2Error"),
         ("String", "expected package/msg/Name"),
         ("", "expected package/msg/Name"),
         ("std_msgs/msg/String/", "expected package/msg/Name"),

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import ctypes
 import math
-from typing import TYPE_CHECKING, Any, ClassVar
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import pytest
 import rclpy
@@ -16,11 +18,10 @@ from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
 from rclpy.serialization import deserialize_message, serialize_message
-from rosidl_parser.definition import NamespacedType, UnboundedSequence
 
-from orchestra.ros.interfaces import cdr, conversion, layouts, load_node_type, service_support
-from orchestra.ros.interfaces.plain_message import MessageType, PlainMessage
-from orchestra.ros.interfaces.service_support import Service
+from orchestra.ros.interfaces import cdr, conversion, layouts, load_node_type
+from orchestra.ros.interfaces.made.classes import classes_of
+from orchestra.ros.interfaces.reading import interface
 from orchestra.ros.interfaces.wire import MalformedMessageError
 
 if TYPE_CHECKING:
@@ -31,44 +32,11 @@ if TYPE_CHECKING:
 _DOMAIN = 36
 
 
-class _RequestType(MessageType):
-    pass
+_FILE = Path(sys.prefix, "share", "rcl_interfaces", "srv", "SetParametersAtomically.srv")
+_CLASSES = classes_of(interface.read("rcl_interfaces", _FILE), "rcl_interfaces.srv._clone")
 
-
-class _ResponseType(MessageType):
-    pass
-
-
-class _Request(PlainMessage, metaclass=_RequestType):
-    _fields_and_field_types: ClassVar[dict[str, str]] = {"parameters": "sequence<rcl_interfaces/Parameter>"}
-    SLOT_TYPES = (UnboundedSequence(NamespacedType(["rcl_interfaces", "msg"], "Parameter")),)
-
-
-class _Response(PlainMessage, metaclass=_ResponseType):
-    _fields_and_field_types: ClassVar[dict[str, str]] = {"result": "rcl_interfaces/SetParametersResult"}
-    SLOT_TYPES = (NamespacedType(["rcl_interfaces", "msg"], "SetParametersResult"),)
-
-
-_Request.__name__ = "SetParametersAtomically_Request"
-_Response.__name__ = "SetParametersAtomically_Response"
-
-
-class _CloneType(type):
-    _TYPE_SUPPORT: object = None
-
-    @classmethod
-    def __import_type_support__(cls) -> None:
-        if cls._TYPE_SUPPORT is not None:
-            return
-        service = Service("rcl_interfaces", "SetParametersAtomically", _Request, _Response, "")
-        cls._TYPE_SUPPORT = conversion.capsule(service_support.build(service))
-
-
-class Clone(metaclass=_CloneType):
-    """The same service as the compiled one, made here."""
-
-    Request = _Request
-    Response = _Response
+# The same service as the compiled one, made here.
+Clone = _CLASSES["SetParametersAtomically"]
 
 
 @pytest.fixture
@@ -145,7 +113,7 @@ def test_load_node_has_the_name_and_fields_of_the_package() -> None:
     assert kind.__module__.startswith("composition_interfaces.srv")
     assert kind.Response(success=True, unique_id=2**63).unique_id == 2**63
     with pytest.raises(AssertionError, match="Invalid arguments passed to constructor: nonsense"):
-        kind.Request(nonsense=1)
+        kind.Request(nonsense=1, check_fields=True)
     assert kind.Request(node_name="a") == kind.Request(node_name="a") != kind.Request(node_name="b")
 
 
@@ -178,7 +146,7 @@ def test_other_bytes_are_refused_or_read_but_never_fail_otherwise(data: bytes) -
 
 
 def test_a_type_that_cannot_be_sent_raises_and_says_why(caplog: pytest.LogCaptureFixture) -> None:
-    _CloneType.__import_type_support__()
+    type(Clone.Request).__import_type_support__()
     with pytest.raises(RuntimeError):
-        serialize_message(_Request(parameters=[5]))
+        serialize_message(Clone.Request(parameters=[5]))
     assert caplog.records[0].message == "this SetParametersAtomically_Request cannot be sent"

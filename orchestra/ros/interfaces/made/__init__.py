@@ -1,0 +1,1 @@
+"""Classes of messages, services and actions made of their definitions, with type support, without a compiler."""
