@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bringup.control.command import Command
+
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
@@ -16,6 +18,8 @@ if TYPE_CHECKING:
 
 # Least distance in m between the robot's circle and a point that it may slide along.
 TIGHT = 0.03
+# Speed in m/s at which two robots may share a passage that is too tight for the halves: they stop in 3 cm.
+CREEP = 0.12
 # A disc that already has something within its clearance shrinks to just inside it, so it can slide along.
 SLACK = 0.005
 
@@ -23,6 +27,12 @@ SLACK = 0.005
 def nearest(points: NDArray[np.float64]) -> float:
     """Distance from the middle of the axle to the nearest point; inf without any."""
     return float(np.sqrt(np.min(np.einsum("ij,ij->i", points, points)))) if len(points) else np.inf
+
+
+def retreat(points: NDArray[np.float64]) -> Command:
+    """Straight away from something inside the robot's circle, where turning could touch it."""
+    closest = points[np.argmin(np.einsum("ij,ij->i", points, points))]
+    return Command(-CREEP if closest[0] > 0.0 else CREEP, 0.0)
 
 
 def passing_radius(points: NDArray[np.float64], settings: Settings, spare: float = 0.0) -> float:

@@ -13,9 +13,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bringup.control.clearance import free_travel, nearest, own_half, passing_radius
+from bringup.control.clearance import CREEP, free_travel, nearest, own_half, passing_radius
 from bringup.control.command import Command
 from bringup.control.ramp import stoppable_speed
+
+__all__ = ["BODY", "CREEP", "LAG", "SPARE", "Guarded", "guarded"]
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -24,8 +26,6 @@ if TYPE_CHECKING:
 
 # From a decision to the wheels: one period of the loop and the lag of the drive.
 LAG = 0.15
-# Speed in m/s at which two robots may share a passage that is too tight for the halves: they stop in 3 cm.
-CREEP = 0.12
 # What a scan shows of another robot, and what is kept on top of the radius for its movement since the scan.
 BODY = 0.15
 SPARE = 0.08

@@ -13,11 +13,21 @@ if TYPE_CHECKING:
 
 def ramped(current: Command, wanted: Command, settings: Settings, elapsed: float) -> Command:
     """The velocity nearest to the wanted one that can be reached in `elapsed` seconds."""
-    rising = abs(wanted.linear) > abs(current.linear) and wanted.linear * current.linear >= 0.0
-    rate = settings.max_linear_acceleration if rising else settings.max_linear_deceleration
+    linear = _rises(current.linear, wanted.linear)
+    angular = _rises(current.angular, wanted.angular)
+    rate = settings.max_linear_acceleration if linear else settings.max_linear_deceleration
+    turn = settings.max_angular_acceleration if angular else settings.max_angular_deceleration
     return Command(
         _towards(current.linear, wanted.linear, rate * elapsed),
-        _towards(current.angular, wanted.angular, settings.max_angular_acceleration * elapsed),
+        _towards(current.angular, wanted.angular, turn * elapsed),
+    )
+
+
+def braked(current: Command, settings: Settings, elapsed: float) -> Command:
+    """The velocity after `elapsed` seconds of an emergency stop."""
+    return Command(
+        _towards(current.linear, 0.0, settings.emergency_deceleration * elapsed),
+        _towards(current.angular, 0.0, settings.emergency_angular_deceleration * elapsed),
     )
 
 
@@ -31,6 +41,10 @@ def stoppable_speed(distance: float, deceleration: float, reaction: float) -> fl
     if distance <= 0.0:
         return 0.0
     return deceleration * (math.sqrt(reaction * reaction + 2.0 * distance / deceleration) - reaction)
+
+
+def _rises(current: float, wanted: float) -> bool:
+    return abs(wanted) > abs(current) and wanted * current >= 0.0
 
 
 def _towards(current: float, wanted: float, most: float) -> float:

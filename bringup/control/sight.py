@@ -7,20 +7,33 @@ side of stopping; one above the maximum is no hit.
 
 from __future__ import annotations
 
+from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
+
+from bringup.control.command import Pose
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from numpy.typing import NDArray
-
-    from bringup.control.command import Pose
-
 # A scan with more faulty rays than this tells too little to drive by.
 MOST_FAULTY = 0.25
+
+
+@dataclass(frozen=True, slots=True)
+class Sight:
+    """A usable scan: when it came, its points in the robot's frame, and where the robot was, if known.
+
+    `clear` are the ends of the beams that met nothing, by which a way to a goal is planned.
+    """
+
+    at: float
+    points: NDArray[np.float64]
+    pose: Pose | None
+    clear: NDArray[np.float64] = field(default_factory=lambda: np.empty((0, 2)))
 
 
 def obstacle_points(
@@ -40,6 +53,19 @@ def obstacle_points(
     near = np.maximum(measured[hit], limits[0])
     directions = _directions(measured.size, *angles)[hit]
     points: NDArray[np.float64] = directions * near[:, np.newaxis]
+    points[:, 0] += lidar_x
+    return points
+
+
+def clear_points(
+    ranges: Sequence[float] | NDArray[np.floating],
+    angles: tuple[float, float],
+    limits: tuple[float, float],
+    lidar_x: float,
+) -> NDArray[np.float64]:
+    """Ends of the rays that met nothing within the greatest range, shape (n, 2); arguments as above."""
+    measured = np.asarray(ranges, dtype=np.float64)
+    points: NDArray[np.float64] = _directions(measured.size, *angles)[measured > limits[1]] * limits[1]
     points[:, 0] += lidar_x
     return points
 

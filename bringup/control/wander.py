@@ -1,8 +1,8 @@
 """Drives about and sees much of the world: goes to the visible place where it has been least.
 
 The memory counts how often each half-metre cell of the odometry frame was entered. A goal is the end of a
-straight free way; it is kept until reached, blocked or too old, so the robot does not waver. Planned maps
-and paths were considered and left out: the lidar sees all round, and counting visits covers a maze as well.
+straight free way; it is kept until reached, blocked or too old, so the robot does not waver. A planned way, as
+going to a goal has it, is not needed: the lidar sees all round, and counting visits covers a maze as well.
 """
 
 from __future__ import annotations
@@ -15,9 +15,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from bringup.control.clearance import free_travel, nearest, passing_radius
+from bringup.control.clearance import free_travel, nearest, passing_radius, retreat
 from bringup.control.command import STANDSTILL, Command, Pose
-from bringup.control.guard import CREEP
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
@@ -63,7 +62,7 @@ def wandered(
     """One tick: the memory after it and the velocity wanted, not yet guarded."""
     memory = _entered(memory, pose)
     if nearest(points) < settings.robot_radius:
-        return replace(memory, goal=None), _retreat(points)
+        return replace(memory, goal=None), retreat(points)
     if memory.goal is None or _spent(memory.goal, pose, points, settings, now):
         memory = _chosen(memory, pose, points, settings, now)
     if memory.goal is None:
@@ -74,12 +73,6 @@ def wandered(
 def _towards(bearing: float, settings: Settings) -> Command:
     turn = max(-settings.max_angular_vel, min(settings.max_angular_vel, GAIN * bearing))
     return Command(settings.max_linear_vel * max(0.0, 1.0 - abs(bearing) / ASIDE), turn)
-
-
-def _retreat(points: NDArray[np.float64]) -> Command:
-    """Straight away from something inside the robot's circle, where turning could touch it."""
-    closest = points[np.argmin(np.einsum("ij,ij->i", points, points))]
-    return Command(-CREEP if closest[0] > 0.0 else CREEP, 0.0)
 
 
 def _spent(goal: Goal, pose: Pose, points: NDArray[np.float64], settings: Settings, now: float) -> bool:

@@ -61,7 +61,7 @@ def test_the_robot_brakes_when_it_cannot_know(
     after = ticked(replace(DRIVING, at=now - 0.1), settings, now, sight, odometry)
     assert after.fault == fault, name
     if fault is not None:
-        assert after.command.linear == pytest.approx(0.38)
+        assert after.command.linear == pytest.approx(0.5 - 0.1 * settings.emergency_deceleration)
 
 
 def test_a_late_tick_does_not_jump_the_speed() -> None:

@@ -23,7 +23,7 @@ def test_every_parameter_is_described_and_every_number_has_a_range_around_its_de
         assert each.description
         if isinstance(each.default, str):
             assert each.constraints
-        else:
+        elif not isinstance(each.default, bool):
             assert each.minimum is not None
             assert each.maximum is not None
             assert each.minimum <= each.default <= each.maximum
@@ -32,7 +32,7 @@ def test_every_parameter_is_described_and_every_number_has_a_range_around_its_de
 @pytest.mark.parametrize(
     ("values", "reason"),
     [
-        ({"mode": "fly"}, "mode is 'fly', must be one of linear, rotational, wander, hold"),
+        ({"mode": "fly"}, "mode is 'fly', must be one of linear, rotational, wander, hold, go_to_goal"),
         ({"max_linear_vel": 0.9}, "max_linear_vel is 0.9, must lie in 0.0 .. 0.8"),
         ({"max_angular_vel": -0.1}, "max_angular_vel is -0.1, must lie in 0.0 .. 1.5"),
         ({"scan_timeout": float("nan")}, "scan_timeout is nan, must lie in 0.15 .. 5.0"),
@@ -63,7 +63,11 @@ def test_the_robot_never_stops_inside_its_own_circle(distance: float, radius: fl
 
 def test_switching_goes_through_all_modes_and_round() -> None:
     mode, seen = Mode.LINEAR, []
-    for _ in Mode:
+    for _ in range(4):
         mode = following(mode)
         seen.append(mode)
     assert seen == [Mode.ROTATIONAL, Mode.WANDER, Mode.HOLD, Mode.LINEAR]
+
+
+def test_switching_leaves_going_to_a_goal_and_never_comes_to_it() -> None:
+    assert following(Mode.GO_TO_GOAL) is Mode.LINEAR
