@@ -1,5 +1,6 @@
 """The state estimate: how single measurements are taken in and how time passes between them."""
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -47,7 +48,8 @@ class Estimator:
         self.initialised = False
         self.stamp = 0
         self.state: Array = self._estimation.initial_state.copy()
-        self.covariance: Array = self._estimation.initial_covariance.copy()
+        covariance = self._estimation.initial_covariance
+        self.covariance: Array = (covariance + covariance.T) * 0.5
         self.command: tuple[float, ...] | None = None
         self.commanded_at = 0
 
@@ -128,7 +130,9 @@ class Estimator:
 
 
 def _finite(measurement: Measurement) -> tuple[Indices, Array, Array]:
-    finite = np.isfinite(measurement.values)
-    if finite.all():
-        return measurement.indices, measurement.values, measurement.noise
-    return measurement.indices[finite], measurement.values[finite], measurement.noise[np.ix_(finite, finite)]
+    values = measurement.values
+    # The square is finite only if every entry is; one that overflows takes the longer way.
+    if math.isfinite(values.dot(values)):
+        return measurement.indices, values, measurement.noise
+    finite = np.isfinite(values)
+    return measurement.indices[finite], values[finite], measurement.noise[np.ix_(finite, finite)]

@@ -1,17 +1,25 @@
 """Takes messages in: which are accepted, which wait for their transform, what becomes of them."""
 
 from collections import deque
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
+from bringup.filter.joining import Joiner
 from bringup.filter.measurement import Measurement
-from bringup.filter.readings import Message, stamp_of
-from bringup.filter.settings import NANOSECONDS
-from bringup.filter.streams import Prepared, Stream, Surroundings, streams_of
-from bringup.filter.variances import note_variances
+from bringup.filter.readings import Heard
+from bringup.filter.settings import NANOSECONDS, Sensor
+from bringup.filter.streams import Reading, Stream, Surroundings, streams_of
 
 
 class ClockJumpError(Exception):
     """A sensor's stamps went back in time while `reset_on_time_jump` is set."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Source:
+    """A sensor's streams, and what joins the parts of its messages."""
+
+    streams: list[Stream]
+    joiner: Joiner = field(default_factory=Joiner)
 
 
 class Intake:
@@ -22,51 +30,57 @@ class Intake:
     for it that long, and those after it with it; upstream blocks the whole filter instead.
     """
 
-    def __init__(self, around: Surroundings) -> None:
+    def __init__(self, sensors: tuple[Sensor, ...], around: Surroundings) -> None:
         self._around = around
-        self._streams = {sensor.name: streams_of(sensor, around) for sensor in around.settings.sensors}
-        self._waiting: deque[tuple[int, Prepared]] = deque()
+        self._sources = {sensor.name: _Source(streams_of(sensor, around)) for sensor in sensors}
+        self._waiting: deque[tuple[int, Stream, Reading]] = deque()
         self._timing = around.settings.timing
-        self._checks_variances = around.settings.publication.diagnostics
+        self._tells_doubts = around.settings.publication.diagnostics
         self._ignored_up_to = 0
 
     def reset(self, ignored_up_to: int = 0) -> None:
         """Forget all earlier messages, and ignore those stamped up to a time (ns)."""
         self._ignored_up_to = ignored_up_to
         self._waiting.clear()
-        for stream in self._all():
-            stream.newest = 0
-            if stream.track is not None:
-                stream.track.forget()
+        for source in self._sources.values():
+            for stream in source.streams:
+                stream.newest = 0
+                if stream.track is not None:
+                    stream.track.forget()
 
-    def receive(self, sensor: str, message: Message, now: int) -> None:
+    def receive(self, sensor: str, said: Heard, now: int) -> None:
         """Take in a message of a sensor at the time `now` (ns).
 
         Raises ClockJumpError if its stamp says that time has gone back and this is to be acted upon.
         """
-        stamp = stamp_of(message)
-        for stream in self._streams[sensor]:
-            if not self._accepts(stream, stamp):
+        source = self._sources[sensor]
+        measured = []
+        for stream in source.streams:
+            if not self._accepts(stream, said.stamp):
                 continue
-            prepared = stream.prepare(message)
-            if prepared is None:
+            reading = stream.read(said)
+            if reading is None:
                 continue
-            if self._waiting or not self._is_ready(prepared):
-                self._waiting.append((now + self._timing.transform_timeout, prepared))
-            else:
-                self._measure(prepared)
+            if self._waiting or not self._is_ready(stream, reading):
+                self._waiting.append((now + self._timing.transform_timeout, stream, reading))
+                continue
+            measurement = self._measure(stream, reading)
+            if measurement is not None:
+                measured.append(measurement)
+        if measured:
+            for measurement in source.joiner.join(measured):
+                self._around.fusion.add(self._with_command(measurement))
 
     def release(self, now: int) -> None:
         """Go on with messages whose transform has come, or whose time to wait for it is over."""
         while self._waiting:
-            deadline, prepared = self._waiting[0]
-            if now < deadline and not self._is_ready(prepared):
+            deadline, stream, reading = self._waiting[0]
+            if now < deadline and not self._is_ready(stream, reading):
                 return
             self._waiting.popleft()
-            self._measure(prepared)
-
-    def _all(self) -> list[Stream]:
-        return [stream for streams in self._streams.values() for stream in streams]
+            measurement = self._measure(stream, reading)
+            if measurement is not None:
+                self._around.fusion.add(self._with_command(measurement))
 
     def _accepts(self, stream: Stream, stamp: int) -> bool:
         if stamp <= self._ignored_up_to:
@@ -82,18 +96,18 @@ class Intake:
         self._around.notices.warn(f"{stream.name}_timestamp", text)
         return False
 
-    def _is_ready(self, prepared: Prepared) -> bool:
+    def _is_ready(self, stream: Stream, reading: Reading) -> bool:
         if self._timing.transform_timeout <= 0:
             return True
-        return all(self._around.frames.known_at(*pair, prepared.stamp) for pair in prepared.pairs)
+        frames = self._around.frames
+        return all(frames.known_at(*pair, reading.stamp) for pair in stream.pairs(reading))
 
-    def _measure(self, prepared: Prepared) -> None:
-        measurement = prepared.measure()
-        if measurement is None:
-            return
-        if self._checks_variances:
-            note_variances(measurement, self._around.notices)
-        self._around.fusion.add(self._with_command(measurement))
+    def _measure(self, stream: Stream, reading: Reading) -> Measurement | None:
+        measurement = stream.measure(reading)
+        if measurement is not None and self._tells_doubts and stream.mountings.doubt:
+            text = f"{stream.name}: {stream.mountings.doubt}"
+            self._around.notices.warn(f"{stream.name}_covariance", text)
+        return measurement
 
     def _with_command(self, measurement: Measurement) -> Measurement:
         estimator = self._around.estimator

@@ -10,7 +10,7 @@ from bringup.filter.frames import FrameResolver
 from bringup.filter.fusion import Fusion
 from bringup.filter.intake import ClockJumpError, Intake
 from bringup.filter.notices import Notices
-from bringup.filter.readings import Message
+from bringup.filter.readings import Heard, Message
 from bringup.filter.rigid import transform
 from bringup.filter.rotation import rpy_from_matrix, six_dimensional
 from bringup.filter.settings import Settings
@@ -42,21 +42,26 @@ class Localization:
         self._estimator = Estimator(settings.estimation, settings.control)
         self._fusion = Fusion(self._estimator, settings.timing)
         surroundings = Surroundings(settings, self._estimator, self._fusion, self.frames, self.notices)
-        self._intake = Intake(surroundings)
+        self._kinds = {sensor.name: sensor.kind for sensor in settings.sensors}
+        self._intake = Intake(settings.sensors, surroundings)
         self._corrections = settings.publication.corrections
         self._published: int | None = None
         self._updated: int | None = None
 
     def receive(self, sensor: str, message: Message, now: int) -> None:
         """Take in a message of the sensor with this name, such as `odom0`; a disabled filter takes none."""
+        self.hear(sensor, readings.heard(self._kinds[sensor], message), now)
+
+    def hear(self, sensor: str, said: Heard, now: int) -> None:
+        """Take in what a message of a sensor says; a disabled filter takes nothing in."""
         if not self.enabled:
             return
         try:
-            self._intake.receive(sensor, message, now)
+            self._intake.receive(sensor, said, now)
         except ClockJumpError:
             self.reset()
             self.notices.warn("time_jump", f"the stamps of {sensor} jumped back: the filter starts afresh")
-            self._intake.receive(sensor, message, now)
+            self._intake.receive(sensor, said, now)
 
     def observe(self, observer: Observer) -> None:
         """Tell `observer` of each measurement that is about to be fused, with what was predicted for it."""
@@ -113,7 +118,7 @@ class Localization:
         Messages stamped up to the pose's own stamp are ignored from then on. Tells whether the pose could be
         taken into the world frame; otherwise nothing changes.
         """
-        reading = readings.pose(message)
+        reading = readings.pose(readings.heard("pose", message))
         frame = self.frames.between(self._world, reading.frame, reading.stamp)
         if frame is None:
             return False

@@ -16,7 +16,8 @@ _PINNED_VARIANCE = 1e-6
 class Measurement:
     """Direct readings of the state variables `indices`, taken at `stamp` (ns).
 
-    `command` is the velocity command that was in force when the reading came in, if there was one.
+    `noise` is a covariance that can be used as it is. The last `pinned` entries are not measured but held at zero
+    by `two_d_mode`. `command` is the velocity command that was in force when the reading came in, if there was one.
     """
 
     stamp: int
@@ -25,6 +26,7 @@ class Measurement:
     values: Array
     noise: Array
     threshold: float
+    pinned: int = 0
     command: tuple[float, ...] | None = None
     commanded_at: int = 0
 
@@ -43,12 +45,14 @@ class Selection:
     source: Indices
     target: Indices
     noise: Array
+    pinned: int
 
     def values(self, vector: Array) -> Array:
         """Select from the part's vector."""
-        count = len(self.entries)
+        if self.pinned == 0:
+            return vector.take(self.entries)
         chosen = np.zeros(len(self.indices))
-        chosen[:count] = vector[self.entries]
+        chosen[: len(self.entries)] = vector.take(self.entries)
         return chosen
 
     def covariance(self, covariance: Array) -> Array:
@@ -76,6 +80,7 @@ def select(flags: Flags, offset: int, *, two_d_mode: bool) -> Selection:
             [row * size + column for row in range(count) for column in range(count)], dtype=np.intp
         ),
         noise=noise,
+        pinned=len(pinned),
     )
 
 

@@ -4,9 +4,9 @@ import numpy as np
 
 from bringup.filter.measurement import Measurement
 from bringup.filter.mounting import Mountings
-from bringup.filter.readings import AccelerationReading, TwistReading
-from bringup.filter.rigid import IDENTITY, Transform
-from bringup.filter.rotation import cross, matrix_from_quaternion, matrix_from_rpy
+from bringup.filter.readings import AccelerationReading, TurningReading, TwistReading
+from bringup.filter.rigid import Transform
+from bringup.filter.rotation import cross, matrix_from_quaternion, matrix_from_rpy, up_seen_by
 from bringup.filter.settings import Part
 from bringup.filter.state import ACCELERATION, ANGULAR, ORIENTATION, TWIST, Array
 
@@ -15,18 +15,31 @@ class TwistMeasuring:
     """Turns the velocities of one part into measurements."""
 
     def __init__(self, part: Part, *, two_d_mode: bool) -> None:
-        self._mountings = Mountings(part, TWIST.start, two_d_mode=two_d_mode)
+        self.mountings = Mountings(part, part.flags, TWIST.start, two_d_mode=two_d_mode)
 
     def measure(self, reading: TwistReading, sensor: Transform, state: Array) -> Measurement:
         """Measure from a reading; `sensor` is where its frame stands in the base frame.
 
         What the sensor sees because the base turns under it is taken off with the present estimate's omega.
         """
-        mounting = self._mountings.of(sensor)
+        mounting = self.mountings.of(sensor)
         vector = mounting.turned(np.array(reading.linear + reading.angular))
-        if mounting.moves:
-            vector[:3] += cross(sensor.translation, state[ANGULAR])
-        return mounting.measurement(reading.stamp, vector, mounting.turned_covariance(reading.covariance))
+        if mounting.arm is not None:
+            vector[:3] += cross(mounting.arm, state[ANGULAR])
+        return mounting.measurement(reading.stamp, vector, reading.covariance)
+
+
+class TurningMeasuring:
+    """Turns the angular velocities of one IMU into measurements."""
+
+    def __init__(self, part: Part, *, two_d_mode: bool) -> None:
+        self.mountings = Mountings(part, part.flags[3:], ANGULAR.start, two_d_mode=two_d_mode)
+
+    def measure(self, reading: TurningReading, sensor: Transform) -> Measurement:
+        """Measure from a reading; `sensor` is where the IMU stands in the base frame."""
+        mounting = self.mountings.of(sensor)
+        vector = mounting.turned(np.array(reading.angular))
+        return mounting.measurement(reading.stamp, vector, reading.covariance)
 
 
 class AccelerationMeasuring:
@@ -37,36 +50,33 @@ class AccelerationMeasuring:
 
     def __init__(self, part: Part, gravity: float | None, *, two_d_mode: bool) -> None:
         self._relative = part.relative
-        self._weight = None if gravity is None else np.array((0.0, 0.0, gravity))
-        self._mountings = Mountings(part, ACCELERATION.start, two_d_mode=two_d_mode)
+        self._gravity = gravity
+        self.mountings = Mountings(part, part.flags, ACCELERATION.start, two_d_mode=two_d_mode)
 
     def measure(
         self, reading: AccelerationReading, sensor: Transform, state: Array, angular_acceleration: Array
     ) -> Measurement:
         """Measure from a reading; `sensor` is where the IMU stands in the base frame."""
-        mounting = self._mountings.of(sensor)
+        mounting = self.mountings.of(sensor)
         force = np.array(reading.acceleration)
-        if self._weight is not None:
-            force -= self._weight_at_sensor(self._weight, reading, sensor, state)
+        if self._gravity is not None:
+            force -= self._gravity * self._up_at_sensor(reading, sensor, state)
         vector = mounting.turned(force)
-        if sensor is not IDENTITY:
-            arm, omega = sensor.translation, state[ANGULAR]
+        if mounting.arm is not None:
+            arm, omega = mounting.arm, state[ANGULAR]
             vector = vector + cross(arm, angular_acceleration) - cross(cross(arm, omega), omega)
-        return mounting.measurement(reading.stamp, vector, mounting.turned_covariance(reading.covariance))
+        return mounting.measurement(reading.stamp, vector, reading.covariance)
 
-    def _weight_at_sensor(
-        self, weight: Array, reading: AccelerationReading, sensor: Transform, state: Array
-    ) -> Array:
-        """Specific force of the sensor at rest, in the sensor's axes.
+    def _up_at_sensor(self, reading: AccelerationReading, sensor: Transform, state: Array) -> Array:
+        """The world's unit vector upwards in the sensor's axes: where the specific force points at rest.
 
-        It is taken off before the mounting's rotation (upstream mixes the two up in 2024; its fix of 2025 agrees
+        Gravity is taken off before the mounting's rotation (upstream mixes the two up in 2024; its fix of 2025 agrees
         with this). The attitude is the IMU's own or, where it measures none, the estimate's. A relative
         orientation counts from the sensor's attitude on a level base.
         """
         if reading.orientation is None:
             base = matrix_from_rpy(*state[ORIENTATION].tolist())
-            return sensor.rotation.T @ (base.T @ weight)
-        attitude = matrix_from_quaternion(reading.orientation)
+            return sensor.rotation.T @ base[2]
         if self._relative:
-            attitude = sensor.rotation @ attitude
-        return attitude.T @ weight
+            return matrix_from_quaternion(reading.orientation).T @ sensor.rotation[2]
+        return np.array(up_seen_by(reading.orientation))

@@ -21,6 +21,10 @@ class Notices:
     def __init__(self) -> None:
         self._notices: dict[str, tuple[Level, str]] = {}
 
+    def __bool__(self) -> bool:
+        """Whether there is anything to tell."""
+        return bool(self._notices)
+
     def warn(self, key: str, text: str) -> None:
         """Note something that the filter copes with."""
         self._notices[key] = (Level.WARN, text)

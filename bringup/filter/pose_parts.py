@@ -6,9 +6,9 @@ from bringup.filter.measurement import Measurement
 from bringup.filter.mounting import Mountings
 from bringup.filter.readings import OrientationReading, PoseReading
 from bringup.filter.rigid import IDENTITY, Transform, transform
-from bringup.filter.rotation import cross_matrix, matrix_from_quaternion, matrix_from_rpy, rpy_from_matrix
+from bringup.filter.rotation import cross_matrix, matrix_from_rpy, rpy_from_matrix, rpy_from_quaternion
 from bringup.filter.settings import NANOSECONDS, Part
-from bringup.filter.state import POSE, TWIST, Array, wrap
+from bringup.filter.state import ANGULAR, ORIENTATION, POSE, TWIST, Array, wrap
 
 _NO_TRANSLATION = np.zeros(3)
 
@@ -50,8 +50,9 @@ class PoseMeasuring:
     """Turns the poses of one part into measurements."""
 
     def __init__(self, part: Part, *, two_d_mode: bool) -> None:
-        self._differential = part.differential
-        self._mountings = Mountings(part, _offset(part), two_d_mode=two_d_mode)
+        self._part = part
+        offset = TWIST.start if part.differential else POSE.start
+        self.mountings = Mountings(part, part.flags, offset, two_d_mode=two_d_mode)
         self.track = PoseTrack(part)
 
     def measure(self, reading: PoseReading, frame: Transform, to_base: Transform) -> Measurement | None:
@@ -60,17 +61,31 @@ class PoseMeasuring:
         `frame` takes the reading's frame to the world frame; `to_base` is where the base stands in the frame
         whose pose is read. A difference is in the base's axes already and takes no `frame`.
         """
+        as_read = to_base is IDENTITY and not self._part.differential and not self._part.relative
+        if as_read and frame is IDENTITY:
+            vector = np.array(reading.position + rpy_from_quaternion(reading.orientation))
+            return self.mountings.of(frame).measurement(reading.stamp, vector, reading.covariance)
         pose = transform(reading.position, reading.orientation)
+        if as_read:
+            return self.mountings.of(frame).measurement(
+                reading.stamp, _vector(frame @ pose), reading.covariance
+            )
+        return self._tracked(reading, pose, frame, to_base)
+
+    def _tracked(
+        self, reading: PoseReading, pose: Transform, frame: Transform, to_base: Transform
+    ) -> Measurement | None:
         covariance = reading.covariance
         if to_base is not IDENTITY:
             covariance = _over_lever_arm(covariance, pose.rotation @ to_base.translation)
             pose = pose @ to_base
-        if self._differential:
-            moved = self.track.velocity(reading.stamp, pose, covariance)
-            return None if moved is None else self._mountings.of(IDENTITY).measurement(reading.stamp, *moved)
-        mounting = self._mountings.of(frame)
-        vector = _vector(frame @ self.track.relative(pose))
-        return mounting.measurement(reading.stamp, vector, mounting.turned_covariance(covariance))
+        if not self._part.differential:
+            vector = _vector(frame @ self.track.relative(pose))
+            return self.mountings.of(frame).measurement(reading.stamp, vector, covariance)
+        moved = self.track.velocity(reading.stamp, pose, covariance)
+        if moved is None:
+            return None
+        return self.mountings.of(IDENTITY).turned_measurement(reading.stamp, *moved)
 
 
 class OrientationMeasuring:
@@ -82,34 +97,34 @@ class OrientationMeasuring:
 
     def __init__(self, part: Part, *, two_d_mode: bool) -> None:
         self._part = part
-        self._mountings = Mountings(part, _offset(part), two_d_mode=two_d_mode)
+        offset = ANGULAR.start if part.differential else ORIENTATION.start
+        self.mountings = Mountings(part, part.flags[3:], offset, two_d_mode=two_d_mode)
         self.track = PoseTrack(part)
+        self._sensor = IDENTITY
+        self._offsets = (0.0, 0.0, 0.0)
+        self._heading = IDENTITY.rotation
 
     def measure(self, reading: OrientationReading, sensor: Transform) -> Measurement | None:
         """Measure from a reading; `sensor` is where the IMU stands in the base frame."""
-        offsets = rpy_from_matrix(sensor.rotation)
-        heading = matrix_from_rpy(0.0, 0.0, offsets[2])
-        mounting = self._mountings.of(sensor, heading)
-        angles = rpy_from_matrix(matrix_from_quaternion(reading.orientation))
-        level = [wrap(angle - offset) for angle, offset in zip(angles, offsets, strict=True)]
-        vector, covariance = np.zeros(6), np.zeros((6, 6))
-        vector[3:] = heading @ level
-        covariance[3:, 3:] = heading @ reading.covariance @ heading.T
-        if self._part.relative or self._part.differential:
-            return self._tracked(reading.stamp, vector, covariance, sensor)
-        return mounting.measurement(reading.stamp, vector, covariance)
-
-    def _tracked(self, stamp: int, vector: Array, covariance: Array, sensor: Transform) -> Measurement | None:
-        mounting = self._mountings.of(sensor)
-        pose = Transform(matrix_from_rpy(*vector[3:].tolist()), _NO_TRANSLATION)
+        if sensor is not self._sensor:
+            self._sensor = sensor
+            self._offsets = rpy_from_matrix(sensor.rotation)
+            self._heading = matrix_from_rpy(0.0, 0.0, self._offsets[2])
+        mounting = self.mountings.of(sensor, self._heading)
+        angles = rpy_from_quaternion(reading.orientation)
+        level = [wrap(angle - offset) for angle, offset in zip(angles, self._offsets, strict=True)]
+        vector = mounting.turned(np.array(level))
+        if not (self._part.relative or self._part.differential):
+            return mounting.measurement(reading.stamp, vector, reading.covariance)
+        pose = Transform(matrix_from_rpy(*vector.tolist()), _NO_TRANSLATION)
         if not self._part.differential:
-            return mounting.measurement(stamp, _vector(self.track.relative(pose)), covariance)
-        moved = self.track.velocity(stamp, pose, covariance)
-        return None if moved is None else mounting.measurement(stamp, *moved)
-
-
-def _offset(part: Part) -> int:
-    return int(TWIST.start if part.differential else POSE.start)
+            vector = np.array(rpy_from_matrix(self.track.relative(pose).rotation))
+            return mounting.measurement(reading.stamp, vector, reading.covariance)
+        covariance = self._heading @ reading.covariance @ self._heading.T
+        moved = self.track.velocity(reading.stamp, pose, covariance)
+        if moved is None:
+            return None
+        return mounting.turned_measurement(reading.stamp, moved[0][3:], moved[1])
 
 
 def _vector(pose: Transform) -> Array:

@@ -1,16 +1,18 @@
-"""What messages say, as plain values: the only place here that knows the layout of ROS messages.
+"""What messages say, as plain values.
 
-Messages are read by their field names alone, so that rclpy's messages and those of a bag reader serve alike.
+The only place here that knows the layout of ROS messages. They are read by their field names alone, so that rclpy's
+messages and those of a bag reader serve alike; who has them in another form makes a `Heard` of them.
 Stamps are nanoseconds; covariances are 6x6 or 3x3 matrices; frames have no leading slash (REP-105, tf2).
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, TypeAlias
 
 import numpy as np
 
 from bringup.filter.rotation import Quaternion
-from bringup.filter.settings import NANOSECONDS
+from bringup.filter.settings import NANOSECONDS, Kind
 from bringup.filter.state import Array
 
 Message: TypeAlias = Any
@@ -18,6 +20,18 @@ Vector: TypeAlias = tuple[float, float, float]
 
 # The first entry of an IMU covariance that stands for "this part is not measured" (sensor_msgs/Imu).
 _NOT_MEASURED = -1.0
+_POSE = 43
+_FULL, _PLAIN = (6, 6), (3, 3)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Heard:
+    """A sensor's message: its stamp, its frames and its numbers in the order of the message's definition."""
+
+    stamp: int
+    frame: str
+    child: str
+    numbers: Array
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -54,6 +68,16 @@ class OrientationReading:
 
 
 @dataclass(frozen=True, slots=True, eq=False)
+class TurningReading:
+    """The angular velocity of the sensor frame `frame`, in its own axes."""
+
+    stamp: int
+    frame: str
+    angular: Vector
+    covariance: Array
+
+
+@dataclass(frozen=True, slots=True, eq=False)
 class AccelerationReading:
     """The specific force at the sensor, in its own axes; the attitude is None where it is not measured."""
 
@@ -70,57 +94,60 @@ def stamp_of(message: Message) -> int:
     return int(stamp.sec) * NANOSECONDS + int(stamp.nanosec)
 
 
-def odometry_pose(message: Message) -> PoseReading:
+def heard(kind: Kind, message: Message) -> Heard:
+    """Read a message of nav_msgs/Odometry, geometry_msgs/PoseWithCovarianceStamped and so on."""
+    return _HEARD[kind](message)
+
+
+def odometry_pose(said: Heard) -> PoseReading:
     """Read the pose part of nav_msgs/Odometry."""
-    return _pose(message, message.child_frame_id.lstrip("/"))
+    return _pose(said, said.child)
 
 
-def pose(message: Message) -> PoseReading:
+def pose(said: Heard) -> PoseReading:
     """Read geometry_msgs/PoseWithCovarianceStamped."""
-    return _pose(message, "")
+    return _pose(said, "")
 
 
-def odometry_twist(message: Message) -> TwistReading:
+def odometry_twist(said: Heard) -> TwistReading:
     """Read the twist part of nav_msgs/Odometry, which is given in the child frame."""
-    return _twist(message, message.child_frame_id.lstrip("/"))
+    return _twist(said, said.child, _POSE)
 
 
-def twist(message: Message) -> TwistReading:
+def twist(said: Heard) -> TwistReading:
     """Read geometry_msgs/TwistWithCovarianceStamped."""
-    return _twist(message, message.header.frame_id.lstrip("/"))
+    return _twist(said, said.frame, 0)
 
 
-def imu_orientation(message: Message) -> OrientationReading | None:
+def imu_orientation(said: Heard) -> OrientationReading | None:
     """Read the orientation of sensor_msgs/Imu; None if it is not measured."""
-    covariance = _matrix(message.orientation_covariance, 3)
-    if covariance[0, 0] == _NOT_MEASURED:
+    numbers = said.numbers
+    if numbers[4] == _NOT_MEASURED:
         return None
-    return OrientationReading(
-        stamp_of(message), _frame(message), _quaternion(message.orientation), covariance
-    )
+    x, y, z, w = numbers[:4].tolist()
+    return OrientationReading(said.stamp, said.frame, (x, y, z, w), numbers[4:13].reshape(_PLAIN))
 
 
-def imu_twist(message: Message) -> TwistReading | None:
+def imu_turning(said: Heard) -> TurningReading | None:
     """Read the angular velocity of sensor_msgs/Imu; None if it is not measured."""
-    angular = _matrix(message.angular_velocity_covariance, 3)
-    if angular[0, 0] == _NOT_MEASURED:
+    numbers = said.numbers
+    if numbers[16] == _NOT_MEASURED:
         return None
-    covariance = np.zeros((6, 6))
-    covariance[3:, 3:] = angular
-    velocity = _vector(message.angular_velocity)
-    return TwistReading(stamp_of(message), _frame(message), (0.0, 0.0, 0.0), velocity, covariance)
+    x, y, z = numbers[13:16].tolist()
+    return TurningReading(said.stamp, said.frame, (x, y, z), numbers[16:25].reshape(_PLAIN))
 
 
-def imu_acceleration(message: Message) -> AccelerationReading | None:
+def imu_acceleration(said: Heard) -> AccelerationReading | None:
     """Read the linear acceleration of sensor_msgs/Imu; None if it is not measured."""
-    covariance = _matrix(message.linear_acceleration_covariance, 3)
-    if covariance[0, 0] == _NOT_MEASURED:
+    numbers = said.numbers
+    if numbers[28] == _NOT_MEASURED:
         return None
-    attitude = (
-        None if message.orientation_covariance[0] == _NOT_MEASURED else _quaternion(message.orientation)
-    )
-    acceleration = _vector(message.linear_acceleration)
-    return AccelerationReading(stamp_of(message), _frame(message), acceleration, covariance, attitude)
+    attitude: Quaternion | None = None
+    if numbers[4] != _NOT_MEASURED:
+        x, y, z, w = numbers[:4].tolist()
+        attitude = (x, y, z, w)
+    x, y, z = numbers[25:28].tolist()
+    return AccelerationReading(said.stamp, said.frame, (x, y, z), numbers[28:37].reshape(_PLAIN), attitude)
 
 
 def velocity_command(twist_message: Message) -> tuple[float, ...]:
@@ -128,32 +155,61 @@ def velocity_command(twist_message: Message) -> tuple[float, ...]:
     return _vector(twist_message.linear) + _vector(twist_message.angular)
 
 
-def _pose(message: Message, child: str) -> PoseReading:
-    content = message.pose.pose
-    return PoseReading(
-        stamp=stamp_of(message),
-        frame=_frame(message),
-        child=child,
-        position=_vector(content.position),
-        orientation=_quaternion(content.orientation),
-        covariance=_matrix(message.pose.covariance, 6),
-    )
+def _pose(said: Heard, child: str) -> PoseReading:
+    x, y, z, qx, qy, qz, qw = said.numbers[:7].tolist()
+    covariance = said.numbers[7:_POSE].reshape(_FULL)
+    return PoseReading(said.stamp, said.frame, child, (x, y, z), (qx, qy, qz, qw), covariance)
 
 
-def _twist(message: Message, frame: str) -> TwistReading:
-    content = message.twist.twist
-    return TwistReading(
-        stamp=stamp_of(message),
-        frame=frame,
-        linear=_vector(content.linear),
-        angular=_vector(content.angular),
-        covariance=_matrix(message.twist.covariance, 6),
-    )
+def _twist(said: Heard, frame: str, start: int) -> TwistReading:
+    vx, vy, vz, wx, wy, wz = said.numbers[start : start + 6].tolist()
+    covariance = said.numbers[start + 6 : start + 42].reshape(_FULL)
+    return TwistReading(said.stamp, frame, (vx, vy, vz), (wx, wy, wz), covariance)
 
 
-def _frame(message: Message) -> str:
-    name: str = message.header.frame_id
-    return name.lstrip("/")
+def _heard_odometry(message: Message) -> Heard:
+    numbers = _pose_numbers(message.pose) + _twist_numbers(message.twist)
+    return _with_header(message, message.child_frame_id.lstrip("/"), numbers)
+
+
+def _heard_pose(message: Message) -> Heard:
+    return _with_header(message, "", _pose_numbers(message.pose))
+
+
+def _heard_twist(message: Message) -> Heard:
+    return _with_header(message, "", _twist_numbers(message.twist))
+
+
+def _heard_imu(message: Message) -> Heard:
+    numbers = [
+        *_quaternion(message.orientation),
+        *_flat(message.orientation_covariance),
+        *_vector(message.angular_velocity),
+        *_flat(message.angular_velocity_covariance),
+        *_vector(message.linear_acceleration),
+        *_flat(message.linear_acceleration_covariance),
+    ]
+    return _with_header(message, "", numbers)
+
+
+_HEARD: dict[Kind, Callable[[Message], Heard]] = {
+    "odom": _heard_odometry,
+    "pose": _heard_pose,
+    "twist": _heard_twist,
+    "imu": _heard_imu,
+}
+
+
+def _with_header(message: Message, child: str, numbers: list[float]) -> Heard:
+    return Heard(stamp_of(message), message.header.frame_id.lstrip("/"), child, np.array(numbers))
+
+
+def _pose_numbers(part: Message) -> list[float]:
+    return [*_vector(part.pose.position), *_quaternion(part.pose.orientation), *_flat(part.covariance)]
+
+
+def _twist_numbers(part: Message) -> list[float]:
+    return [*_vector(part.twist.linear), *_vector(part.twist.angular), *_flat(part.covariance)]
 
 
 def _vector(message: Message) -> Vector:
@@ -164,5 +220,5 @@ def _quaternion(message: Message) -> Quaternion:
     return message.x, message.y, message.z, message.w
 
 
-def _matrix(values: Message, size: int) -> Array:
-    return np.asarray(values, dtype=np.float64).reshape(size, size)
+def _flat(values: Message) -> list[float]:
+    return values.tolist() if isinstance(values, np.ndarray) else list(values)

@@ -52,6 +52,34 @@ def rpy_from_matrix(matrix: Array) -> Angles:
     return math.atan2(m21, m22), math.asin(-m20), math.atan2(m10, m00)
 
 
+def rpy_from_quaternion(quaternion: Quaternion) -> Angles:
+    """Roll, pitch and yaw of a quaternion of any length, as `rpy_from_matrix` gives them; zero is no rotation."""
+    x, y, z, w = quaternion
+    square = x * x + y * y + z * z + w * w
+    if square == 0.0:
+        return 0.0, 0.0, 0.0
+    s = 2.0 / square
+    m20 = s * (x * z - w * y)
+    if abs(m20) > _GIMBAL_LOCK:
+        yaw = math.atan2(s * (w * z - x * y), 1.0 - s * (x * x + z * z))
+        return 0.0, math.copysign(math.pi / 2.0, -m20), yaw
+    return (
+        math.atan2(s * (y * z + w * x), 1.0 - s * (x * x + y * y)),
+        math.asin(-m20),
+        math.atan2(s * (x * y + w * z), 1.0 - s * (y * y + z * z)),
+    )
+
+
+def up_seen_by(quaternion: Quaternion) -> Angles:
+    """The world's unit vector upwards, in the axes of a body with this attitude."""
+    x, y, z, w = quaternion
+    square = x * x + y * y + z * z + w * w
+    if square == 0.0:
+        return 0.0, 0.0, 1.0
+    s = 2.0 / square
+    return s * (x * z - w * y), s * (y * z + w * x), 1.0 - s * (x * x + y * y)
+
+
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
     """Unit quaternion of roll, pitch and yaw in radians."""
     sr, cr = math.sin(roll / 2.0), math.cos(roll / 2.0)

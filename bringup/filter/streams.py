@@ -1,22 +1,24 @@
 """One stream per part of a sensor's messages: how a message becomes something that can be measured."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
-from functools import partial
-from typing import TypeAlias
+from typing import Any, TypeAlias
 
 from bringup.filter import readings
 from bringup.filter.estimator import Estimator
 from bringup.filter.frames import FrameResolver
 from bringup.filter.fusion import Fusion
 from bringup.filter.measurement import Measurement
-from bringup.filter.motion_parts import AccelerationMeasuring, TwistMeasuring
+from bringup.filter.motion_parts import AccelerationMeasuring, TurningMeasuring, TwistMeasuring
+from bringup.filter.mounting import Mountings
 from bringup.filter.notices import Notices, check_orientation
 from bringup.filter.pose_parts import OrientationMeasuring, PoseMeasuring, PoseTrack
 from bringup.filter.rigid import IDENTITY, Transform
 from bringup.filter.settings import Kind, Part, Sensor, Settings
 
 FramePair: TypeAlias = tuple[str, str]
+# What a part has read in a message; each stream hands its own kind back to itself.
+Reading: TypeAlias = Any
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -32,71 +34,64 @@ class Surroundings:
     def between(self, pair: FramePair, stamp: int, part: str) -> Transform | None:
         """Find the transform to the first frame from the second; what cannot be found is noted."""
         target, source = pair
-        key = f"{part}_transform_{source}"
         found = self.frames.between(target, source, stamp)
-        if found is not None:
-            self.notices.withdraw(key)
-        else:
+        if found is None:
             text = f"{part}: no transform from {source} to {target}; the measurement is not used"
-            self.notices.error(key, text)
+            self.notices.error(f"{part}_transform_{source}", text)
+        elif self.notices:
+            self.notices.withdraw(f"{part}_transform_{source}")
         return found
-
-
-@dataclass(frozen=True, slots=True, eq=False)
-class Prepared:
-    """A message part that has been read: the transforms it needs (target, source), and the step that is left."""
-
-    stamp: int
-    pairs: tuple[FramePair, ...]
-    measure: Callable[[], Measurement | None]
 
 
 @dataclass(slots=True, eq=False)
 class Stream:
-    """One part of a sensor; `newest` is the stamp (ns) of its last message."""
+    """One part of a sensor.
+
+    `read` takes the part out of a message (None: the message has none); `pairs` names the transforms that it needs
+    (target, source); `measure` does the rest. `newest` is the stamp (ns) of its last message.
+    """
 
     name: str
-    prepare: Callable[[readings.Message], Prepared | None]
+    read: Callable[[readings.Heard], Reading]
+    pairs: Callable[[Reading], tuple[FramePair, ...]]
+    measure: Callable[[Reading], Measurement | None]
+    mountings: Mountings
     track: PoseTrack | None = None
     newest: int = 0
 
 
 def streams_of(sensor: Sensor, around: Surroundings) -> list[Stream]:
     """List the streams of a sensor, in the order in which upstream takes its parts."""
-    return _STREAMS[sensor.kind](sensor, around)
+    return list(_STREAMS[sensor.kind](sensor, around))
 
 
-def _odometry(sensor: Sensor, around: Surroundings) -> list[Stream]:
-    streams = []
+def _odometry(sensor: Sensor, around: Surroundings) -> Iterator[Stream]:
     if sensor.pose is not None:
-        streams.append(_pose_stream(sensor.pose, readings.odometry_pose, around))
+        yield _pose_stream(sensor.pose, readings.odometry_pose, around)
     if sensor.twist is not None:
-        streams.append(_twist_stream(sensor.twist, readings.odometry_twist, around))
-    return streams
+        yield _twist_stream(sensor.twist, readings.odometry_twist, around)
 
 
-def _pose(sensor: Sensor, around: Surroundings) -> list[Stream]:
-    return [] if sensor.pose is None else [_pose_stream(sensor.pose, readings.pose, around)]
-
-
-def _twist(sensor: Sensor, around: Surroundings) -> list[Stream]:
-    return [] if sensor.twist is None else [_twist_stream(sensor.twist, readings.twist, around)]
-
-
-def _imu(sensor: Sensor, around: Surroundings) -> list[Stream]:
-    streams = []
+def _pose(sensor: Sensor, around: Surroundings) -> Iterator[Stream]:
     if sensor.pose is not None:
-        streams.append(_orientation_stream(sensor.pose, around))
+        yield _pose_stream(sensor.pose, readings.pose, around)
+
+
+def _twist(sensor: Sensor, around: Surroundings) -> Iterator[Stream]:
     if sensor.twist is not None:
-        streams.append(_twist_stream(sensor.twist, readings.imu_twist, around))
+        yield _twist_stream(sensor.twist, readings.twist, around)
+
+
+def _imu(sensor: Sensor, around: Surroundings) -> Iterator[Stream]:
+    if sensor.pose is not None:
+        yield _orientation_stream(sensor.pose, around)
+    if sensor.twist is not None:
+        yield _turning_stream(sensor.twist, around)
     if sensor.acceleration is not None:
-        streams.append(
-            _acceleration_stream(sensor.acceleration, around, remove_gravity=sensor.remove_gravity)
-        )
-    return streams
+        yield _acceleration_stream(sensor.acceleration, around, remove_gravity=sensor.remove_gravity)
 
 
-_STREAMS: dict[Kind, Callable[[Sensor, Surroundings], list[Stream]]] = {
+_STREAMS: dict[Kind, Callable[[Sensor, Surroundings], Iterator[Stream]]] = {
     "odom": _odometry,
     "pose": _pose,
     "twist": _twist,
@@ -105,7 +100,7 @@ _STREAMS: dict[Kind, Callable[[Sensor, Surroundings], list[Stream]]] = {
 
 
 def _pose_stream(
-    part: Part, read: Callable[[readings.Message], readings.PoseReading], around: Surroundings
+    part: Part, read: Callable[[readings.Heard], readings.PoseReading], around: Surroundings
 ) -> Stream:
     measuring = PoseMeasuring(part, two_d_mode=around.settings.estimation.two_d_mode)
     world, base = around.settings.frames.world, around.settings.frames.base_link
@@ -123,15 +118,11 @@ def _pose_stream(
             return None
         return measuring.measure(reading, frame, to_base)
 
-    def prepare(message: readings.Message) -> Prepared:
-        reading = read(message)
-        return Prepared(reading.stamp, pairs(reading), partial(measure, reading))
-
-    return Stream(part.name, prepare, measuring.track)
+    return Stream(part.name, read, pairs, measure, measuring.mountings, measuring.track)
 
 
 def _twist_stream(
-    part: Part, read: Callable[[readings.Message], readings.TwistReading | None], around: Surroundings
+    part: Part, read: Callable[[readings.Heard], readings.TwistReading], around: Surroundings
 ) -> Stream:
     measuring = TwistMeasuring(part, two_d_mode=around.settings.estimation.two_d_mode)
     base = around.settings.frames.base_link
@@ -140,13 +131,18 @@ def _twist_stream(
         sensor = around.between((base, reading.frame), reading.stamp, part.name)
         return None if sensor is None else measuring.measure(reading, sensor, around.estimator.state)
 
-    def prepare(message: readings.Message) -> Prepared | None:
-        reading = read(message)
-        if reading is None:
-            return None
-        return Prepared(reading.stamp, ((base, reading.frame),), partial(measure, reading))
+    return Stream(part.name, read, _mounted_on(base), measure, measuring.mountings)
 
-    return Stream(part.name, prepare)
+
+def _turning_stream(part: Part, around: Surroundings) -> Stream:
+    measuring = TurningMeasuring(part, two_d_mode=around.settings.estimation.two_d_mode)
+    base = around.settings.frames.base_link
+
+    def measure(reading: readings.TurningReading) -> Measurement | None:
+        sensor = around.between((base, reading.frame), reading.stamp, part.name)
+        return None if sensor is None else measuring.measure(reading, sensor)
+
+    return Stream(part.name, readings.imu_turning, _mounted_on(base), measure, measuring.mountings)
 
 
 def _orientation_stream(part: Part, around: Surroundings) -> Stream:
@@ -158,13 +154,9 @@ def _orientation_stream(part: Part, around: Surroundings) -> Stream:
         sensor = around.between((base, reading.frame), reading.stamp, part.name)
         return None if sensor is None else measuring.measure(reading, sensor)
 
-    def prepare(message: readings.Message) -> Prepared | None:
-        reading = readings.imu_orientation(message)
-        if reading is None:
-            return None
-        return Prepared(reading.stamp, ((base, reading.frame),), partial(measure, reading))
-
-    return Stream(part.name, prepare, measuring.track)
+    return Stream(
+        part.name, readings.imu_orientation, _mounted_on(base), measure, measuring.mountings, measuring.track
+    )
 
 
 def _acceleration_stream(part: Part, around: Surroundings, *, remove_gravity: bool) -> Stream:
@@ -180,10 +172,8 @@ def _acceleration_stream(part: Part, around: Surroundings, *, remove_gravity: bo
         turning = around.fusion.angular_acceleration
         return measuring.measure(reading, sensor, around.estimator.state, turning)
 
-    def prepare(message: readings.Message) -> Prepared | None:
-        reading = readings.imu_acceleration(message)
-        if reading is None:
-            return None
-        return Prepared(reading.stamp, ((base, reading.frame),), partial(measure, reading))
+    return Stream(part.name, readings.imu_acceleration, _mounted_on(base), measure, measuring.mountings)
 
-    return Stream(part.name, prepare)
+
+def _mounted_on(base: str) -> Callable[[Reading], tuple[FramePair, ...]]:
+    return lambda reading: ((base, reading.frame),)
