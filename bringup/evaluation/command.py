@@ -5,15 +5,21 @@ from __future__ import annotations
 import argparse
 import os
 import sys
+from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 import yaml
 
 from bringup.evaluation.bar import moments, summary, unmet
+from bringup.evaluation.ground import facts
+from bringup.evaluation.lockstep import run
 from bringup.evaluation.many import Runs, outcomes
-from bringup.evaluation.scenario import Choice
+from bringup.evaluation.recording import Writer, read
+from bringup.evaluation.scenario import Choice, scenario
 from bringup.evaluation.table import heading, lines, row
-from bringup.world.layout import WORLDS
+from bringup.evaluation.tracks import tracks, write
+from bringup.world.layout import WORLDS, lay_out
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -47,6 +53,17 @@ def parser() -> argparse.ArgumentParser:
     bar.add_argument("--world", nargs="+", choices=list(WORLDS), default=["arena"], help="default: arena")
     _add_choice(bar)
     bar.set_defaults(run=consistency)
+    lockstep = words.add_parser("run", help="run one seed in lockstep and write a recording")
+    lockstep.add_argument("file", type=Path, help="the recording")
+    _add_one(lockstep)
+    lockstep.set_defaults(run=run_one)
+    draw = words.add_parser("draw", help="draw a recording, or a new run in lockstep")
+    draw.add_argument(
+        "folder", type=Path, help="where trajectories, errors, consistency and report.html are written"
+    )
+    draw.add_argument("--recording", type=Path, help="what to draw (default: a run with the options below)")
+    _add_one(draw)
+    draw.set_defaults(run=draw_one)
     return made
 
 
@@ -68,6 +85,44 @@ def consistency(arguments: argparse.Namespace) -> int:
     for fault in faults:
         _say(f"not met: {fault}")
     return FAILED if faults else 0
+
+
+def run_one(arguments: argparse.Namespace) -> int:
+    """Run a world and write what happened."""
+    _simulate(arguments, arguments.file)
+    return 0
+
+
+def draw_one(arguments: argparse.Namespace) -> int:
+    """Draw a recording; without one, of a run that is made for it."""
+    # Here, because matplotlib takes longer to import than all the rest.
+    from bringup.evaluation.pictures import draw  # noqa: PLC0415
+
+    with TemporaryDirectory() as scratch:
+        path = arguments.recording
+        if path is None:
+            path = Path(scratch) / "run"
+            _simulate(arguments, path)
+        recording = read(path)
+    notes = () if recording.whole else ("The recording breaks off.",)
+    for written in draw(tracks(recording), recording.facts, arguments.folder, notes):
+        _say(str(written))
+    return 0
+
+
+def _simulate(arguments: argparse.Namespace, path: Path) -> None:
+    chosen = scenario(_choice(arguments), world=arguments.world, seed=arguments.seed)
+    world = chosen.world
+    layout = lay_out(world.world, world.seed, world.robots, world.start_poses)
+    with Writer(path) as writer:
+        writer.tell({"robots": list(world.robots), **facts(layout)})
+        write(writer, run(chosen))
+
+
+def _add_one(word: argparse.ArgumentParser) -> None:
+    word.add_argument("--world", choices=list(WORLDS), default="arena", help="default: arena")
+    word.add_argument("--seed", type=int, default=1, help="default %(default)s")
+    _add_choice(word)
 
 
 def _add_choice(word: argparse.ArgumentParser) -> None:
