@@ -13,6 +13,7 @@ from orchestra.resolve.namespaces import namespace_at
 from orchestra.resolve.node_names import named
 from orchestra.resolve.parameters import parameters
 from orchestra.resolve.params_schema import params_schema
+from orchestra.resolve.python_components import check_plugin
 from orchestra.resolve.reactions import ResolvedLoad
 from orchestra.resolve.refusals import missing_package, report_missing_package
 from orchestra.resolve.remapping import remaps
@@ -66,7 +67,9 @@ def _package(written: ComposableNode, run: Resolution) -> str | Poison | None:
 def _component(
     written: ComposableNode, container: Container, run: Resolution, *, delayed: bool
 ) -> ResolvedComponent:
-    package, plugin = _package(written, run), run.text(written.plugin)
+    package, plugin = _package(written, run), run.evaluate(written.plugin)
+    if isinstance(package, str) and isinstance(plugin, Value) and not written.faulty:
+        plugin = check_plugin(package, plugin, run)
     name, namespace = named(written.name, run), namespace_at(written.namespace, written.span, run)
     own, whole = parameters(written.param, run, component=True)
     extra, told = parameters(written.extra_arg, run, component=True, quotes=False)
@@ -77,7 +80,7 @@ def _component(
     sound = whole and told and regular and not any(isinstance(value, Poison) for value in values)
     return ResolvedComponent(
         package=package if isinstance(package, str) else written.pkg.raw,
-        plugin=plugin if isinstance(plugin, str) else written.plugin.raw,
+        plugin=plugin.text if isinstance(plugin, Value) else written.plugin.raw,
         name=name if isinstance(name, Value) and not isinstance(namespace, Poison) else None,
         namespace=namespace if isinstance(namespace, Value) else None,
         container=container.name,

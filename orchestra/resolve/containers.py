@@ -1,7 +1,8 @@
 """Containers that Orchestra has itself, for components in Python.
 
-They are called as those of rclcpp_components, whose place they take where that is not installed and whatever is loaded
-into them is in Python. This is known when everything has been visited.
+They are called as those of rclcpp_components. They take the place of those where that package is not installed and
+nothing is loaded that is not in Python, and where it is and all components are named as `module:Class`, which it cannot
+load. This is known when everything has been visited.
 """
 
 from __future__ import annotations
@@ -14,7 +15,7 @@ from orchestra.description.text import Template
 from orchestra.fields import replace
 from orchestra.resolve.context import Context, Value
 from orchestra.resolve.names import full_name
-from orchestra.resolve.packages.components import declared_components, target_of
+from orchestra.resolve.packages.components import declared_components, is_named_by_module, target_of
 from orchestra.resolve.refusals import report_missing_package
 from orchestra.witness.once import once
 
@@ -53,7 +54,7 @@ def own_words(
         return None
     if package.text != _PACKAGES[-1] and run.context.packages.prefix(package.text) is not None:
         return None
-    words = (sys.executable, "-m", "orchestra.ros.container", executable.text)
+    words = _words(executable.text)
     if package.text == _CPP:
         others = (f"${{prefix:{_CPP}}}/lib/{_CPP}/{executable.text}",)
         run.found.stand_ins.append(StandIn(words, others, package, written, replace(run.context)))
@@ -66,15 +67,26 @@ def known_components() -> tuple[EntryPoint, ...]:
 
 
 def settle_containers(run: Resolution) -> None:
-    """Put back the containers into which components are loaded that are not in Python."""
+    """Decide for each container of rclcpp_components whether it is one of ours, by what is loaded into it."""
     stand_ins, run.found.stand_ins = run.found.stand_ins, []
-    for stand_in in stand_ins:
-        for index, process in enumerate(run.found.processes):
-            if process.program is stand_in.words:
-                _settle(stand_in, index, run)
+    for index, process in enumerate(run.found.processes):
+        if process.package != _CPP or process.executable not in _EXECUTABLES:
+            continue
+        stand_in = next((one for one in stand_ins if one.words is process.program), None)
+        if stand_in is not None:
+            _put_back(stand_in, index, run)
+        elif run.context.packages.prefix(_CPP) is not None:
+            components = [*_loaded_into(index, process, run)]
+            if components and all(is_named_by_module(one.plugin) for one in components):
+                run.found.processes[index] = replace(process, program=_words(process.executable))
 
 
-def _settle(stand_in: StandIn, index: int, run: Resolution) -> None:
+def _words(executable: str) -> tuple[str, ...]:
+    return (sys.executable, "-m", "orchestra.ros.container", executable)
+
+
+def _put_back(stand_in: StandIn, index: int, run: Resolution) -> None:
+    """Put back a container into which something is loaded that is not in Python, and tell of its missing package."""
     process = run.found.processes[index]
     foreign = [one for one in _loaded_into(index, process, run) if not _is_ours(one)]
     if not foreign:

@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from orchestra.resolve.resolution import Resolution
 
 # Variables that decide where the interpreter of a node looks for modules.
-_PATHS: Final = frozenset({"PYTHONPATH", "PYTHONHOME", "PYTHONSAFEPATH"})
+PATHS: Final = frozenset({"PYTHONPATH", "PYTHONHOME", "PYTHONSAFEPATH"})
 
 
 def module_words(module: Value, action: Node, run: Resolution) -> tuple[str, ...] | Poison:
@@ -49,7 +49,7 @@ def module_fault(module: str, action: Node, run: Resolution) -> Unrunnable | Non
     """Return why a node's module cannot be run, None where nobody can tell: with a path of its own."""
     own = {pair.name.constant for pair in (*(action.env_only or ()), *action.env)}
     cwd = "." if action.cwd is None else action.cwd.constant
-    if cwd is None or None in own or _PATHS & {*own, *run.scope.changes}:
+    if cwd is None or None in own or PATHS & {*own, *run.scope.changes}:
         return None
     folder = str(Path.cwd() / cwd)
     return once(("module", module, folder, *sys.path), lambda: unrunnable(module, folder))

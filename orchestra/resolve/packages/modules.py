@@ -38,6 +38,33 @@ def unrunnable(module: str, cwd: str) -> Unrunnable | None:
 
     `cwd` is the working directory, in which `python -m` looks first.
     """
+    places = _places(module, cwd)
+    if isinstance(places, Unrunnable):
+        return places
+    if places and all(map(os.path.isdir, places)) and _look(places, "__main__") is None:
+        return Unrunnable(f"{module!r} is a package without `__main__`: it cannot be run")
+    return None
+
+
+def unimportable(module: str, cwd: str) -> Unrunnable | None:
+    """Return why a module cannot be imported in a folder, None where nothing speaks against it."""
+    places = _places(module, cwd)
+    return places if isinstance(places, Unrunnable) else None
+
+
+def source_of(module: str, cwd: str) -> Path | None:
+    """Return the source of a module that can be imported, None where nobody can tell."""
+    above, _, name = module.rpartition(".")
+    folders = _places(above, cwd) if above else [cwd, *sys.path]
+    if isinstance(folders, Unrunnable):
+        return None
+    found = (Path(folder, name) for folder in folders)
+    paths = (path for stem in found for path in (stem / "__init__.py", stem.with_name(f"{name}.py")))
+    return next((path for path in paths if is_file(path)), None)
+
+
+def _places(module: str, cwd: str) -> list[str] | Unrunnable:
+    """Return the folders of a package, none for a module or where nobody can tell, or why it cannot be found."""
     parts = module.split(".")
     if not all(part.isidentifier() for part in parts):
         return Unrunnable(f"{module!r} is no name of a module")
@@ -47,16 +74,14 @@ def unrunnable(module: str, cwd: str) -> Unrunnable | None:
         return _missing(parts, 0, folders, certain=False)
     for index, part in enumerate(parts[1:], 1):
         if not all(map(os.path.isdir, places)):
-            return None
+            return []
         if not places:
             return Unrunnable(f"module {'.'.join(parts[:index])!r} is no package: it has no {part!r}")
         inner = _look(places, part)
         if inner is None:
             return _missing(parts, index, places)
         places = inner
-    if places and all(map(os.path.isdir, places)) and _look(places, "__main__") is None:
-        return Unrunnable(f"{module!r} is a package without `__main__`: it cannot be run")
-    return None
+    return places
 
 
 def _missing(parts: Sequence[str], index: int, folders: Iterable[str], *, certain: bool = True) -> Unrunnable:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 import traceback
+from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final
 
 from rclpy.logging import LoggingSeverity, set_logger_level
@@ -12,7 +13,7 @@ from orchestra.ros.container.component import made, take_away
 from orchestra.ros.container.plugins import Plugins
 from orchestra.ros.container.refusal import RefusalError
 from orchestra.ros.container.request import given_by
-from orchestra.ros.interfaces import load_node_type
+from orchestra.ros.interfaces.definitions import provide
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -20,6 +21,7 @@ if TYPE_CHECKING:
     from orchestra.ros.container.component import Component
     from orchestra.ros.container.hosting import Hosting
 
+_PACKAGE: Final = "composition_interfaces"
 _SERVICES: Final = "~/_container"
 
 
@@ -32,7 +34,11 @@ class Container:
         self._plugins = Plugins()
         self._components: dict[int, Component] = {}
         self._latest = 0
-        manager.create_service(load_node_type(), f"{_SERVICES}/load_node", self._load)
+        provide(_PACKAGE)
+        types = import_module(f"{_PACKAGE}.srv")
+        manager.create_service(types.LoadNode, f"{_SERVICES}/load_node", self._load)
+        manager.create_service(types.UnloadNode, f"{_SERVICES}/unload_node", self._unload)
+        manager.create_service(types.ListNodes, f"{_SERVICES}/list_nodes", self._list)
 
     def component_of(self, node: Node | None) -> Component | None:
         """Return the component that a node belongs to."""

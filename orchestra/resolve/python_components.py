@@ -1,0 +1,98 @@
+"""Components in Python as a launch file names them: what can be told of one without importing anything."""
+
+from __future__ import annotations
+
+import ast
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from orchestra.errors import Code
+from orchestra.nearest import is_slip, nearest
+from orchestra.resolve.containers import known_components
+from orchestra.resolve.packages.components import is_named_by_module, target_of
+from orchestra.resolve.packages.modules import Unrunnable, source_of, unimportable
+from orchestra.resolve.python_programs import PATHS
+from orchestra.resolve.refusals import refuse_value
+from orchestra.witness.once import once
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from orchestra.resolve.context import Poison, Value
+    from orchestra.resolve.resolution import Resolution
+
+# Names that a module has for itself.
+_OWN_WAY: Final = frozenset({"__getattr__", "*"})
+
+
+def check_plugin(package: str, plugin: Value, run: Resolution) -> Value | Poison:
+    """Return a plugin; one that must be in Python and is not here is reported.
+
+    Where nothing is started another environment may have it: then it is a warning, unless its name is a slip.
+    """
+    fault = _fault(package, plugin.text, run)
+    if fault is None:
+        return plugin
+    slip = fault.meant is not None and is_slip(plugin.text, fault.meant)
+    if fault.certain or run.inputs.launching or slip:
+        return refuse_value(plugin, run.problems, Code.MISSING_EXECUTABLE, fault.told, meant=fault.meant)
+    run.problems.warning(Code.MISSING_EXECUTABLE, f"{fault.told} on this machine", plugin.location)
+    return plugin
+
+
+def _fault(package: str, plugin: str, run: Resolution) -> Unrunnable | None:
+    known = known_components()
+    if target_of(package, plugin, known) is None:
+        own = [point.name for point in known if package in point.owners]
+        meant = nearest(plugin, own)
+        slip = meant is not None and is_slip(plugin, meant)
+        return Unrunnable(f"package {package!r} has no component {plugin!r}", meant) if slip else None
+    if not is_named_by_module(plugin) or not run.scope.changes.keys().isdisjoint(PATHS):
+        return None
+    folder = str(Path.cwd())
+    return once(("component", plugin, folder, *sys.path), lambda: _fault_in(plugin, folder))
+
+
+def _fault_in(plugin: str, folder: str) -> Unrunnable | None:
+    """Return why nothing is called so in a module."""
+    module, _, name = plugin.partition(":")
+    fault = unimportable(module, folder)
+    if fault is not None:
+        return fault if fault.meant is None else fault._replace(meant=f"{fault.meant}:{name}")
+    first, _, rest = name.partition(".")
+    names = _names_in(source_of(module, folder))
+    if names is None or first in names:
+        return None
+    meant = nearest(first, names)
+    whole = None if meant is None else f"{module}:{meant}{rest and '.'}{rest}"
+    return Unrunnable(f"module {module!r} has no {first!r}", whole)
+
+
+def _names_in(source: Path | None) -> set[str] | None:
+    """Return the names that a module gives to something, None where nobody can tell without running it."""
+    if source is None:
+        return None
+    try:
+        tree = ast.parse(source.read_bytes())
+    except (OSError, SyntaxError, ValueError):
+        return None
+    names = set(_bound(tree))
+    return None if names & _OWN_WAY or _writes_globals(tree) else names
+
+
+def _bound(tree: ast.Module) -> Iterator[str]:
+    """Yield the names that are bound at the top of a module, in branches and loops too, and inside of functions."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef):
+            yield node.name
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            yield from ((alias.asname or alias.name).partition(".")[0] for alias in node.names)
+        elif isinstance(node, ast.Name) and isinstance(node.ctx, ast.Store):
+            yield node.id
+
+
+def _writes_globals(tree: ast.Module) -> bool:
+    return any(
+        isinstance(node, ast.Name) and node.id in ("globals", "setattr", "exec") for node in ast.walk(tree)
+    )
