@@ -1,7 +1,7 @@
 """A run in a file: rows of numbers in small compressed blocks, each with its length and checksum.
 
 Whoever is killed while writing loses the block at hand, at most a second, and nothing before it. A block holds either
-facts (JSON: robots, map, names) or rows; facts that come later are added to those before.
+facts (JSON: robots, map, names), rows, or that all rows before it do not count; facts add to those before.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 MAGIC = b"bringup recording 1\n"
 BLOCK = struct.Struct("<II")
-FACTS, ROWS = b"F", b"R"
+FACTS, ROWS, AFRESH = b"F", b"R", b"A"
 # x, y, yaw and, of the filter, the upper half of their covariance, row by row.
 WIDTH = 9
 ROW = np.dtype([("kind", "u1"), ("robot", "u1"), ("stamp", "<i8"), ("values", "<f8", (WIDTH,))])
@@ -48,6 +48,10 @@ class Writer:
     def __exit__(
         self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
     ) -> None:
+        self.close()
+
+    def close(self) -> None:
+        """Write what is kept, and no more."""
         self.flush()
         self._file.close()
 
@@ -58,6 +62,11 @@ class Writer:
     def add(self, kind: int, robot: int, stamp: int, values: Sequence[float]) -> None:
         """Keep a row until the next flush; `robot` is a place in the fact `robots`, `stamp` nanoseconds."""
         self._pending.append((kind, robot, stamp, (*values, *(0.0,) * (WIDTH - len(values)))))
+
+    def begin_afresh(self) -> None:
+        """Make all rows so far count no more; facts stay."""
+        self._pending.clear()
+        self._block(AFRESH)
 
     def flush(self) -> None:
         """Write what is kept."""
@@ -99,6 +108,8 @@ def read(path: Path) -> Recording:
         block = zlib.decompress(packed)
         if block.startswith(FACTS):
             facts.update(json.loads(block[1:]))
+        elif block.startswith(AFRESH):
+            del rows[1:]
         else:
             rows.append(np.frombuffer(block[1:], dtype=ROW))
     return Recording(facts, np.concatenate(rows), whole=place == len(content))
