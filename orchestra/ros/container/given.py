@@ -53,7 +53,8 @@ _MAKING: ContextVar[Making | None] = ContextVar("making", default=None)
 def install() -> None:
     """Have every node of this process made with what it is given, from now on.
 
-    No node listens to the arguments of the process unless it is told to: they rename the container.
+    No node listens to the arguments of the process unless it is told to, since they rename the container;
+    `rclpy.create_node` asks for them in any case.
     """
     original = Node.__init__
 
@@ -61,11 +62,11 @@ def install() -> None:
     def __init__(self: Node, *words: Any, **options: Any) -> None:  # noqa: ANN401, N807 - of an untyped package
         making = _MAKING.get()
         if making is None:
-            original(self, *words, **{"use_global_arguments": False, **options})
+            original(self, *words, **{**options, "use_global_arguments": False})
             return
         making.nodes.append(self)
         if not making.takes(self):
-            original(self, *words, **{"use_global_arguments": making.given.of_all, **options})
+            original(self, *words, **{**options, "use_global_arguments": making.given.of_all})
             return
         making.done = True
         original(self, *words, **_with(making.given, options))

@@ -10,7 +10,7 @@ import rclpy
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
-from orchestra.ros.container.given import install
+from orchestra.ros.container import given, type_descriptions
 from orchestra.ros.container.hosting import EXECUTABLES
 from orchestra.ros.container.services import Container
 
@@ -37,7 +37,8 @@ def run(words: Sequence[str], ending: Ending) -> int:
     rclpy.init(args=list(words), signal_handler_options=SignalHandlerOptions.NO)
     try:
         manager = Node(_NAME)
-        install()
+        given.install()
+        type_descriptions.install(manager)
         return _served(manager, executable, words, ending)
     finally:
         rclpy.try_shutdown()
