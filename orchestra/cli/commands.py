@@ -54,6 +54,7 @@ COMMANDS: Final[dict[str, Command]] = {
     "tf": Command("orchestra.cli.ros.tf", "show the transforms between frames"),
     "graph": Command("orchestra.cli.ros.graph", "draw which nodes talk on which topics"),
     "doctor": Command("orchestra.cli.ros.doctor", "say what is wrong in the running graph"),
+    "bag": Command("orchestra.cli.ros.bag", "record messages and play them again"),
     "completion": Command(
         "orchestra.cli.completion", "print what makes a shell complete these command lines"
     ),

@@ -66,7 +66,7 @@ def _words(command: str, metavar: str, before: Sequence[str], begun: str) -> Ite
         return map(Candidate, Interfaces(os.environ).all(kinds))
     if metavar == "PACKAGE":
         return map(Candidate, InstalledPackages(os.environ).names())
-    return paths(begun) if metavar == "FILE" else ()
+    return paths(begun) if metavar in ("FILE", "BAG") else ()
 
 
 def _names(words: Sequence[str], key: str | None) -> Iterator[Candidate]:

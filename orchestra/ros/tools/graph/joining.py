@@ -56,6 +56,12 @@ class Graph:
         self._executor.spin_once(timeout_sec=min(seconds, _PAUSE))
         self._ending.check()
 
+    def pause(self, seconds: float) -> None:
+        """Let a time pass in which nothing is heard, for those who take what comes themselves."""
+        self._has_met()
+        time.sleep(seconds)
+        self._ending.check()
+
     def wait(self, holds: Callable[[], Any], seconds: float | None) -> bool:
         """Wait until something holds, without end where no time is given; return whether it does."""
         until = None if seconds is None else time.monotonic() + seconds

@@ -33,7 +33,7 @@ _POLICIES = {
 }
 _PROFILES = [dict(zip(_POLICIES, values, strict=True)) for values in itertools.product(*_POLICIES.values())]
 # How long the durations are that can be asked for and offered; they differ in their order alone.
-_SPANS = (
+_SPANS: tuple[tuple[dict[str, Any], dict[str, Any]], ...] = (
     ({"deadline": Duration(seconds=50)}, {"deadline": Duration(seconds=60)}),
     (
         {"liveliness_lease_duration": Duration(seconds=50)},

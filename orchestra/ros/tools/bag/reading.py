@@ -1,0 +1,216 @@
+"""Reads bags: folders with `metadata.yaml` and MCAP files, and single MCAP files. Times in nanoseconds.
+
+A file that was not closed, since its recorder was killed or the disk was full, is read up to where it breaks off.
+"""
+
+from __future__ import annotations
+
+import heapq
+import struct
+from contextlib import ExitStack
+from itertools import count
+from typing import TYPE_CHECKING, Final
+
+from mcap.exceptions import McapError
+from mcap.reader import make_reader
+from mcap.records import Channel, Header, Message, Schema
+from mcap.stream_reader import StreamReader
+from zstandard import ZstdError
+
+from orchestra.dataclass import dataclass
+from orchestra.errors import RunError
+from orchestra.fields import replace
+from orchestra.ros.tools.bag import summary
+from orchestra.ros.tools.bag.summary import Summary, Topic
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+    from pathlib import Path
+    from typing import BinaryIO, Self
+
+    from mcap.summary import Summary as Index
+
+_SUFFIX: Final = ".mcap"
+# Messages of a broken file are put in order among so many: those that were heard at one time stand together in it.
+_AMONG: Final = 10_000
+_BROKEN: Final = (McapError, ValueError, struct.error)
+
+
+@dataclass(frozen=True, slots=True)
+class Recorded:
+    """A message as it was recorded."""
+
+    topic: str
+    log_time: int
+    publish_time: int
+    data: bytes
+
+
+class Bag:
+    """An open bag. `broken` are the files that have no end."""
+
+    def __init__(self, path: Path) -> None:
+        """Open it. Raises `RunError` where there is no bag, or one that cannot be read."""
+        self.path = path
+        self.files = _files(path)
+        self.broken: list[Path] = []
+        self._streams: list[BinaryIO] = []
+        self._open = ExitStack()
+        try:
+            self._topics: dict[str, Topic] = {}
+            self._spans: list[tuple[int, int]] = []
+            for file in self.files:
+                stream = self._open.enter_context(file.open("rb"))
+                self._streams.append(stream)
+                self._learn(file, stream)
+        except BaseException:
+            self._open.close()
+            raise
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self._open.close()
+
+    @property
+    def size(self) -> int:
+        """How many bytes its files have."""
+        return sum(file.stat().st_size for file in self.files)
+
+    def summary(self) -> Summary:
+        """Return what is in it."""
+        topics = tuple(topic for _, topic in sorted(self._topics.items()))
+        start = min((span[0] for span in self._spans), default=0)
+        end = max((span[1] for span in self._spans), default=0)
+        return Summary(tuple(file.name for file in self.files), topics, start, end)
+
+    def messages(self, wanted: Callable[[str], bool], since: int = 0) -> Iterator[Recorded]:
+        """Yield the messages of topics, from a time on, in the order of recording. Raises `RunError`."""
+        names = [name for name in self._topics if wanted(name)]
+        for file, stream in zip(self.files, self._streams, strict=True):
+            stream.seek(0)
+            if file in self.broken:
+                yield from (
+                    one for one in _ordered(_scanned(stream)) if one.topic in names and one.log_time >= since
+                )
+                continue
+            try:
+                for _, channel, message in make_reader(stream).iter_messages(topics=names, starting_at=since):
+                    yield _recorded(channel, message)
+            except (*_BROKEN, RuntimeError, ZstdError) as error:  # the second is what lz4 raises
+                raise RunError(f"{file} cannot be read: {error}") from None
+
+    def _learn(self, file: Path, stream: BinaryIO) -> None:
+        index = _index(file, stream)
+        if index is None or index.statistics is None:
+            self._learn_by_reading(file, stream)
+            return
+        statistics = index.statistics
+        for number, channel in index.channels.items():
+            schema = index.schemas.get(channel.schema_id)
+            self._add(channel, schema, statistics.channel_message_counts.get(number, 0))
+        if statistics.message_count:
+            self._spans.append((statistics.message_start_time, statistics.message_end_time))
+
+    def _learn_by_reading(self, file: Path, stream: BinaryIO) -> None:
+        """Learn what is in a file that has no end."""
+        self.broken.append(file)
+        stream.seek(0)
+        schemas: dict[int, Schema] = {}
+        channels: dict[int, Channel] = {}
+        counts: dict[int, int] = {}
+        span: tuple[int, int] | None = None
+        for record in _records(stream):
+            if isinstance(record, Schema):
+                schemas[record.id] = record
+            elif isinstance(record, Channel):
+                channels[record.id] = record
+            elif isinstance(record, Message):
+                counts[record.channel_id] = counts.get(record.channel_id, 0) + 1
+                first, last = span or (record.log_time, record.log_time)
+                span = (min(first, record.log_time), max(last, record.log_time))
+        for number, channel in channels.items():
+            self._add(channel, schemas.get(channel.schema_id), counts.get(number, 0))
+        if span is not None:
+            self._spans.append(span)
+
+    def _add(self, channel: Channel, schema: Schema | None, messages: int) -> None:
+        known = self._topics.get(channel.topic)
+        made = known or Topic(
+            channel.topic,
+            schema.name if schema else "",
+            channel.metadata.get("topic_type_hash", ""),
+            summary.read_profiles(channel.metadata.get("offered_qos_profiles", "")),
+        )
+        self._topics[channel.topic] = replace(made, count=made.count + messages)
+
+
+def _files(path: Path) -> list[Path]:
+    """Return the storage files of a bag. Raises `RunError`."""
+    if path.is_file():
+        return [path]
+    if not path.is_dir():
+        raise RunError(f"there is no bag {path}")
+    about = path / summary.FILE
+    if about.is_file():
+        try:
+            named = [path / file for file in summary.storage_files(about.read_text("utf-8"))]
+        except ValueError:
+            raise RunError(f"{about} is not what rosbag2 writes") from None
+        other = next((file for file in named if file.suffix != _SUFFIX), None)
+        if other is not None:
+            raise RunError(f"{other} is no MCAP file, and no other storage can be read")
+        return named
+    found = sorted(path.glob(f"*{_SUFFIX}"))
+    if not found:
+        raise RunError(f"there is no MCAP file in {path}")
+    return found
+
+
+def _index(file: Path, stream: BinaryIO) -> Index | None:
+    """Return the index of a file, None where its end is missing. Raises `RunError` for what is no MCAP at all."""
+    try:
+        next(iter(StreamReader(stream).records))
+    except (*_BROKEN, StopIteration):
+        raise RunError(f"{file} is no MCAP file") from None
+    stream.seek(0)
+    try:
+        return make_reader(stream).get_summary()
+    except _BROKEN:
+        return None
+
+
+def _records(stream: BinaryIO) -> Iterator[Header | Schema | Channel | Message]:
+    """Yield the records of a file up to where it breaks off."""
+    try:
+        for record in StreamReader(stream).records:
+            if isinstance(record, Schema | Channel | Message):
+                yield record
+    except _BROKEN:
+        return
+
+
+def _scanned(stream: BinaryIO) -> Iterator[Recorded]:
+    channels: dict[int, Channel] = {}
+    for record in _records(stream):
+        if isinstance(record, Channel):
+            channels[record.id] = record
+        elif isinstance(record, Message) and record.channel_id in channels:
+            yield _recorded(channels[record.channel_id], record)
+
+
+def _ordered(messages: Iterator[Recorded]) -> Iterator[Recorded]:
+    """Yield messages by the time at which they were recorded, where not more than `_AMONG` are between them."""
+    waiting: list[tuple[int, int, Recorded]] = []
+    numbers = count()
+    for message in messages:
+        heapq.heappush(waiting, (message.log_time, next(numbers), message))
+        if len(waiting) > _AMONG:
+            yield heapq.heappop(waiting)[-1]
+    while waiting:
+        yield heapq.heappop(waiting)[-1]
+
+
+def _recorded(channel: Channel, message: Message) -> Recorded:
+    return Recorded(channel.topic, message.log_time, message.publish_time, message.data)
