@@ -49,12 +49,14 @@ COMMANDS: Final[dict[str, Command]] = {
     "param": Command("orchestra.cli.ros.param", "show and set parameters of running nodes"),
     "action": Command("orchestra.cli.ros.action", "show actions and send goals to them"),
     "lifecycle": Command("orchestra.cli.ros.lifecycle", "show and change the states of lifecycle nodes"),
+    "component": Command("orchestra.cli.ros.component", "show, load and unload components of containers"),
     "interface": Command("orchestra.cli.ros.interface", "show types of messages, services and actions"),
     "pkg": Command("orchestra.cli.ros.pkg", "show the packages that are installed"),
     "tf": Command("orchestra.cli.ros.tf", "show the transforms between frames"),
     "graph": Command("orchestra.cli.ros.graph", "draw which nodes talk on which topics"),
     "doctor": Command("orchestra.cli.ros.doctor", "say what is wrong in the running graph"),
     "bag": Command("orchestra.cli.ros.bag", "record messages and play them again"),
+    "teleop": Command("orchestra.cli.ros.teleop", "drive a robot with the keys"),
     "completion": Command(
         "orchestra.cli.completion", "print what makes a shell complete these command lines"
     ),

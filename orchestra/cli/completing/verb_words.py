@@ -15,6 +15,7 @@ from orchestra.cli.completing.candidates import Candidate
 from orchestra.cli.completing.paths import paths
 from orchestra.cli.interfaces.index import Interfaces
 from orchestra.resolve.packages import InstalledPackages
+from orchestra.resolve.packages.components import registered
 
 if TYPE_CHECKING:
     from argparse import Action
@@ -30,6 +31,7 @@ _LISTED: Final = {
     "NODE": (("node", "list"), None),
     "SERVICE": (("service", "list"), "name"),
     "ACTION": (("action", "list"), "name"),
+    "CONTAINER": (("component", "list", "--containers-only"), None),
 }
 _OF_NODE: Final = {"NAME": (("param", "list"), "name"), "TRANSITION": (("lifecycle", "list"), "label")}
 _LIFECYCLE: Final = ("lifecycle", "nodes")
@@ -66,6 +68,8 @@ def _words(command: str, metavar: str, before: Sequence[str], begun: str) -> Ite
         return map(Candidate, Interfaces(os.environ).all(kinds))
     if metavar == "PACKAGE":
         return map(Candidate, InstalledPackages(os.environ).names())
+    if metavar == "PLUGIN":
+        return map(Candidate, registered(os.environ).get(before[-1], ()))
     return paths(begun) if metavar in ("FILE", "BAG") else ()
 
 

@@ -10,9 +10,10 @@ from typing import TYPE_CHECKING
 from orchestra.location import is_file
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Iterator, Mapping
 
-_INDEX = Path("share", "ament_index", "resource_index", "packages")
+_RESOURCES = Path("share", "ament_index", "resource_index")
+_INDEX = _RESOURCES / "packages"
 
 
 def prefixes(environment: Mapping[str, str]) -> tuple[Path, ...]:
@@ -32,6 +33,14 @@ def packages(prefix: Path) -> tuple[str, ...]:
 def has(prefix: Path, package: str) -> bool:
     """Return whether the index of a prefix lists the package."""
     return bool(package) and "/" not in package and _is_marker(prefix / _INDEX / package)
+
+
+def resources(prefix: Path, kind: str) -> Iterator[tuple[str, str]]:
+    """Yield the packages of a prefix that have a resource of a kind, and its text."""
+    folder = prefix / _RESOURCES / kind
+    for path in sorted(folder.iterdir()) if folder.is_dir() else ():
+        if _is_marker(path):
+            yield path.name, path.read_text("utf-8", "replace")
 
 
 def executables(prefix: Path, package: str) -> dict[str, Path]:

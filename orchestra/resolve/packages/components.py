@@ -1,8 +1,10 @@
-"""Components in Python, by what a launch file calls them; nothing is imported to find one.
+"""Components by what a launch file calls them; nothing is imported to find one.
 
 A distribution declares its components as entry points of the group `rclpy_components`, the name that the proposed
 package of rclpy has for them (ros2/rclpy#599): `demo::Talker = demo.talker:Talker`. Whatever is not declared is named
 by its module: `demo.talker:Talker`.
+
+Those in C++ are in the resource `rclcpp_components` of the ament index: a line `Class;library` each.
 """
 
 from __future__ import annotations
@@ -10,20 +12,35 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Final
 
+from orchestra.resolve.packages import ament
 from orchestra.resolve.packages.entry_points import declared
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Mapping
 
     from orchestra.resolve.packages.entry_points import EntryPoint
 
 GROUP: Final = "rclpy_components"
+_RESOURCE: Final = "rclcpp_components"
 _BY_MODULE: Final = re.compile(r"[^\W\d]\w*(\.[^\W\d]\w*)*:[^\W\d]\w*(\.[^\W\d]\w*)*")
 
 
 def declared_components() -> tuple[EntryPoint, ...]:
     """Return the components that distributions declare."""
     return declared(GROUP)
+
+
+def registered(environment: Mapping[str, str]) -> dict[str, list[str]]:
+    """Return the names of all components that packages register, in C++ and in Python, by the package."""
+    found: dict[str, list[str]] = {}
+    for prefix in ament.prefixes(environment):
+        for package, text in ament.resources(prefix, _RESOURCE):
+            names = (line.partition(";")[0].strip() for line in text.splitlines())
+            found.setdefault(package, []).extend(name for name in names if name)
+    for point in declared_components():
+        package, colons, _ = point.name.partition("::")
+        found.setdefault(package if colons else point.owners[0], []).append(point.name)
+    return {package: list(dict.fromkeys(found[package])) for package in sorted(found)}
 
 
 def is_named_by_module(plugin: str) -> bool:
