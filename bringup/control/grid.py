@@ -51,13 +51,12 @@ class Grid:
 
     def centres(self, cells: Cells) -> Points:
         """The middles of cells in m, shape (n, 2)."""
-        middles: Points = (cells[:, ::-1] + (self.left + 0.5, self.low + 0.5)) * self.resolution
-        return middles
+        middles = (cells[:, ::-1] + np.array([self.left + 0.5, self.low + 0.5])) * self.resolution
+        return np.asarray(middles, dtype=np.float64)
 
     def inside(self, cells: Cells) -> NDArray[np.bool_]:
         """Which of the cells belong to the grid."""
-        within: NDArray[np.bool_] = ((cells >= 0) & (cells < self.evidence.shape)).all(axis=1)
-        return within
+        return np.asarray(((cells >= 0) & (cells < np.array(self.evidence.shape))).all(axis=1))
 
 
 def about(points: Points, resolution: float) -> Grid:

@@ -22,12 +22,12 @@ class UnusableSettingsError(ValueError):
 
 
 class Parameters:
-    """The settings in force; `changed` is called after each change with the settings before.
+    """The settings in force; `changed`, if it is set, is called after each change with the settings before.
 
     Raises UnusableSettingsError, or rclpy's own errors for a value of the wrong type or out of its range.
     """
 
-    def __init__(self, node: Node, changed: Callable[[Settings], None]) -> None:
+    def __init__(self, node: Node) -> None:
         for each in table():
             node.declare_parameter(each.name, each.default, descriptor(each))
         _tell_unknown(node)
@@ -35,7 +35,7 @@ class Parameters:
         reason = objection(self.settings)
         if reason is not None:
             raise UnusableSettingsError(reason)
-        self._changed = changed
+        self.changed: Callable[[Settings], None] | None = None
         node.add_on_set_parameters_callback(self._check)
         node.add_post_set_parameters_callback(self._take)
 
@@ -45,12 +45,22 @@ class Parameters:
 
     def _take(self, parameters: Sequence[Parameter]) -> None:
         before, self.settings = self.settings, self._with(parameters)
-        self._changed(before)
+        if self.changed is not None:
+            self.changed(before)
 
     def _with(self, parameters: Sequence[Parameter]) -> Settings:
         # rclpy's own parameters, such as use_sim_time, come by here as well.
         ours = {each.name for each in table()}
         return replace(self.settings, **{each.name: each.value for each in parameters if each.name in ours})
+
+
+def declared(node: Node) -> Parameters:
+    """The parameters of a node that is being made. Raises what `Parameters` raises, with the node off the graph."""
+    try:
+        return Parameters(node)
+    except Exception:
+        node.destroy_node()
+        raise
 
 
 def _tell_unknown(node: Node) -> None:
@@ -67,11 +77,15 @@ def _tell_unknown(node: Node) -> None:
 def descriptor(setting: Setting) -> ParameterDescriptor:
     """The parameter's description and range as ROS wants them."""
     described = ParameterDescriptor(
-        description=setting.description, additional_constraints=setting.constraints
+        description=setting.description,
+        additional_constraints=setting.constraints,
+        read_only=setting.read_only,
     )
+    if isinstance(setting.default, bool | str):
+        return described
     if isinstance(setting.default, float):
         bounds = FloatingPointRange(from_value=setting.minimum, to_value=setting.maximum, step=0.0)
         described.floating_point_range = [bounds]
-    elif isinstance(setting.default, int):
+    else:
         described.integer_range = [IntegerRange(from_value=setting.minimum, to_value=setting.maximum, step=1)]
     return described

@@ -16,9 +16,10 @@ def main() -> None:
     # A scan is far too small for a thread pool; numpy reads this once.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     # Imported here because numpy must see the line above.
+    from bringup.control_node.plain import PlainVelocityController  # noqa: PLC0415
     from bringup.control_node.run import run  # noqa: PLC0415
 
-    sys.exit(run())
+    sys.exit(run(PlainVelocityController, "velocity_controller"))
 
 
 if __name__ == "__main__":

@@ -117,7 +117,7 @@ def _localhost() -> Iterator[None]:
     ],
 )
 def test_it_never_drives_blind(silent: set[str], warning: str) -> None:
-    with robot("mode:=linear") as here:
+    with robot("mode:=linear", "odometry_timeout:=1.0") as here:
         here.silent = set()
         here.until(lambda: bool(here.commands) and here.commands[-1].linear.x > 0.49, "driving")
         here.silent = silent
