@@ -76,7 +76,9 @@ class AccelerationMeasuring:
         """
         if reading.orientation is None:
             base = matrix_from_rpy(*state[ORIENTATION].tolist())
-            return sensor.rotation.T @ base[2]
-        if self._relative:
-            return matrix_from_quaternion(reading.orientation).T @ sensor.rotation[2]
-        return np.array(up_seen_by(reading.orientation))
+            up: Array = sensor.rotation.T @ base[2]
+        elif self._relative:
+            up = matrix_from_quaternion(reading.orientation).T @ sensor.rotation[2]
+        else:
+            up = np.array(up_seen_by(reading.orientation))
+        return up

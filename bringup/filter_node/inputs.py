@@ -3,13 +3,7 @@
 from collections.abc import Callable
 from functools import partial
 
-from geometry_msgs.msg import (
-    PoseWithCovarianceStamped,
-    Twist,
-    TwistStamped,
-    TwistWithCovarianceStamped,
-)
-from nav_msgs.msg import Odometry
+from geometry_msgs.msg import PoseWithCovarianceStamped, Twist, TwistStamped
 from rclpy.callback_groups import CallbackGroup
 from rclpy.node import Node
 from rclpy.qos import (
@@ -18,25 +12,19 @@ from rclpy.qos import (
     QoSProfile,
     ReliabilityPolicy,
 )
-from sensor_msgs.msg import Imu
 
 from bringup.filter.localization import Localization
-from bringup.filter.readings import stamp_of, velocity_command
-from bringup.filter.settings import Control, Kind, Settings
+from bringup.filter.readings import Heard, stamp_of, velocity_command
+from bringup.filter.settings import Control, Settings
 from bringup.filter.transforms import Sample
 from bringup.filter_node import quiet
 from bringup.filter_node.messages import Message
 from bringup.filter_node.visits import Subscription, VisitedSubscriptions
+from bringup.filter_node.wire import MESSAGE_TYPES, reader
 from orchestra.ros.interfaces import tf_message_type
 
 _QUEUE = 10
 _TRANSFORM_QUEUE = 100
-_MESSAGE_TYPES: dict[Kind, type] = {
-    "odom": Odometry,
-    "pose": PoseWithCovarianceStamped,
-    "twist": TwistWithCovarianceStamped,
-    "imu": Imu,
-}
 
 
 class Inputs:
@@ -50,13 +38,15 @@ class Inputs:
         self._now = now
         self._frames = settings.frames
         self._visited = VisitedSubscriptions(node)
+        self._visited_at = 0
         self._moving: Subscription | None = None
         for sensor in settings.sensors:
             self._visited.add(
-                _MESSAGE_TYPES[sensor.kind],
+                MESSAGE_TYPES[sensor.kind],
                 sensor.topic,
-                partial(self._receive, sensor.name),
+                partial(self._receive, sensor.name, reader(sensor.kind)),
                 _sensor_qos(sensor.queue_size),
+                raw=True,
             )
         self._subscribe(PoseWithCovarianceStamped, "set_pose", self._set_pose, QoSProfile(depth=_QUEUE))
         self._subscribe(tf_message_type(), "/tf_static", self._add_static, _static_qos())
@@ -68,8 +58,9 @@ class Inputs:
         """The group of those subscriptions that nobody needs to wait for."""
         return self._visited.group
 
-    def visit(self) -> None:
-        """Take in everything that has arrived."""
+    def visit(self, now: int) -> None:
+        """Take in everything that has arrived by now (ns)."""
+        self._visited_at = now
         self._visited.visit()
 
     def follow_moving_transforms(self) -> None:
@@ -94,8 +85,8 @@ class Inputs:
     ) -> None:
         self._node.create_subscription(message_type, topic, callback, qos, event_callbacks=quiet.SUBSCRIPTION)
 
-    def _receive(self, sensor: str, message: Message) -> None:
-        self._localization.receive(sensor, message, self._now())
+    def _receive(self, sensor: str, read: Callable[[bytes], Heard], data: bytes) -> None:
+        self._localization.hear(sensor, read(data), self._visited_at)
 
     def _set_pose(self, message: Message) -> None:
         if not self._localization.set_pose(message, self._now()):

@@ -1,79 +1,97 @@
-"""Fills the messages that the filter publishes; each message object is made once and used again."""
+"""What the filter publishes, as it goes over the wire.
 
+Each message is serialised once, with its frames; after that only its stamp and its numbers are written into the bytes.
+Filling a message object and letting rclpy serialise it costs several times as much.
+"""
+
+from struct import Struct
 from typing import Any, TypeAlias
 
 import numpy as np
 from geometry_msgs.msg import AccelWithCovarianceStamped, TransformStamped
 from nav_msgs.msg import Odometry
+from rclpy.serialization import serialize_message
 
 from bringup.filter.localization import Estimate
 from bringup.filter.rigid import Transform
 from bringup.filter.rotation import quaternion_from_rpy, rpy_from_matrix
 from bringup.filter.settings import NANOSECONDS, Frames
-from bringup.filter.state import ACCELERATION, POSE, TWIST, Array
+from bringup.filter.state import ACCELERATION, POSE, TWIST
+from orchestra.ros.interfaces import tf_message_type
 
 Message: TypeAlias = Any
+
+_STAMP = Struct("=iI")
+_AFTER_ENCAPSULATION = 4
+_AFTER_SEQUENCE_LENGTH = 8
+_DOUBLE = 8
+_ODOMETRY, _ACCELERATION, _TRANSFORM = 85, 42, 7
+
+
+class Form:
+    """A serialised message of which a stamp and the doubles at its end are still to be filled in."""
+
+    def __init__(self, message: Message, count: int, stamp_at: int = _AFTER_ENCAPSULATION) -> None:
+        self._data = bytearray(serialize_message(message))
+        self._stamp_at = stamp_at
+        self.numbers = np.frombuffer(self._data, np.float64, count, len(self._data) - count * _DOUBLE)
+
+    def stamped(self, nanoseconds: int) -> bytes:
+        """Write the stamp, and give the message as it is to be sent."""
+        _STAMP.pack_into(self._data, self._stamp_at, *divmod(nanoseconds, NANOSECONDS))
+        return bytes(self._data)
 
 
 class EstimateMessages:
     """Odometry, acceleration and transform of an estimate, with the frames of one filter."""
 
-    def __init__(self, frames: Frames) -> None:
-        self._odometry = Odometry()
-        self._odometry.header.frame_id = frames.world
-        self._odometry.child_frame_id = frames.base_link_output
-        self._acceleration = AccelWithCovarianceStamped()
-        self._acceleration.header.frame_id = frames.base_link_output
-        self._transform = TransformStamped()
+    def __init__(self, frames: Frames, transform: tuple[str, str]) -> None:
+        odometry, acceleration = Odometry(), AccelWithCovarianceStamped()
+        odometry.header.frame_id, odometry.child_frame_id = frames.world, frames.base_link_output
+        acceleration.header.frame_id = frames.base_link_output
+        stamped = TransformStamped()
+        stamped.header.frame_id, stamped.child_frame_id = transform
+        transforms = tf_message_type()()
+        transforms.transforms = [stamped]
+        self._odometry = Form(odometry, _ODOMETRY)
+        self._acceleration = Form(acceleration, _ACCELERATION)
+        self._transform = Form(transforms, _TRANSFORM, _AFTER_SEQUENCE_LENGTH)
 
-    def odometry(self, estimate: Estimate) -> Message:
-        """Fill nav_msgs/Odometry: the pose in the world frame, the velocity in the base's axes."""
-        message = self._odometry
-        set_stamp(message.header.stamp, estimate.stamp)
-        x, y, z, roll, pitch, yaw, *velocity = estimate.state[: TWIST.stop].tolist()
-        _set_vector(message.pose.pose.position, x, y, z)
-        _set_quaternion(message.pose.pose.orientation, *quaternion_from_rpy(roll, pitch, yaw))
-        _set_vector(message.twist.twist.linear, *velocity[:3])
-        _set_vector(message.twist.twist.angular, *velocity[3:])
-        message.pose.covariance = _flat(estimate.covariance[POSE, POSE])
-        message.twist.covariance = _flat(estimate.covariance[TWIST, TWIST])
-        return message
+    def odometry(self, estimate: Estimate) -> bytes:
+        """Write nav_msgs/Odometry: the pose in the world frame, the velocity in the base's axes."""
+        state, covariance, numbers = estimate.state, estimate.covariance, self._odometry.numbers
+        numbers[:3] = state[:3]
+        numbers[3:7] = quaternion_from_rpy(*state[3:6].tolist())
+        numbers[7:43].reshape(6, 6)[:] = covariance[POSE, POSE]
+        numbers[43:49] = state[TWIST]
+        numbers[49:85].reshape(6, 6)[:] = covariance[TWIST, TWIST]
+        return self._odometry.stamped(estimate.stamp)
 
-    def acceleration(self, estimate: Estimate) -> Message:
-        """Fill geometry_msgs/AccelWithCovarianceStamped, in the base's axes."""
-        message = self._acceleration
-        set_stamp(message.header.stamp, estimate.stamp)
-        _set_vector(message.accel.accel.linear, *estimate.state[ACCELERATION].tolist())
-        _set_vector(message.accel.accel.angular, *estimate.angular_acceleration.tolist())
-        covariance = np.zeros((6, 6))
+    def acceleration(self, estimate: Estimate) -> bytes:
+        """Write geometry_msgs/AccelWithCovarianceStamped, in the base's axes."""
+        numbers = self._acceleration.numbers
+        numbers[:3] = estimate.state[ACCELERATION]
+        numbers[3:6] = estimate.angular_acceleration
+        covariance = numbers[6:42].reshape(6, 6)
         covariance[:3, :3] = estimate.covariance[ACCELERATION, ACCELERATION]
         covariance[3:, 3:] = estimate.angular_acceleration_covariance
-        message.accel.covariance = _flat(covariance)
-        return message
+        return self._acceleration.stamped(estimate.stamp)
 
-    def transform(self, parent: str, child: str, stamp: int, place: Transform) -> Message:
-        """Fill geometry_msgs/TransformStamped."""
-        message = self._transform
-        set_stamp(message.header.stamp, stamp)
-        message.header.frame_id = parent
-        message.child_frame_id = child
-        _set_vector(message.transform.translation, *place.translation.tolist())
-        _set_quaternion(message.transform.rotation, *quaternion_from_rpy(*rpy_from_matrix(place.rotation)))
-        return message
+    def base(self, estimate: Estimate, offset: int) -> bytes:
+        """Write tf2_msgs/TFMessage with where the estimate has the base, `offset` (ns) after its stamp."""
+        numbers = self._transform.numbers
+        numbers[:3] = estimate.state[:3]
+        numbers[3:7] = quaternion_from_rpy(*estimate.state[3:6].tolist())
+        return self._transform.stamped(estimate.stamp + offset)
+
+    def transform(self, place: Transform, stamp: int) -> bytes:
+        """Write tf2_msgs/TFMessage with one transform at `stamp` (ns)."""
+        numbers = self._transform.numbers
+        numbers[:3] = place.translation
+        numbers[3:7] = quaternion_from_rpy(*rpy_from_matrix(place.rotation))
+        return self._transform.stamped(stamp)
 
 
 def set_stamp(stamp: Message, nanoseconds: int) -> None:
     """Fill builtin_interfaces/Time."""
     stamp.sec, stamp.nanosec = divmod(nanoseconds, NANOSECONDS)
-
-
-def _set_vector(message: Message, x: float, y: float, z: float) -> None:
-    message.x, message.y, message.z = x, y, z
-
-
-def _set_quaternion(message: Message, x: float, y: float, z: float, w: float) -> None:
-    message.x, message.y, message.z, message.w = x, y, z, w
-
-
-def _flat(covariance: Array) -> Array:
-    return np.ascontiguousarray(covariance).reshape(-1)

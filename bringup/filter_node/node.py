@@ -66,14 +66,14 @@ class FilterNode:
         if now is not None:
             self._update(now)
         elif self._period > _VISIT_PERIOD:
-            self._inputs.visit()
+            self._inputs.visit(self._now())
 
     def _now(self) -> int:
         return int(self._clock.now().nanoseconds)
 
     def _update(self, now: int) -> None:
         began = perf_counter()
-        self._inputs.visit()
+        self._inputs.visit(now)
         self._localization.update(now)
         estimate = self._localization.estimate_to_publish()
         if estimate is not None and self._outputs.publish(estimate) and self._diagnostics is not None:
@@ -112,7 +112,7 @@ class FilterNode:
             self._logger.warning(text)
 
     def _reset(self, _request: object, response: Response) -> Response:
-        self._inputs.visit()
+        self._inputs.visit(self._now())
         self._localization.reset()
         self._logger.info("the filter starts afresh")
         return response

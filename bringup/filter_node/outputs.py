@@ -1,8 +1,8 @@
 """Publishes estimates: `odometry/filtered`, `accel/filtered` and the transform of the base on /tf."""
 
+import math
 from typing import Any, TypeAlias
 
-import numpy as np
 from geometry_msgs.msg import AccelWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from rclpy.node import Node
@@ -32,19 +32,19 @@ class Outputs:
         self._frames = settings.frames
         self._offset = settings.publication.transform_offset
         self._buffer = localization.frames.buffer
-        self._messages = EstimateMessages(settings.frames)
+        self._in_map = settings.frames.world == settings.frames.map
+        child = settings.frames.odom if self._in_map else settings.frames.base_link_output
+        self._messages = EstimateMessages(settings.frames, (settings.frames.world, child))
         self._odometry = _publisher(node, Odometry, "odometry/filtered", _QUEUE)
         self._acceleration = self._transforms = None
         if settings.publication.acceleration:
             self._acceleration = _publisher(node, AccelWithCovarianceStamped, "accel/filtered", _QUEUE)
         if settings.publication.transform:
-            message_type = tf_message_type()
-            self._transforms = _publisher(node, message_type, "/tf", _TRANSFORM_QUEUE)
-            self._transform_message = message_type()
+            self._transforms = _publisher(node, tf_message_type(), "/tf", _TRANSFORM_QUEUE)
 
     def publish(self, estimate: Estimate) -> bool:
         """Publish an estimate; one that is not finite is only complained about (upstream publishes it)."""
-        if not (np.isfinite(estimate.state).all() and np.isfinite(estimate.covariance).all()):
+        if not (math.isfinite(estimate.state.sum()) and math.isfinite(estimate.covariance.sum())):
             self._logger.error(
                 "critical error, NaNs in the estimate: nothing is published; call the reset service",
                 throttle_duration_sec=_SECONDS_BETWEEN_COMPLAINTS,
@@ -59,18 +59,15 @@ class Outputs:
     def _broadcast(self, estimate: Estimate) -> None:
         if self._transforms is None:
             return
+        if not self._in_map:
+            self._transforms.publish(self._messages.base(estimate, self._offset))
+            return
+        odometry = self._odometry_transform()
+        if odometry is None:
+            return
         rotation = matrix_from_rpy(*estimate.state[ORIENTATION].tolist())
-        base = Transform(rotation, estimate.state[POSE][:3])
-        parent, child = self._frames.world, self._frames.base_link_output
-        if self._frames.world == self._frames.map:
-            child = self._frames.odom
-            odometry = self._odometry_transform()
-            if odometry is None:
-                return
-            base = base @ odometry.inverse()
-        stamped = self._messages.transform(parent, child, estimate.stamp + self._offset, base)
-        self._transform_message.transforms = [stamped]
-        self._transforms.publish(self._transform_message)
+        place = Transform(rotation, estimate.state[POSE][:3]) @ odometry.inverse()
+        self._transforms.publish(self._messages.transform(place, estimate.stamp + self._offset))
 
     def _odometry_transform(self) -> Transform | None:
         """Find where somebody else's odometry has the base, for a filter in the map frame."""

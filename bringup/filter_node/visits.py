@@ -37,12 +37,27 @@ class VisitedSubscriptions:
         self._subscriptions: list[Subscription] = []
 
     def add(
-        self, message_type: type, topic: str, callback: Callable[[Message], None], qos: QoSProfile
+        self,
+        message_type: type,
+        topic: str,
+        callback: Callable[[Message], None],
+        qos: QoSProfile,
+        *,
+        raw: bool = False,
     ) -> Subscription:
-        """Subscribe; the queue is made long enough for the messages between two visits."""
+        """Subscribe; the queue is made long enough for the messages between two visits.
+
+        With `raw` the callback gets serialised messages.
+        """
         qos.depth = max(qos.depth, _SHORTEST_QUEUE)
         subscription = self._node.create_subscription(
-            message_type, topic, callback, qos, callback_group=self.group, event_callbacks=quiet.SUBSCRIPTION
+            message_type,
+            topic,
+            callback,
+            qos,
+            callback_group=self.group,
+            event_callbacks=quiet.SUBSCRIPTION,
+            raw=raw,
         )
         self._subscriptions.append(subscription)
         return subscription
@@ -56,8 +71,9 @@ class VisitedSubscriptions:
         """Hand over everything that has arrived."""
         for subscription in self._subscriptions:
             handle, callback, kind = subscription.handle, subscription.callback, subscription.msg_type
+            raw = subscription.raw
             with handle:
-                taken = handle.take_message(kind, False)
+                taken = handle.take_message(kind, raw)
                 while taken is not None:
                     callback(taken[0])
-                    taken = handle.take_message(kind, False)
+                    taken = handle.take_message(kind, raw)
