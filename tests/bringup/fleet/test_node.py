@@ -152,12 +152,12 @@ def test_robots_are_seen_and_two_of_them_never_drive_to_one_place(world: _World)
         lambda: [each.pose.header.frame_id for each in world.summary.values()] == ["world"] * 2,
         "both are seen, in the world",
     )
+    world.until(lambda: all(each.mode == "wander" for each in world.summary.values()), "the modes are heard")
+    world.until(lambda: all(each.contacts == 2 for each in world.summary.values()), "the contacts are heard")
+    world.until(lambda: all(each.health == 0 for each in world.summary.values()), "the controllers are seen")
     for name, x in (("robot1", 1.0), ("robot2", 6.0)):
-        world.until(lambda name=name: world.summary[name].mode == "wander", "the mode is heard")
-        world.until(lambda name=name: world.summary[name].contacts == 2, "the contacts are heard")
         assert world.summary[name].pose.pose.position.x == pytest.approx(x)
         assert world.summary[name].speed == 0.25
-        world.until(lambda name=name: world.summary[name].health == 0, "its controller is seen")
     # One place: robot1 sees it 5.1 m ahead, robot2 0.1 m. What comes together is decided by the names.
     second, first = world.claim(("robot2", 0.1), ("robot1", 5.1))
     assert (first.granted, second.granted) in ((True, False), (False, True))
