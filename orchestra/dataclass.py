@@ -48,6 +48,8 @@ else:
 
 _FEW = 3  # objects take less time to be made one by one than `__init__` takes to be compiled
 _ORDER = {"lt": lt, "le": le, "gt": gt, "ge": ge}
+# The file of code that is written here: who watches what code does knows by it that it is ours.
+_MADE = f"{__file__}: written"
 
 
 def _with_slots(cls: type, names: list[str]) -> type:
@@ -161,7 +163,7 @@ def _init(cls: Any, *, frozen: bool) -> Any:
     if hasattr(cls, "__post_init__"):
         lines.append("self.__post_init__()")
     text = "\n ".join([f"def __init__({', '.join(words)}):", *(lines or ["pass"])])
-    exec(text, known)  # noqa: S102 - names of fields, which are identifiers
+    exec(compile(text, _MADE, "exec"), known)  # noqa: S102 - names of fields, which are identifiers
     method = known["__init__"]
     method.__qualname__ = f"{cls.__qualname__}.__init__"
     method.__module__ = cls.__module__
@@ -288,6 +290,7 @@ def changer(cls: Callable[..., T], name: str) -> Callable[[T, Any], T]:
     lines = ["made = _new(_open)", f"made.{name} = value"]
     lines += [f"made.{item.name} = record.{item.name}" for item in items if item.name != name]
     lines += ["made.__class__ = _cls", "return made"]
-    exec("\n ".join(["def change(record, value):", *lines]), known)  # noqa: S102 - names of fields, which are identifiers
+    text = "\n ".join(["def change(record, value):", *lines])
+    exec(compile(text, _MADE, "exec"), known)  # noqa: S102 - names of fields, which are identifiers
     made: Callable[[T, Any], T] = known["change"]
     return made

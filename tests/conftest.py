@@ -39,9 +39,11 @@ def pytest_configure(config: pytest.Config) -> None:
     # The same code is tried with the same examples each time; the long checks look for others in every run.
     if not config.getoption("--hypothesis-profile"):
         hypothesis.settings.load_profile("steady" if config.option.markexpr == "not long" else "untimed")
-    # Programs in the background of a shell ignore both, and what they start does so too: the tests send them.
+    # Programs in the background of a shell ignore the first two, under nohup the third, and what they start does so
+    # too: the tests send them.
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGQUIT, signal.SIG_DFL)
+    signal.signal(signal.SIGHUP, signal.SIG_DFL)
     os.environ[_SESSION] = uuid.uuid4().hex
     # The control sockets of this session's runs, among which no other's are, nor those of the user.
     os.environ["XDG_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="orchestra-tests-")

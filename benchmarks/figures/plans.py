@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import resource
 from typing import TYPE_CHECKING
 
 from benchmarks import launching, node_tree
@@ -18,6 +19,7 @@ _COMPOSE = "composing the same bytes with PyYAML's C parser"
 _YAML = "the same nodes in YAML"
 FIGURES = (
     Figure("plan-yaml", "plan of 1,000 nodes in YAML", _COMPOSE, "ratio", 3.0, "s", 1000, _SIZES, 20),
+    Figure("plan-again", "`orchestra plan` of it again, all of it", _COMPOSE, "ratio", 3.0, "s", 1000, _SIZES, 20),
     Figure("plan-xml", "the same in XML", _YAML, "ratio", 1.0, "s", 1000, _SIZES, 20),
     Figure("plan-python", "the same in Python", _YAML, "ratio", 1.0, "s", 1000, _SIZES, 20),
     Figure(
@@ -60,10 +62,27 @@ def measure(site: Site, size: int) -> Mapping[str, Sample]:
     many = _planned(site, "yaml", node_tree.write(site.folder, "yaml", 10 * size), 10 * size)
     return {
         "plan-yaml": Sample(yaml, composed),
+        "plan-again": Sample(_again(site, files["yaml"]), composed),
         "plan-xml": Sample(xml, yaml),
         "plan-python": Sample(python, yaml),
         "plan-growth": Sample(many, yaml),
     }
+
+
+def _again(site: Site, file: Path) -> float:
+    """Return the seconds that a command took which another one with the same words came before."""
+    # New in a folder that code is imported from, it would be a reason to make the plan again.
+    (site.folder / "cache").mkdir()
+    _planning(site, file)
+    before = resource.getrusage(resource.RUSAGE_CHILDREN)
+    _planning(site, file)
+    after = resource.getrusage(resource.RUSAGE_CHILDREN)
+    return after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+
+
+def _planning(site: Site, file: Path) -> None:
+    with launching.started(launching.orchestra("plan", file), site) as popen:
+        launching.finished(popen)
 
 
 def _planned(site: Site, language: str, file: Path, size: int) -> float:

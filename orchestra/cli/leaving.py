@@ -16,21 +16,30 @@ if TYPE_CHECKING:
 def contained() -> Iterator[None]:
     """Kill the processes that have been started meanwhile and are still there, and those that they have started."""
     # Here, because only commands that read launch files need it.
-    from orchestra.resolve.command_reaper import children, kill, set_subreaper  # noqa: PLC0415
+    from orchestra.resolve.command_reaper import children, set_subreaper  # noqa: PLC0415
+    from orchestra.witness.observing import observer  # noqa: PLC0415
 
-    known = set(children())
-    before = set_subreaper(1)
+    with observer().aside():  # it decides nothing about a plan that is to be kept
+        known = set(children())
+        before = set_subreaper(1)
     try:
         yield
     finally:
-        while left := [child for child in children() if child not in known]:
-            for child in left:
-                with suppress(ProcessLookupError):  # user code has waited for it since
-                    kill(child)
-            for child in left:
-                with suppress(ChildProcessError):  # as above
-                    os.waitpid(child, 0)
-        set_subreaper(before)
+        with observer().aside():
+            _end_all_but(known)
+            set_subreaper(before)
+
+
+def _end_all_but(known: set[int]) -> None:
+    from orchestra.resolve.command_reaper import children, kill  # noqa: PLC0415 - as above
+
+    while left := [child for child in children() if child not in known]:
+        for child in left:
+            with suppress(ProcessLookupError):  # user code has waited for it since
+                kill(child)
+        for child in left:
+            with suppress(ChildProcessError):  # as above
+                os.waitpid(child, 0)
 
 
 def threads() -> set[Thread]:

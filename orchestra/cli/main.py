@@ -71,4 +71,13 @@ def _dispatch(words: Sequence[str]) -> int:
     if name not in COMMANDS:
         near = nearest(name, COMMANDS)
         raise UsageError(f"there is no command '{name}'" + (f"; did you mean '{near}'?" if near else ""))
+    if name == "plan" and _again(rest):
+        return 0
     return _carry_out(name, rest, lambda module, options: int(module.run(options)))
+
+
+def _again(words: Sequence[str]) -> bool:
+    """Answer as before, if it is known that nothing has changed since."""
+    from orchestra.cli.answered import again  # noqa: PLC0415 - only this needs it
+
+    return again(words)

@@ -8,10 +8,14 @@ from argparse import Namespace
 from typing import TYPE_CHECKING, Final
 
 from orchestra.cli import boundary, colour, inputs
+from orchestra.cli.answered import Watch, give
 from orchestra.cli.parser import CommandParser
+from orchestra.cli.remembered import NO_CACHE
 from orchestra.errors import DescriptionError, UsageError
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from orchestra.cli.planning.sources import Made
 
 
@@ -53,8 +57,16 @@ def parser() -> CommandParser:
         "--explain", action="append", metavar="SUBJECT", help="show where values come from, see below"
     )
     made.add_argument("--exit-code", action="store_true", help="with --diff: end with 1 where they differ")
+    made.add_argument(NO_CACHE, action="store_true", help="make the plan, also where nothing has changed")
     inputs.add_to(made)
     return made
+
+
+def read(words: Sequence[str]) -> Namespace:
+    """Return the options that words are, and the words. Raises `UsageError`, or `SystemExit` after `--help`."""
+    options = parser().read(words)
+    options.given = tuple(words)
+    return options
 
 
 def run(options: Namespace) -> int:
@@ -62,19 +74,37 @@ def run(options: Namespace) -> int:
     _check(options)
     from orchestra.cli.planning import sources  # noqa: PLC0415 - heavy, and `--help` does not need it
 
-    made = sources.made(options)
-    if options.format not in ("json", "yaml"):  # in these they are part of the plan
-        inputs.warn(made.plan, options)
-    paint = colour.painter(enabled=colour.wanted(sys.stdout, os.environ))
-    if options.explain:
-        from orchestra.cli.planning.explanation import explained  # noqa: PLC0415 - only this needs it
-
-        _print(explained(options, made.plan, paint))
-        return boundary.OK
     if options.diff:
-        return _compare(options, made, paint)
-    _print(_shown(options, made, paint))
+        made = sources.made(options)
+        sys.stderr.write(_told(options, made))
+        return _compare(options, made, _paint())
+    # What a run adds here, and files that code has written, are others each time.
+    watch = Watch(None if options.host or options.format == "sh" else options.given)
+    paint = _paint()
+    with watch.watching():
+        made = sources.made(options)
+        told = _told(options, made)
+        text = _explained(options, made, paint) if options.explain else _shown(options, made, paint)
+    answer = text.encode(errors="surrogateescape")  # words may have bytes that are no Unicode
+    give(answer, told)
+    if made.file is not None and not made.files:
+        watch.keep(answer, told)
     return boundary.OK
+
+
+def _paint() -> colour.Paint:
+    return colour.painter(enabled=colour.wanted(sys.stdout, os.environ))
+
+
+def _told(options: Namespace, made: Made) -> str:
+    """Return the warnings as text; in JSON and YAML they are part of the plan."""
+    return "" if options.format in ("json", "yaml") else inputs.warnings_text(made.plan.problems, options)
+
+
+def _explained(options: Namespace, made: Made, paint: colour.Paint) -> str:
+    from orchestra.cli.planning.explanation import explained  # noqa: PLC0415 - only this needs it
+
+    return explained(options, made.plan, paint)
 
 
 def _check(options: Namespace) -> None:
@@ -104,7 +134,7 @@ def _compare(options: Namespace, made: Made, paint: colour.Paint) -> int:
         given = telling.command_line
         boundary.show_problems(error.problems, telling.problem_format, sys.stderr, command_line=given)
         return boundary.MISTAKE
-    _print(text)
+    give(text.encode(errors="surrogateescape"), "")
     return _DIFFERENT if different and options.exit_code else boundary.OK
 
 
@@ -120,9 +150,3 @@ def _shown(options: Namespace, made: Made, paint: colour.Paint) -> str:
         plan = portable(plan, host.symbols(plan))
     added = host.additions(made.files) if options.host or options.format == "sh" else None
     return RENDERERS[options.format](plan, Setting(paint, added))
-
-
-def _print(text: str) -> None:
-    """Print what may have bytes in it that are no Unicode, as words of a command line may."""
-    sys.stdout.flush()
-    sys.stdout.buffer.write(text.encode(errors="surrogateescape"))
