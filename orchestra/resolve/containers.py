@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from orchestra.errors import Problem
+    from orchestra.resolve.context import Packages
     from orchestra.resolve.model import ResolvedComponent, ResolvedProcess
     from orchestra.resolve.packages.entry_points import EntryPoint
     from orchestra.resolve.resolution import Resolution
@@ -50,15 +51,19 @@ def own_words(
     package: Value, executable: Value, written: Template, run: Resolution
 ) -> tuple[str, ...] | None:
     """Return the words that start a container of ours, None where it is none; `written` names the package."""
-    if package.text not in _PACKAGES or executable.text not in _EXECUTABLES:
-        return None
-    if package.text != _PACKAGES[-1] and run.context.packages.prefix(package.text) is not None:
-        return None
-    words = _words(executable.text)
-    if package.text == _CPP:
+    words = container_words(package.text, executable.text, run.context.packages)
+    if words is not None and package.text == _CPP:
         others = (f"${{prefix:{_CPP}}}/lib/{_CPP}/{executable.text}",)
         run.found.stand_ins.append(StandIn(words, others, package, written, replace(run.context)))
     return words
+
+
+def container_words(package: str, executable: str, packages: Packages) -> tuple[str, ...] | None:
+    """Return the words that start a container of ours where an executable is one, or the package of that is missing."""
+    if package not in _PACKAGES or executable not in _EXECUTABLES:
+        return None
+    missing = package == _PACKAGES[-1] or packages.prefix(package) is None
+    return _words(executable) if missing else None
 
 
 def known_components() -> tuple[EntryPoint, ...]:

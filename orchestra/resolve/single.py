@@ -8,6 +8,7 @@ from orchestra.errors import Code, Problems
 from orchestra.location import Location, Span
 from orchestra.nearest import nearest
 from orchestra.resolve.command_line import COMMAND_LINE
+from orchestra.resolve.containers import container_words
 from orchestra.resolve.model import Resolved, ResolvedProcess
 
 if TYPE_CHECKING:
@@ -27,7 +28,7 @@ def single_node(
     """Return what `run PACKAGE EXECUTABLE ARGUMENTS` comes to: one process whose end ends the run, with its status."""
     at = Span(COMMAND_LINE, 1, 1, 1, len(package) + 1)
     location = Location(at)
-    words = packages.executable(package, executable)
+    words = container_words(package, executable, packages) or packages.executable(package, executable)
     if words is None:
         _report(package, executable, at, problems, packages)
     process = ResolvedProcess(

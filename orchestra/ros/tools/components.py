@@ -9,6 +9,7 @@ from rcl_interfaces.msg import Parameter
 
 from orchestra.errors import RunError, UsageError
 from orchestra.ros.interfaces.definitions import provide
+from orchestra.ros.observer.service import Service
 from orchestra.ros.tools.graph.asking import Deadline, ask
 from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import absolute, nodes, services, unknown
@@ -70,8 +71,9 @@ def unload(options: Namespace) -> int:
     with joined(options) as graph:
         name = container(graph, options.container)
         for uid in options.numbers:
-            request = kind.Request(unique_id=uid)
-            answer = ask(graph, kind, f"{name}/_container/unload_node", request, deadline, repeat=False)
+            answer = _ordered(
+                graph, kind, f"{name}/_container/unload_node", kind.Request(unique_id=uid), deadline
+            )
             if not answer.success:
                 told = f"Failed to unload component {uid} from '{name}' container node"
                 raise RunError(f"{told}: {answer.error_message}")
@@ -87,7 +89,7 @@ def unload(options: Namespace) -> int:
 def loaded_into(graph: Graph, name: str, options: Namespace, deadline: Deadline) -> Any:  # noqa: ANN401 - untyped package
     """Return what a container answers to a request to load a component. Raises `RunError` where it refuses."""
     kind = _type("LoadNode")
-    answer = ask(graph, kind, f"{name}{_LOAD}", asked_for(kind.Request(), options), deadline, repeat=False)
+    answer = _ordered(graph, kind, f"{name}{_LOAD}", asked_for(kind.Request(), options), deadline)
     if not answer.success:
         reason = answer.error_message or "the container gives no reason"
         raise RunError(f"Failed to load component: {reason}")
@@ -119,6 +121,24 @@ def container(graph: Graph, name: str) -> str:
             raise RunError(f"{full} is no container")
         raise unknown("container", full, containers(graph))
     return full
+
+
+def _ordered(graph: Graph, kind: Any, service: str, request: Any, deadline: Deadline) -> Any:  # noqa: ANN401 - untyped package
+    """Return the answer to what must not be asked twice.
+
+    An answer that comes before the container has discovered its reader is lost, so something harmless is asked first,
+    when that reader is there: readers are discovered in the order in which they were made.
+    """
+    client, answers = Service(graph.node, kind, service), list[Any]()
+    try:
+        _loaded(graph, service.partition("/_container/")[0], deadline)
+        if graph.wait(lambda: client.ready, deadline.left):
+            client.ask(request, answers.append)
+        if not graph.wait(lambda: answers, deadline.left):
+            raise RunError(f"the service {service} did not answer within {deadline}")
+    finally:
+        client.close()
+    return answers[0]
 
 
 def _loaded(graph: Graph, name: str, deadline: Deadline) -> list[tuple[int, str]]:
