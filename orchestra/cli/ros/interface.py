@@ -34,6 +34,11 @@ def _comments(parser: CommandParser) -> None:
     either.add_argument("--no-comments", action="store_true", help="no comments")
 
 
+def _paths(parser: CommandParser) -> None:
+    tell = "folders of packages with definitions, or folders with such packages in them (default: this one)"
+    parser.add_argument("paths", nargs="*", default=["."], metavar="PATH", help=tell)
+
+
 _TYPE: Final = word("type", "its full name, as std_msgs/msg/String")
 _VERBS: Final = {
     "list": Verb("list the interfaces that are installed", "", (_kinds,)),
@@ -47,18 +52,23 @@ _VERBS: Final = {
         "prototypes:proto",
         (_TYPE, flag("--no-quotes", tell="without quotes around it")),
     ),
+    "build": Verb(
+        "make packages of definitions ready to use",
+        "building:build",
+        (_paths, flag("--without-compiler", tell="as where there is no compiler: nothing to wait for, but slower")),
+    ),
 }
 
 
 def parser() -> VerbParser:
     """Return what the command understands."""
-    return VerbParser("interface", "Show types of messages, services and actions.", _VERBS)
+    return VerbParser("interface", "Show and build types of messages, services and actions.", _VERBS)
 
 
 def run(options: Namespace) -> int:
     """Answer."""
-    if options.verb == "proto":
-        answered("interface", _VERBS["proto"], options)
+    if _VERBS[options.verb].tool:
+        answered("interface", _VERBS[options.verb], options)
     answers: dict[str, Callable[[Interfaces, Namespace], tuple[str, object]]] = {
         "list": _list,
         "package": _package,

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Final, Self
 if TYPE_CHECKING:
     from types import FrameType, TracebackType
 
-_SIGNALS: Final = (signal.SIGINT, signal.SIGTERM)
+_SIGNALS: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _STATUS: Final = 128
 
 
@@ -25,7 +25,8 @@ class Ending:
 
     def __enter__(self) -> Self:
         for number in _SIGNALS:
-            self._before[number] = signal.signal(number, self._note)
+            if number != signal.SIGHUP or signal.getsignal(number) != signal.SIG_IGN:  # as nohup has it
+                self._before[number] = signal.signal(number, self._note)
         return self
 
     def __exit__(
@@ -35,7 +36,7 @@ class Ending:
             signal.signal(number, handler)  # type: ignore[arg-type]  # what it has returned
 
     def check(self) -> None:
-        """Raise `KeyboardInterrupt`, or `SystemExit` with the status for SIGTERM, where one has come."""
+        """Raise `KeyboardInterrupt`, or `SystemExit` with the status for another signal, where one has come."""
         if self._noted is not None:
             number, self._noted = self._noted, None
             self._end(number)
