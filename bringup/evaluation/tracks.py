@@ -95,7 +95,8 @@ def _between(stamps: NDArray[np.int64], known_at: NDArray[np.int64], poses: Rows
     """The poses at some stamps, between those that are known; headings turn through the smaller angle."""
     unwrapped = np.column_stack((poses[:, 0], poses[:, 1], np.unwrap(poses[:, 2])))
     since, known = (stamps - known_at[0]).astype(float), (known_at - known_at[0]).astype(float)
-    return np.column_stack([np.interp(since, known, unwrapped[:, axis]) for axis in range(POSE)])
+    x, y, yaw = (np.interp(since, known, unwrapped[:, axis]) for axis in range(POSE))
+    return np.column_stack((x, y, np.pi - np.remainder(np.pi - yaw, 2.0 * np.pi)))
 
 
 def _symmetric(halves: Rows) -> Rows:
