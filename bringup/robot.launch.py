@@ -59,6 +59,7 @@ def generate_launch_description() -> LaunchDescription:
                             },
                         ],
                         ros_arguments=["--log-level", LaunchConfiguration("log_level")],
+                        restart="on-failure",
                     ),
                     Node(
                         package="bringup",
@@ -74,6 +75,7 @@ def generate_launch_description() -> LaunchDescription:
                             },
                         ],
                         ros_arguments=["--log-level", LaunchConfiguration("log_level")],
+                        restart="on-failure",
                     ),
                 ],
             ),
