@@ -1,163 +1,21 @@
 """The node for real: a process of its own, simulated time, and another participant that plays the robot."""
 
-import os
 import signal
-import subprocess
-import sys
 import time
-from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from collections.abc import Iterator
 from typing import Any
 
 import pytest
-import rclpy
 from geometry_msgs.msg import Twist
-from nav_msgs.msg import Odometry
-from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
-from rcl_interfaces.srv import DescribeParameters, GetParameters, SetParameters, SetParametersAtomically
-from rclpy.executors import SingleThreadedExecutor
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
-from rosgraph_msgs.msg import Clock
-from sensor_msgs.msg import LaserScan
-from std_msgs.msg import String
+from rcl_interfaces.msg import ParameterType
+from rcl_interfaces.srv import DescribeParameters
 from std_srvs.srv import Trigger
 
 from bringup.control.settings import table
+from tests.bringup.control.bench import DEADLINE, NODE, Bench, controller, on_bench
 
 # What rclpy imports to find its types still uses the old name of a standard module.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
-
-DEADLINE = 40.0
-NODE = "/robot1/velocity_controller"
-TICK = 0.02
-
-
-class Bench:
-    """Everything around the controller: a clock, a lidar, odometry, and ears for what it sends."""
-
-    def __init__(self, domain: int, process: "subprocess.Popen[str]") -> None:
-        self.process = process
-        self.context = rclpy.Context()
-        rclpy.init(context=self.context, domain_id=domain)
-        self.node = rclpy.create_node("bench", context=self.context)
-        self.executor = SingleThreadedExecutor(context=self.context)
-        self.executor.add_node(self.node)
-        self.clock = self.node.create_publisher(Clock, "/clock", 10)
-        sensor = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
-        latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
-        self.scan = self.node.create_publisher(LaserScan, "/robot1/scan", sensor)
-        self.odometry = self.node.create_publisher(Odometry, "/robot1/odometry/filtered", 1)
-        self.commands: list[Twist] = []
-        self.modes: list[str] = []
-        self.node.create_subscription(Twist, "/robot1/cmd_vel", self.commands.append, 100)
-        self.node.create_subscription(
-            String, f"{NODE}/mode", lambda message: self.modes.append(message.data), latched
-        )
-        self.tick = 0
-        self.ahead = float("inf")
-        self.scanning = True
-        self.locating = True
-
-    @property
-    def time(self) -> float:
-        return self.tick * TICK
-
-    def close(self) -> None:
-        self.executor.shutdown()
-        self.node.destroy_node()
-        rclpy.shutdown(context=self.context)
-
-    def until(self, condition: Callable[[], bool], what: str, ticks: int = 1) -> None:
-        """Let simulated time pass (0 ticks: stand), all sensors that are on sending, until the condition holds."""
-        end = time.monotonic() + DEADLINE
-        while not condition():
-            assert time.monotonic() < end, f"not within {DEADLINE} s: {what}"
-            assert self.process.poll() is None, f"the controller ended instead of: {what}"
-            self._step(ticks)
-            self.executor.spin_once(timeout_sec=0.005)
-
-    def _step(self, ticks: int) -> None:
-        self.tick += ticks
-        now = Clock()
-        now.clock.sec, now.clock.nanosec = divmod(self.tick * 20_000_000, 1_000_000_000)
-        self.clock.publish(now)
-        if self.locating:
-            self.odometry.publish(Odometry())
-        if self.scanning and self.tick % 5 == 0:
-            self.scan.publish(self._scan())
-
-    def _scan(self) -> LaserScan:
-        scan = LaserScan(range_min=0.12, range_max=12.0, angle_min=-3.14159265, angle_increment=0.0174532925)
-        scan.ranges = [float("inf")] * 360
-        scan.ranges[175:186] = type(scan.ranges)("f", [self.ahead] * 11)
-        return scan
-
-    def call(self, kind: Any, name: str, request: Any) -> Any:
-        client = self.node.create_client(kind, name)
-        try:
-            self.until(client.service_is_ready, f"{name} is there")
-            answer = client.call_async(request)
-            self.until(answer.done, f"{name} answers")
-            return answer.result()
-        finally:
-            self.node.destroy_client(client)
-
-    def set(self, atomically: bool = False, **values: Any) -> list[tuple[bool, str]]:
-        wanted = [Parameter(name=name, value=value_of(value)) for name, value in values.items()]
-        if atomically:
-            request = SetParametersAtomically.Request(parameters=wanted)
-            answer = self.call(SetParametersAtomically, f"{NODE}/set_parameters_atomically", request)
-            return [(answer.result.successful, answer.result.reason)]
-        answer = self.call(SetParameters, f"{NODE}/set_parameters", SetParameters.Request(parameters=wanted))
-        return [(result.successful, result.reason) for result in answer.results]
-
-    def get(self, *names: str) -> list[Any]:
-        answer = self.call(GetParameters, f"{NODE}/get_parameters", GetParameters.Request(names=names))
-        return [
-            value.double_value if value.type == ParameterType.PARAMETER_DOUBLE else value.string_value
-            for value in answer.values
-        ]
-
-    def drives(self, speed: float) -> Callable[[], bool]:
-        return lambda: bool(self.commands) and abs(self.commands[-1].linear.x - speed) < 0.01
-
-
-def value_of(value: Any) -> ParameterValue:
-    if isinstance(value, str):
-        return ParameterValue(type=ParameterType.PARAMETER_STRING, string_value=value)
-    if isinstance(value, int):
-        return ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=value)
-    return ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
-
-
-@contextmanager
-def controller(domain: int, *parameters: str) -> Iterator["subprocess.Popen[str]"]:
-    arguments = ["--ros-args", "-r", "__ns:=/robot1"]
-    for parameter in parameters:
-        arguments += ["-p", parameter]
-    process = subprocess.Popen(
-        [sys.executable, "-m", "bringup.nodes.velocity_controller", *arguments],
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-        env=os.environ | {"ROS_DOMAIN_ID": str(domain)},
-    )
-    try:
-        yield process
-    finally:
-        process.kill()
-        process.communicate()
-
-
-@contextmanager
-def on_bench(domain: int, *parameters: str) -> Iterator[tuple[Bench, "subprocess.Popen[str]"]]:
-    with controller(domain, "use_sim_time:=true", *parameters) as process:
-        bench = Bench(domain, process)
-        try:
-            bench.until(lambda: bool(bench.commands and bench.modes), "the controller talks")
-            yield bench, process
-        finally:
-            bench.close()
 
 
 @pytest.fixture(autouse=True, scope="module")
