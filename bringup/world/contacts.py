@@ -1,4 +1,4 @@
-"""How often each robot has touched something other than the floor."""
+"""What each robot touches other than the floor, and how often it has touched something."""
 
 from __future__ import annotations
 
@@ -16,6 +16,14 @@ if TYPE_CHECKING:
 SAME_TOUCH = 0.2
 
 
+@dataclass(frozen=True, slots=True)
+class Touch:
+    """Two geoms that touch, at least one of them of a robot, and the numbers of the robots they belong to."""
+
+    geoms: tuple[int, int]
+    robots: tuple[int, ...]
+
+
 @dataclass(slots=True)
 class ContactCount:
     """One robot's episodes of contact, however many points or things touch at a time."""
@@ -31,9 +39,20 @@ class ContactCount:
             self.episodes += 1
         self.last_touch = time
 
+    def clear(self) -> None:
+        """Forget all of it."""
+        self.episodes, self.last_touch = 0, -np.inf
 
-def touching_robots(geoms: NDArray[np.int32], owners: NDArray[np.int64]) -> set[int]:
-    """Numbers of the robots that touch something; `geoms` has a row with two geoms for each contact."""
+
+def touches(geoms: NDArray[np.int32], owners: NDArray[np.int64]) -> tuple[Touch, ...]:
+    """The touches of robots; `geoms` has a row with two geoms for each contact, a pair may stand there repeatedly."""
     pairs = owners[geoms]
-    firm = pairs[(pairs != FLOOR).all(axis=1)]
-    return {int(owner) for owner in firm.ravel() if owner >= 0} if firm.size else set()
+    firm = (pairs != FLOOR).all(axis=1)
+    if not firm.any():
+        return ()
+    found = {}
+    for (one, other), owned in zip(geoms[firm].tolist(), pairs[firm].tolist(), strict=True):
+        robots = tuple(owner for owner in owned if owner >= 0)
+        if robots:
+            found[one, other] = Touch((one, other), robots)
+    return tuple(found.values())

@@ -27,6 +27,7 @@ class Limits:
     angular_velocity: float = 1.5
     linear_acceleration: float = 1.5
     angular_acceleration: float = 5.0
+    linear_deceleration: float = 4.0
 
 
 def limited(command: Twist, limits: Limits) -> Twist:
@@ -40,8 +41,10 @@ def limited(command: Twist, limits: Limits) -> Twist:
 
 def ramped(current: Twist, target: Twist, limits: Limits, dt: float) -> Twist:
     """What can be reached from `current` on the way to `target` within `dt` seconds."""
+    braking = target.linear * current.linear < 0.0 or abs(target.linear) < abs(current.linear)
+    hardest = limits.linear_deceleration if braking else limits.linear_acceleration
     return Twist(
-        current.linear + _clamp(target.linear - current.linear, limits.linear_acceleration * dt),
+        current.linear + _clamp(target.linear - current.linear, hardest * dt),
         current.angular + _clamp(target.angular - current.angular, limits.angular_acceleration * dt),
     )
 

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 class Inbox:
-    """A topic whose newest message can be taken."""
+    """A topic whose messages can be taken when it suits."""
 
     def __init__(self, node: Node, message: type, topic: str, qos: QoSProfile) -> None:
         self._message = message
@@ -24,6 +24,13 @@ class Inbox:
         self._subscription = node.create_subscription(message, topic, _ignore, qos, callback_group=group)
         # A group that is at work for ever keeps its subscription out of every executor's wait set.
         group.beginning_execution(self._subscription)
+
+    def oldest(self) -> Any:  # noqa: ANN401 - message classes have no types
+        """The first of the messages that have come and were not taken, or None."""
+        handle = self._subscription.handle
+        with handle:
+            taken = handle.take_message(self._message, False)
+        return None if taken is None else taken[0]
 
     def newest(self) -> Any:  # noqa: ANN401 - message classes have no types
         """The last message that has come since the last call, or None."""

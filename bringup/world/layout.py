@@ -8,18 +8,20 @@ from dataclasses import dataclass
 from itertools import combinations
 from typing import TYPE_CHECKING
 
-from bringup.world import arena, maze
+from bringup.world import arena, corridor, maze, warehouse
 from bringup.world.body import FOOTPRINT_RADIUS
 from bringup.world.cells import CELL, centre, side_for, spread
 from bringup.world.geometry import Pose
 from bringup.world.shapes import Box, Shape, distance
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Iterator, Sequence
 
 WORLDS: dict[str, Callable[[int, Sequence[Pose], random.Random], list[Shape]]] = {
     "arena": arena.fill,
     "maze": maze.fill,
+    "corridor": corridor.fill,
+    "warehouse": warehouse.fill,
 }
 WALL_HALF = 0.1
 WALL_HEIGHT = 1.0
@@ -51,8 +53,8 @@ class Layout:
     starts: tuple[Start, ...]
 
 
-def lay_out(world: str, seed: int, robots: Sequence[str], start_poses: Sequence[Pose] = ()) -> Layout:
-    """Lay out a world; the same arguments always give the same one.
+def lay_out(world: str, seed: int, robots: Sequence[str], start_poses: Sequence[Pose | None] = ()) -> Layout:
+    """Lay out a world; the same arguments always give the same one. A start pose that is None is found.
 
     Raises LayoutError: no such world, not one start pose per robot, a start pose without room for the robot.
     """
@@ -63,11 +65,12 @@ def lay_out(world: str, seed: int, robots: Sequence[str], start_poses: Sequence[
     chance = random.Random(f"{world} {seed}")
     side = side_for(len(robots))
     half = side * CELL / 2
-    poses = list(start_poses) or [centre(cell, side) for cell in spread(side, chance)[: len(robots)]]
-    obstacles = tuple(WORLDS[world](side, poses, chance))
+    given = list(start_poses) or [None] * len(robots)
+    free = _free(given, side, chance)
+    places = [pose or next(free) for pose in given]
+    obstacles = tuple(WORLDS[world](side, places, chance))
     made = Layout(world, seed, half, _outer_walls(half), obstacles, starts=())
-    if not start_poses:
-        poses = [_facing_room(made, pose) for pose in poses]
+    poses = [pose or _facing_room(made, place) for pose, place in zip(given, places, strict=True)]
     starts = tuple(Start(robot, pose) for robot, pose in zip(robots, poses, strict=True))
     _require_room(made, starts)
     return Layout(world, seed, half, made.walls, obstacles, starts)
@@ -77,6 +80,16 @@ def room(layout: Layout, x: float, y: float) -> float:
     """Metres from a point to the nearest wall or obstacle, negative inside one or outside the world."""
     inside = layout.half - max(abs(x), abs(y))
     return min([inside, *(distance(shape, x, y) for shape in layout.obstacles)])
+
+
+def _free(given: Sequence[Pose | None], side: int, chance: random.Random) -> Iterator[Pose]:
+    """Places to start from, far apart and none beside a start pose that is given."""
+    taken = [pose for pose in given if pose]
+    for cell in spread(side, chance):
+        place = centre(cell, side)
+        if all(math.hypot(place.x - pose.x, place.y - pose.y) > CELL / 2 for pose in taken):
+            yield place
+    raise LayoutError("the start poses that are given leave no room for the other robots")
 
 
 def _outer_walls(half: float) -> tuple[Box, ...]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 import mujoco
@@ -21,6 +22,16 @@ RANGE_MAX = 12.0
 PERIOD = 0.1
 
 
+@dataclass(frozen=True, slots=True)
+class LidarErrors:
+    """Standard deviation of each range (m), the share of beams that measure nothing, nearest and farthest range."""
+
+    noise: float = 0.01
+    dropout: float = 0.0
+    range_min: float = RANGE_MIN
+    range_max: float = RANGE_MAX
+
+
 class Lidar:
     """One robot's scanner. It sees walls, obstacles and other robots' hulls, and nothing of its own robot."""
 
@@ -32,7 +43,7 @@ class Lidar:
         self._geoms = np.zeros(RAYS, np.int32)
         self._distances = np.zeros(RAYS)
 
-    def measure(self, data: Any) -> NDArray[np.float64]:  # noqa: ANN401 - MjData has no type
+    def measure(self, data: Any, reach: float = RANGE_MAX) -> NDArray[np.float64]:  # noqa: ANN401 - MjData has no type
         """True distances in metres along the beams, from -pi on; inf where nothing is within reach (REP 117).
 
         The own wheels are not the body that is left out of sight, but lie below the beams.
@@ -50,16 +61,29 @@ class Lidar:
             self._distances,
             None,
             RAYS,
-            RANGE_MAX,
+            reach,
         )
-        hit = (self._distances >= 0.0) & (self._distances <= RANGE_MAX)
+        hit = (self._distances >= 0.0) & (self._distances <= reach)
         return np.where(hit, self._distances, np.inf)
 
 
-def noisy(
-    distances: NDArray[np.float64], deviation: float, chance: np.random.Generator
+def reported(
+    distances: NDArray[np.float64], errors: LidarErrors, chance: np.random.Generator
 ) -> NDArray[np.float64]:
-    """What the scanner reports for true distances: normal noise (metres) on what it hits, within its range."""
+    """What the scanner reports for true distances; a beam that drops out is NaN, no measurement (REP 117)."""
+    ranges = noisy(distances, errors.noise, chance, (errors.range_min, errors.range_max))
+    if errors.dropout:
+        ranges[chance.random(len(ranges)) < errors.dropout] = np.nan
+    return ranges
+
+
+def noisy(
+    distances: NDArray[np.float64],
+    deviation: float,
+    chance: np.random.Generator,
+    limits: tuple[float, float] = (RANGE_MIN, RANGE_MAX),
+) -> NDArray[np.float64]:
+    """True distances with normal noise (metres) on what is hit, within the scanner's limits."""
     # The same number of draws whatever is hit, so that runs with one seed stay comparable.
-    reported = distances + deviation * chance.standard_normal(len(distances))
-    return np.where(reported <= RANGE_MAX, np.maximum(reported, RANGE_MIN), np.inf)
+    measured = distances + deviation * chance.standard_normal(len(distances))
+    return np.where(measured <= limits[1], np.maximum(measured, limits[0]), np.inf)

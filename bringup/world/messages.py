@@ -12,12 +12,14 @@ from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, LaserScan
 
 from bringup.world import lidar
-from bringup.world.body import MOUNTS
+from bringup.world.body import MOUNTS, Mount
 from bringup.world.geometry import Pose, yaw_of
 from bringup.world.inertial import InertialNoise, variance
 from bringup.world.model import TICKS_PER_SECOND
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from builtin_interfaces.msg import Time
     from numpy.typing import NDArray
 
@@ -33,9 +35,14 @@ UNKNOWN = 1e6
 SIDEWAYS = 0.01**2
 
 
+def seconds(ticks: int) -> tuple[int, int]:
+    """The time of a tick in whole seconds and nanoseconds."""
+    return divmod(ticks * NANOSECONDS_PER_TICK, NANOSECONDS)
+
+
 def stamp(time: Time, ticks: int) -> Time:
     """Set a time to that of a tick."""
-    time.sec, time.nanosec = divmod(ticks * NANOSECONDS_PER_TICK, NANOSECONDS)
+    time.sec, time.nanosec = seconds(ticks)
     return time
 
 
@@ -109,6 +116,7 @@ def new_scan(robot: str) -> LaserScan:
         scan_time=lidar.PERIOD,
         range_min=lidar.RANGE_MIN,
         range_max=lidar.RANGE_MAX,
+        ranges=[0.0] * lidar.RAYS,
     )
     message.header.frame_id = f"{robot}/laser"
     return message
@@ -119,13 +127,36 @@ def fill_scan(message: LaserScan, ranges: NDArray[np.float64]) -> None:
     message.ranges = array.array("f", ranges.astype(np.float32).tobytes())
 
 
-def mounts(robot: str) -> list[TransformStamped]:
+def mounts(robot: str, mounted: Sequence[Mount] = MOUNTS) -> list[TransformStamped]:
     """The transforms of everything that is fixed on a robot, from its `base_footprint` on."""
     transforms = []
-    for mount in MOUNTS:
+    for mount in mounted:
         transform = TransformStamped(child_frame_id=f"{robot}/{mount.child}")
         transform.header.frame_id = f"{robot}/{mount.parent}"
         place = transform.transform.translation
         place.x, place.y, place.z = mount.x, mount.y, mount.z
+        turn = transform.transform.rotation
+        turn.x, turn.y, turn.z, turn.w = quaternion(mount.roll, mount.pitch, mount.yaw)
         transforms.append(transform)
     return transforms
+
+
+def quaternion(roll: float, pitch: float, yaw: float) -> tuple[float, float, float, float]:
+    """x, y, z and w of a turn about the fixed axes x, y, z, in this order."""
+    (sr, cr), (sp, cp), (sy, cy) = ((math.sin(a / 2), math.cos(a / 2)) for a in (roll, pitch, yaw))
+    return (
+        sr * cp * cy - cr * sp * sy,
+        cr * sp * cy + sr * cp * sy,
+        cr * cp * sy - sr * sp * cy,
+        cr * cp * cy + sr * sp * sy,
+    )
+
+
+def odom_frame(world: str, robot: str, start: Pose) -> TransformStamped:
+    """From the frame of the world to where a robot's odometry begins."""
+    transform = TransformStamped(child_frame_id=f"{robot}/odom")
+    transform.header.frame_id = world
+    transform.transform.translation.x, transform.transform.translation.y = start.x, start.y
+    turn = transform.transform.rotation
+    turn.x, turn.y, turn.z, turn.w = quaternion(0.0, 0.0, start.yaw)
+    return transform

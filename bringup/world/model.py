@@ -12,13 +12,14 @@ import numpy as np
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from numpy.typing import NDArray
 
-from bringup.world.body import FOOTPRINT_RADIUS, MOUNTS, WHEEL_RADIUS
+from bringup.world.body import CAMERA, CAMERA_FOVY, FOOTPRINT_RADIUS, MOUNTS, WHEEL_RADIUS
 from bringup.world.drive import Twist
 from bringup.world.geometry import Pose, yaw_of
 from bringup.world.layout import Layout
 
 WORLDS = Path(__file__).parent.parent / "worlds"
 TEMPLATE = "world.xml.j2"
+COLOURS = ("0.15 0.40 0.75 1", "0.80 0.30 0.20 1", "0.20 0.60 0.35 1", "0.55 0.35 0.70 1")
 # Physics steps in seconds, and how many of them make a tick: the grid on which every message lies.
 TIMESTEP = 0.002
 STEPS_PER_TICK = 5
@@ -39,6 +40,7 @@ class Robot:
     position: int
     velocity: int
     wheels: tuple[int, int]
+    spins: tuple[int, int]
     motors: tuple[int, int]
     imu: slice
 
@@ -55,14 +57,25 @@ class Model:
 
 def render(layout: Layout) -> str:
     """The world as MJCF."""
-    templates = Environment(loader=FileSystemLoader(WORLDS), undefined=StrictUndefined, autoescape=True)
-    return templates.get_template(TEMPLATE).render(
-        layout=layout,
-        timestep=TIMESTEP,
-        wheel_radius=WHEEL_RADIUS,
-        footprint_radius=FOOTPRINT_RADIUS,
-        mounts={mount.child: mount for mount in MOUNTS},
+    return (
+        templates()
+        .get_template(TEMPLATE)
+        .render(
+            layout=layout,
+            timestep=TIMESTEP,
+            wheel_radius=WHEEL_RADIUS,
+            footprint_radius=FOOTPRINT_RADIUS,
+            mounts={mount.child: mount for mount in MOUNTS},
+            camera=CAMERA,
+            camera_fovy=CAMERA_FOVY,
+            colours=COLOURS,
+        )
     )
+
+
+def templates() -> Environment:
+    """The templates of worlds and robots."""
+    return Environment(loader=FileSystemLoader(WORLDS), undefined=StrictUndefined, autoescape=True)
 
 
 def load(layout: Layout) -> Model:
@@ -76,6 +89,28 @@ def pose(data: Any, robot: Robot) -> Pose:  # noqa: ANN401 - MjData has no type
     """Where the robot is now, in world coordinates."""
     x, y, _, *quaternion = data.qpos[robot.position : robot.position + 7].tolist()
     return Pose(x, y, yaw_of(*quaternion))
+
+
+def place(data: Any, robot: Robot, pose: Pose) -> None:  # noqa: ANN401 - MjData has no type
+    """Put the robot somewhere, at rest; the physics has to be told by `mj_forward`."""
+    at, moving = robot.position, robot.velocity
+    data.qpos[at : at + 7] = (
+        pose.x,
+        pose.y,
+        WHEEL_RADIUS,
+        math.cos(pose.yaw / 2),
+        0,
+        0,
+        math.sin(pose.yaw / 2),
+    )
+    data.qvel[moving : moving + 6] = 0.0
+    for wheel in robot.spins:
+        data.qvel[wheel] = 0.0
+
+
+def wheel_speeds(data: Any, robot: Robot) -> tuple[float, float]:  # noqa: ANN401 - MjData has no type
+    """How fast the left and the right wheel turn, in rad/s."""
+    return float(data.qvel[robot.spins[0]]), float(data.qvel[robot.spins[1]])
 
 
 def twist(data: Any, robot: Robot, heading: float) -> tuple[Twist, float]:  # noqa: ANN401 - MjData has no type
@@ -102,6 +137,7 @@ def _robot(physics: Any, name: str, start: Pose) -> Robot:  # noqa: ANN401 - MjM
         position=int(base.qposadr[0]),
         velocity=int(base.dofadr[0]),
         wheels=(int(wheels[0].qposadr[0]), int(wheels[1].qposadr[0])),
+        spins=(int(wheels[0].dofadr[0]), int(wheels[1].dofadr[0])),
         motors=(motors[0].id, motors[1].id),
         imu=_imu(physics, name),
     )
@@ -117,7 +153,7 @@ def _owners(physics: Any, robots: list[str]) -> NDArray[np.int64]:  # noqa: ANN4
     owners = np.full(physics.ngeom, THING)
     owners[physics.geom("floor").id] = FLOOR
     for geom in range(physics.ngeom):
-        name = physics.geom(geom).name.rpartition("/")[0]
+        name = physics.geom(geom).name.partition("/")[0]
         if name in robots:
             owners[geom] = robots.index(name)
     return owners

@@ -1,8 +1,11 @@
 """Wheel odometry: dead reckoning from wheel angles, with the errors of real wheels and an honest account of them.
 
-Three errors go in: a wrong belief in each wheel's radius, slip (a share of the travel that changes slowly, as tyres and
-floor do), and noise (a random walk with the travelled way). The covariances say what these do to the numbers: the
-radius errors are carried through the whole path as one unknown each, slip and noise as a random walk.
+Four errors go in: a wrong belief in each wheel's radius, the steps in which an encoder counts, slip (a share of the
+travel that changes slowly, as tyres and floor do), and noise (a random walk with the travelled way). The covariances
+say what these do to the numbers: the radius errors are carried through the whole path as one unknown each, slip and
+noise as a random walk, an encoder's steps as an error of the velocity, since they never add up.
+
+The sums are written out in plain numbers: arrays of three would cost six times as much.
 """
 
 from __future__ import annotations
@@ -22,8 +25,6 @@ SLIP_TIME = 1.0
 # What encoders cannot resolve, as a standard deviation of a wheel's velocity in m/s.
 RESOLUTION = 1e-3
 SMALLEST_VARIANCE = 1e-9
-# (vx, vyaw) from the velocities of the left and the right wheel.
-MOTION = np.array([[0.5, 0.5], [-1 / WHEEL_SEPARATION, 1 / WHEEL_SEPARATION]])
 
 
 @dataclass(frozen=True, slots=True)
@@ -32,12 +33,14 @@ class WheelErrors:
 
     Scales: believed radius over true radius. Slip: standard deviation of the share of travel that is counted too much
     or too little. Noise: standard deviation in metres after one metre, growing with the square root of the way.
+    Counts: steps of an encoder per turn of its wheel, 0 for none.
     """
 
     left_scale: float = 1.01
     right_scale: float = 1.0
     slip: float = 0.01
     noise: float = 0.002
+    counts: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,68 +53,110 @@ class Estimate:
     twist_covariance: NDArray[np.float64]
 
 
+@dataclass(slots=True)
+class _Walk:
+    """The covariance of all that is random in a pose, entry by entry."""
+
+    xx: float = SMALLEST_VARIANCE
+    xy: float = 0.0
+    xt: float = 0.0
+    yy: float = SMALLEST_VARIANCE
+    yt: float = 0.0
+    tt: float = SMALLEST_VARIANCE
+
+
 class Odometry:
-    """The dead reckoning of one robot, which starts at the origin of its own frame."""
+    """The dead reckoning of one robot, which starts at the origin of its own frame; `errors` can be replaced."""
 
     def __init__(self, errors: WheelErrors, dt: float, chance: np.random.Generator) -> None:
-        self._errors = errors
+        self.errors = errors
         self._dt = dt
         self._chance = chance
         self._angles = (0.0, 0.0)
-        self._slip = errors.slip * chance.standard_normal(2)
+        # Slip in units of its standard deviation.
+        self._slip: list[float] = chance.standard_normal(2).tolist()
         self._pose = Pose(0.0, 0.0, 0.0)
-        # How the pose depends on each wheel's radius, and the covariance of all that is random.
-        self._sensitivity = np.zeros((3, 2))
-        self._walk = SMALLEST_VARIANCE * np.eye(3)
-        self._radius_variances = np.square([errors.left_scale - 1.0, errors.right_scale - 1.0])
+        self._walk = _Walk()
+        # How x, y and yaw depend on each wheel's radius.
+        self._of_left = (0.0, 0.0, 0.0)
+        self._of_right = (0.0, 0.0, 0.0)
 
-    def update(self, angles: tuple[float, float]) -> Estimate:
+    def update(self, angles: tuple[float, float], dt: float | None = None) -> Estimate:
         """The estimate after `dt` more seconds, from how far the wheels have turned since the start (radians)."""
-        left, right = self._counted([now - then for now, then in zip(angles, self._angles, strict=True)])
-        self._angles = angles
+        dt = dt or self._dt
+        counted = _stepped(angles[0], self.errors.counts), _stepped(angles[1], self.errors.counts)
+        left, right = self._counted(counted[0] - self._angles[0], counted[1] - self._angles[1], dt)
+        self._angles = counted
         way, turn = (left + right) / 2, (right - left) / WHEEL_SEPARATION
         heading = self._pose.yaw + turn / 2
         # The chord of the arc; its direction is the heading half way.
         chord = way * (math.sin(turn / 2) / (turn / 2) if turn else 1.0)
         dx, dy = chord * math.cos(heading), chord * math.sin(heading)
-        self._spread(left, right, heading, dx, dy)
+        self._spread(left, right, heading, dx, dy, dt)
         self._pose = Pose(self._pose.x + dx, self._pose.y + dy, wrap(self._pose.yaw + turn))
-        twist = Twist(way / self._dt, turn / self._dt)
-        return Estimate(self._pose, twist, self._pose_covariance(), self._twist_covariance(left, right))
+        twist = Twist(way / dt, turn / dt)
+        return Estimate(self._pose, twist, self._pose_covariance(), self._twist_covariance(left, right, dt))
 
-    def _counted(self, turned: list[float]) -> tuple[float, float]:
-        keep = math.exp(-self._dt / SLIP_TIME)
-        draws = self._chance.standard_normal((2, 2))
-        self._slip = keep * self._slip + math.sqrt(1 - keep * keep) * self._errors.slip * draws[0]
-        scales = self._errors.left_scale, self._errors.right_scale
-        left, right = (
-            WHEEL_RADIUS * angle * (scale + float(slip))
-            + self._errors.noise * math.sqrt(WHEEL_RADIUS * abs(angle)) * float(draw)
-            for angle, scale, slip, draw in zip(turned, scales, self._slip, draws[1], strict=True)
+    def _counted(self, left: float, right: float, dt: float) -> tuple[float, float]:
+        """The travel of each wheel that is counted for so much turning."""
+        errors, keep = self.errors, math.exp(-dt / SLIP_TIME)
+        fresh = math.sqrt(1 - keep * keep)
+        draws = self._chance.standard_normal(4).tolist()
+        self._slip = [keep * slip + fresh * draw for slip, draw in zip(self._slip, draws, strict=False)]
+        return (
+            WHEEL_RADIUS * left * (errors.left_scale + errors.slip * self._slip[0])
+            + errors.noise * math.sqrt(WHEEL_RADIUS * abs(left)) * draws[2],
+            WHEEL_RADIUS * right * (errors.right_scale + errors.slip * self._slip[1])
+            + errors.noise * math.sqrt(WHEEL_RADIUS * abs(right)) * draws[3],
         )
-        return left, right
 
-    def _spread(self, left: float, right: float, heading: float, dx: float, dy: float) -> None:
+    def _spread(self, left: float, right: float, heading: float, dx: float, dy: float, dt: float) -> None:
         """Carry the uncertainty along: the linearised motion model of a differential drive."""
-        motion = np.array([[1.0, 0.0, -dy], [0.0, 1.0, dx], [0.0, 0.0, 1.0]])
-        cos, sin = math.cos(heading) / 2, math.sin(heading) / 2
-        wheels = np.array([[cos, cos], [sin, sin], [-1 / WHEEL_SEPARATION, 1 / WHEEL_SEPARATION]])
-        random = np.array([self._walk_variance(abs(left)), self._walk_variance(abs(right))])
-        self._sensitivity = motion @ self._sensitivity + wheels * (left, right)
-        self._walk = motion @ self._walk @ motion.T + (wheels * random) @ wheels.T
+        cos, sin, turn = math.cos(heading) / 2, math.sin(heading) / 2, 1 / WHEEL_SEPARATION
+        x, y, yaw = self._of_left
+        self._of_left = (x - dy * yaw + cos * left, y + dx * yaw + sin * left, yaw - turn * left)
+        x, y, yaw = self._of_right
+        self._of_right = (x - dy * yaw + cos * right, y + dx * yaw + sin * right, yaw + turn * right)
+        one, other = self._walk_variance(abs(left), dt), self._walk_variance(abs(right), dt)
+        both, apart = one + other, other - one
+        old = self._walk
+        self._walk = _Walk(
+            xx=old.xx - 2 * dy * old.xt + dy * dy * old.tt + cos * cos * both,
+            xy=old.xy + dx * old.xt - dy * old.yt - dx * dy * old.tt + cos * sin * both,
+            xt=old.xt - dy * old.tt + cos * turn * apart,
+            yy=old.yy + 2 * dx * old.yt + dx * dx * old.tt + sin * sin * both,
+            yt=old.yt + dx * old.tt + sin * turn * apart,
+            tt=old.tt + turn * turn * both,
+        )
 
-    def _walk_variance(self, way: float) -> float:
+    def _walk_variance(self, way: float, dt: float) -> float:
         # Slip that forgets itself within SLIP_TIME is, in the long run, a random walk of this rate.
-        slip = 2.0 * SLIP_TIME * self._errors.slip**2 * way / self._dt
-        return (self._errors.noise**2 + slip) * way
+        slip = 2.0 * SLIP_TIME * self.errors.slip**2 * way / dt
+        return (self.errors.noise**2 + slip) * way
 
     def _pose_covariance(self) -> NDArray[np.float64]:
-        covariance: NDArray[np.float64] = (self._sensitivity * self._radius_variances) @ self._sensitivity.T
-        return covariance + self._walk
+        one, other = (self.errors.left_scale - 1.0) ** 2, (self.errors.right_scale - 1.0) ** 2
+        walk, (lx, ly, lt), (rx, ry, rt) = self._walk, self._of_left, self._of_right
+        xx, yy = walk.xx + one * lx * lx + other * rx * rx, walk.yy + one * ly * ly + other * ry * ry
+        xy, xt = walk.xy + one * lx * ly + other * rx * ry, walk.xt + one * lx * lt + other * rx * rt
+        yt, tt = walk.yt + one * ly * lt + other * ry * rt, walk.tt + one * lt * lt + other * rt * rt
+        return np.array(((xx, xy, xt), (xy, yy, yt), (xt, yt, tt)))
 
-    def _twist_covariance(self, left: float, right: float) -> NDArray[np.float64]:
-        way = np.abs([left, right])
-        shares = self._radius_variances + self._errors.slip**2
-        wheels = (shares * way**2 + self._errors.noise**2 * way) / self._dt**2 + RESOLUTION**2
-        covariance: NDArray[np.float64] = (MOTION * wheels) @ MOTION.T
-        return covariance
+    def _twist_covariance(self, left: float, right: float, dt: float) -> NDArray[np.float64]:
+        errors = self.errors
+        # The difference of two counts that each are wrong by up to a step.
+        step = math.tau * WHEEL_RADIUS / errors.counts if errors.counts else 0.0
+        least = RESOLUTION**2 + step**2 / 6 / dt**2
+        one = (
+            ((errors.left_scale - 1.0) ** 2 + errors.slip**2) * left**2 + errors.noise**2 * abs(left)
+        ) / dt**2
+        other = (
+            ((errors.right_scale - 1.0) ** 2 + errors.slip**2) * right**2 + errors.noise**2 * abs(right)
+        ) / dt**2
+        ahead, mixed = (one + other + 2 * least) / 4, (other - one) / 2 / WHEEL_SEPARATION
+        return np.array(((ahead, mixed), (mixed, (one + other + 2 * least) / WHEEL_SEPARATION**2)))
+
+
+def _stepped(angle: float, counts: int) -> float:
+    """The angle as an encoder with so many counts per turn tells it."""
+    return math.floor(angle * counts / math.tau) * math.tau / counts if counts else angle

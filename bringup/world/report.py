@@ -28,6 +28,12 @@ def filter_error(distance: float, turn: float, age_ticks: float) -> str:
     return f"error {distance:.3f} m, {turn:.3f} rad{past}"
 
 
+def behind(factor: float, speed: float, lag: float, lost: float) -> str:
+    """That the run does not keep up with real time: its factor, the one that is asked for, how late it is (s)."""
+    given_up = f", {lost:.1f} s given up before" if lost else ""
+    return f"behind real time: factor {factor:.3f} instead of {speed:g}, {lag:.1f} s late{given_up}"
+
+
 def summary(simulated: float, real: float) -> str:
     """How the run went against real time, both in seconds."""
     factor = simulated / real if real > 0.0 else 0.0

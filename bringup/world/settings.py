@@ -1,24 +1,28 @@
-"""The parameters of the simulation: one table, from which the node declares them, and what they say together."""
+"""What the parameters say together: the settings of a run and those of each of its robots."""
 
 from __future__ import annotations
 
-import math
 import re
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from difflib import get_close_matches
 from typing import TYPE_CHECKING, Any
 
 from bringup.world.drive import Limits
 from bringup.world.geometry import Pose
 from bringup.world.inertial import InertialNoise
-from bringup.world.layout import WORLDS
+from bringup.world.lidar import LidarErrors
 from bringup.world.odometry import WheelErrors
+from bringup.world.table import BY_NAME, EACH, TABLE
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping, Sequence
+    from collections.abc import Sequence
 
+    from bringup.world.table import Setting
+
+__all__ = ["TABLE", "Robot", "RobotSettings", "Settings", "SettingsError", "checked", "nearest", "settings"]
 ROBOT_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]*")
 NUMBERS_PER_POSE = 3
-DAY = 86400.0
 
 
 class SettingsError(ValueError):
@@ -26,127 +30,163 @@ class SettingsError(ValueError):
 
 
 @dataclass(frozen=True, slots=True)
-class Setting:
-    """One parameter. Numbers have a range, both ends included; only changeable ones can be set while the node runs.
+class RobotSettings:
+    """What one robot is made with: its base, its sensors' errors, their messages per simulated second."""
 
-    An empty tuple as default stands for an array of numbers that may be left out.
-    """
+    limits: Limits = field(default_factory=Limits)
+    command_timeout: float = 0.2
+    wheels: WheelErrors = field(default_factory=WheelErrors)
+    inertial: InertialNoise = field(default_factory=InertialNoise)
+    lidar: LidarErrors = field(default_factory=LidarErrors)
+    odometry_rate: float = 50.0
+    imu_rate: float = 100.0
+    scan_rate: float = 10.0
+
+
+@dataclass(frozen=True, slots=True)
+class Robot:
+    """A robot as a file describes it: where it stands at first, if told, and the values that are its own."""
 
     name: str
-    default: bool | int | float | str | tuple[str, ...]
-    description: str
-    low: float = -math.inf
-    high: float = math.inf
-    changeable: bool = False
-    constraints: str = ""
+    start: Pose | None = None
+    own: Mapping[str, Any] = field(default_factory=dict)
 
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """What a run is made with."""
+    """What a run is made with; `each` has one entry for each of the `robots`."""
 
     world: str
     seed: int
     robots: tuple[str, ...]
-    start_poses: tuple[Pose, ...]
+    start_poses: tuple[Pose | None, ...]
+    world_frame: str
     headless: bool
     duration: float
     speed: float
+    paused: bool
+    lockstep_ticks: int | None
+    script: str
     status_period: float
     picture: str
-    limits: Limits
-    wheels: WheelErrors
-    inertial: InertialNoise
-    lidar_noise: float
+    record: str
+    camera_rate: float
+    camera_size: tuple[int, int]
+    each: tuple[RobotSettings, ...]
+
+    @property
+    def limits(self) -> Limits:
+        """What the base of the first robot can do."""
+        return self.each[0].limits
+
+    @property
+    def wheels(self) -> WheelErrors:
+        """What is wrong with the wheels of the first robot."""
+        return self.each[0].wheels
+
+    @property
+    def inertial(self) -> InertialNoise:
+        """What is wrong with the IMU of the first robot."""
+        return self.each[0].inertial
+
+    @property
+    def lidar_noise(self) -> float:
+        """Standard deviation of the first robot's ranges, in metres."""
+        return self.each[0].lidar.noise
 
 
-TABLE = (
-    Setting("world", "arena", "Which world to make.", constraints=f"One of: {', '.join(WORLDS)}"),
-    Setting("seed", 1, "Seed of the world's obstacles and of all noise.", 0, 2**31 - 1),
-    Setting(
-        "robots",
-        ("robot1", "robot2"),
-        "Names of the robots, before their topics and frames.",
-    ),
-    Setting("start_poses", (), "x, y, yaw of each robot in turn (m, rad); empty: the world's own."),
-    Setting("headless", True, "Without a window."),
-    Setting(
-        "duration", 0.0, "Simulated seconds after which the node ends by itself; 0: never.", 0.0, 365 * DAY
-    ),
-    Setting("speed", 1.0, "Simulated over real time; 0: as fast as possible.", 0.0, 1000.0, changeable=True),
-    Setting("status_period", 2.0, "Real seconds between two status lines.", 0.1, DAY, changeable=True),
-    Setting("picture", "", "PNG file with the driven paths, written at the end; empty: none."),
-    Setting("max_linear_velocity", 0.8, "Fastest the base drives, in m/s.", 0.01, 1.0),
-    Setting("max_angular_velocity", 1.5, "Fastest the base turns, in rad/s.", 0.01, 2.0),
-    Setting("linear_acceleration", 1.5, "Hardest the base speeds up or brakes, in m/s^2.", 0.05, 2.5),
-    Setting("angular_acceleration", 5.0, "Hardest the base starts or stops turning, in rad/s^2.", 0.05, 10.0),
-    Setting(
-        "left_wheel_scale",
-        1.01,
-        "Left wheel's radius as the odometry believes it, over the true one.",
-        0.8,
-        1.25,
-    ),
-    Setting(
-        "right_wheel_scale",
-        1.0,
-        "Right wheel's radius as the odometry believes it, over the true one.",
-        0.8,
-        1.25,
-    ),
-    Setting(
-        "wheel_slip",
-        0.01,
-        "Standard deviation of the share of a wheel's travel that is miscounted.",
-        0.0,
-        0.5,
-    ),
-    Setting(
-        "wheel_noise", 0.002, "Standard deviation of a wheel's counted travel after 1 m, in m.", 0.0, 0.5
-    ),
-    Setting("gyro_noise", 0.005, "Standard deviation of each turning rate, in rad/s.", 0.0, 1.0),
-    Setting("gyro_bias", 0.0002, "Constant error of each turning rate, in rad/s.", -1.0, 1.0),
-    Setting("accelerometer_noise", 0.05, "Standard deviation of each acceleration, in m/s^2.", 0.0, 10.0),
-    Setting("accelerometer_bias", 0.02, "Constant error of each acceleration, in m/s^2.", -10.0, 10.0),
-    Setting("lidar_noise", 0.01, "Standard deviation of each range, in m.", 0.0, 1.0),
-)
+def settings(values: Mapping[str, Any], described: Sequence[Robot] = ()) -> Settings:
+    """What these parameter values mean, with the robots of a file, if there is one, and what is their own.
 
-
-def settings(values: Mapping[str, Any]) -> Settings:
-    """What the parameters say together.
-
-    Raises SettingsError: a name that is no namespace or stands twice, no robot, start poses that are no triples.
+    Raises SettingsError.
     """
+    robots = _robots([robot.name for robot in described] or _names(values["robots"]))
+    own = {robot.name: robot.own for robot in described}
+    poses = _poses(values["start_poses"] or ())
     return Settings(
         world=values["world"],
         seed=values["seed"],
-        robots=_robots(values["robots"]),
-        start_poses=_poses(values["start_poses"]),
+        robots=robots,
+        start_poses=poses or tuple(robot.start for robot in described),
+        world_frame=values["world_frame"],
         headless=values["headless"],
         duration=values["duration"],
         speed=values["speed"],
+        paused=values["paused"],
+        lockstep_ticks=values["lockstep_ticks"] if values["lockstep"] else None,
+        script=values["script"],
         status_period=values["status_period"],
         picture=values["picture"],
+        record=values["record"],
+        camera_rate=values["camera_rate"],
+        camera_size=(values["camera_width"], values["camera_height"]),
+        each=tuple(_of_robot({**values, **own.get(name, {})}, name) for name in robots),
+    )
+
+
+def checked(setting: Setting, value: Any) -> Any:  # noqa: ANN401 - a parameter's value
+    """A robot's own value in its setting's type. Raises SettingsError: of another type, out of range."""
+    whole = not isinstance(setting.default, float)
+    if isinstance(value, bool) or not isinstance(value, int if whole else int | float):
+        raise SettingsError(f"'{setting.name}' is no {'whole number' if whole else 'number'}: {value!r}")
+    if not setting.low <= value <= setting.high:
+        raise SettingsError(
+            f"'{setting.name}' is out of range: {value:g} is not from {setting.low:g} to {setting.high:g}"
+        )
+    return value if whole else float(value)
+
+
+def nearest(name: str, *, each: bool = False) -> str | None:
+    """The parameter that was probably meant, if any; `each`: among those that a robot can have of its own."""
+    known = [setting.name for setting in EACH] if each else list(BY_NAME)
+    close = get_close_matches(name, known, 1, 0.75)
+    return close[0] if close else None
+
+
+def _of_robot(values: Mapping[str, Any], name: str) -> RobotSettings:
+    lidar = LidarErrors(
+        values["lidar_noise"], values["lidar_dropout"], values["lidar_range_min"], values["lidar_range_max"]
+    )
+    if lidar.range_min >= lidar.range_max:
+        raise SettingsError(
+            f"the lidar of {name} would see nothing: lidar_range_min {lidar.range_min:g} "
+            f"is not below lidar_range_max {lidar.range_max:g}"
+        )
+    return RobotSettings(
         limits=Limits(
             values["max_linear_velocity"],
             values["max_angular_velocity"],
             values["linear_acceleration"],
             values["angular_acceleration"],
+            values["linear_deceleration"],
         ),
+        command_timeout=values["command_timeout"],
         wheels=WheelErrors(
             values["left_wheel_scale"],
             values["right_wheel_scale"],
             values["wheel_slip"],
             values["wheel_noise"],
+            values["encoder_counts"],
         ),
         inertial=InertialNoise(
             values["gyro_noise"],
             values["gyro_bias"],
             values["accelerometer_noise"],
             values["accelerometer_bias"],
+            values["gyro_bias_walk"],
+            values["accelerometer_bias_walk"],
         ),
-        lidar_noise=values["lidar_noise"],
+        lidar=lidar,
+        odometry_rate=values["odometry_rate"],
+        imu_rate=values["imu_rate"],
+        scan_rate=values["scan_rate"],
     )
+
+
+def _names(written: Sequence[str] | str | None) -> list[str]:
+    """The names in a list, whose texts may hold several with commas between them."""
+    texts = [written] if isinstance(written, str) else written or []
+    return [name.strip() for text in texts for name in text.split(",") if name.strip()]
 
 
 def _robots(names: Sequence[str]) -> tuple[str, ...]:
@@ -157,6 +197,8 @@ def _robots(names: Sequence[str]) -> tuple[str, ...]:
             raise SettingsError(f"parameter 'robots': '{name}' cannot be a namespace")
         if names.count(name) > 1:
             raise SettingsError(f"parameter 'robots': '{name}' stands there twice")
+        if name in BY_NAME:
+            raise SettingsError(f"parameter 'robots': '{name}' is the name of a parameter")
     return tuple(names)
 
 

@@ -1,68 +1,118 @@
-"""The course of the world: tick by tick, from velocity commands to motion and contacts."""
+"""The course of the world: tick by tick, from velocity commands to motion and contacts.
+
+It runs without ROS and without a clock. A run in lockstep, with sensors and all their errors:
+
+    layout = lay_out("maze", seed, ["robot1", "robot2"])
+    own = RobotSettings(wheels=WheelErrors(left_scale=1.01), inertial=InertialNoise(gyro_noise=0.005))
+    simulation = Simulation(load(layout), own.limits)
+    sensors = [Sensors(simulation, number, own, seed) for number in range(2)]
+    for _ in range(12_000):                          # 120 s in ticks of 10 ms
+        simulation.tick(commands)                    # one Twist per robot
+        readings = [each.read() for each in sensors] # `bringup.world.sensing`
+"""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 import mujoco
 
-from bringup.world.contacts import ContactCount, touching_robots
+from bringup.world.contacts import ContactCount, Touch, touches
 from bringup.world.drive import STILL, Limits, Twist, limited, ramped, wheel_speeds
-from bringup.world.model import STEPS_PER_TICK, TICKS_PER_SECOND, Model
+from bringup.world.model import STEPS_PER_TICK, TICKS_PER_SECOND, Model, place
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from bringup.world.geometry import Pose
+
 TICK = 1.0 / TICKS_PER_SECOND
-COMMAND_TIMEOUT_TICKS = TICKS_PER_SECOND // 2
 
 
 class Simulation:
     """A model in motion.
 
     Nothing in it depends on a clock or on chance: the same commands at the same ticks give the same numbers to the
-    last bit (with one version of MuJoCo on one kind of processor).
+    last bit (with one version of MuJoCo on one kind of processor). `limits`, one for all robots or one for each, can be
+    changed at any time.
     """
 
-    def __init__(self, model: Model, limits: Limits | None = None) -> None:
+    def __init__(self, model: Model, limits: Limits | Sequence[Limits] | None = None) -> None:
         self.model = model
-        self.limits = limits or Limits()
+        if limits is None or isinstance(limits, Limits):
+            limits = [limits or Limits()] * len(model.robots)
+        self.limits = list(limits)
         self.data = mujoco.MjData(model.physics)
-        mujoco.mj_forward(model.physics, self.data)
-        self.ticks = 0
         self.contacts = tuple(ContactCount() for _ in model.robots)
-        self._pairs = b""
-        self._touching: set[int] = set()
-        self._drives = [STILL for _ in model.robots]
+        self.reset()
 
     @property
     def time(self) -> float:
         """Simulated seconds since the start."""
         return self.ticks * TICK
 
+    def reset(self) -> None:
+        """Begin anew: everything is as it was at first, time as well."""
+        mujoco.mj_resetData(self.model.physics, self.data)
+        mujoco.mj_forward(self.model.physics, self.data)
+        self.ticks = 0
+        for count in self.contacts:
+            count.clear()
+        self._drives = [STILL for _ in self.model.robots]
+        self._seen = _Seen()
+
+    def teleport(self, number: int, pose: Pose) -> None:
+        """Put a robot elsewhere (world coordinates, metres and radians), where it stands still; time does not pass."""
+        place(self.data, self.model.robots[number], pose)
+        self._drives[number] = STILL
+        mujoco.mj_forward(self.model.physics, self.data)
+        self._seen = _Seen()
+
+    def touching(self) -> tuple[Touch, ...]:
+        """What touches a robot at this moment, the floor apart."""
+        return self._seen.touches
+
     def tick(self, commands: Sequence[Twist]) -> None:
         """Advance by one tick (10 ms); one command per robot, in m/s and rad/s, already timed out where it has to."""
+        control = self.data.ctrl
         for number, (robot, command) in enumerate(zip(self.model.robots, commands, strict=True)):
-            drive = ramped(self._drives[number], limited(command, self.limits), self.limits, TICK)
+            limits = self.limits[number]
+            drive = ramped(self._drives[number], limited(command, limits), limits, TICK)
             self._drives[number] = drive
             left, right = robot.motors
-            self.data.ctrl[left], self.data.ctrl[right] = wheel_speeds(drive)
-        for _ in range(STEPS_PER_TICK):
-            mujoco.mj_step(self.model.physics, self.data)
-            self._count_contacts()
+            control[left], control[right] = wheel_speeds(drive)
+        physics, data = self.model.physics, self.data
+        for step in range(1, STEPS_PER_TICK + 1):
+            mujoco.mj_step(physics, data)
+            # A graze can be shorter than a tick: whenever the number of contacts changes they are looked at.
+            if data.ncon != self._seen.count or step == STEPS_PER_TICK:
+                self._look()
+            for number in self._seen.robots:
+                self.contacts[number].update(data.time, touching=True)
         self.ticks += 1
 
-    def _count_contacts(self) -> None:
-        # Every single step counts: a graze can be shorter than a tick. Mostly the same geoms touch as before.
+    def _look(self) -> None:
         geoms = self.data.contact.geom
         pairs = geoms.tobytes()
-        if pairs != self._pairs:
-            self._pairs = pairs
-            self._touching = touching_robots(geoms, self.model.owners)
-        for number in self._touching:
-            self.contacts[number].update(self.data.time, touching=True)
+        # Mostly the same geoms touch as before.
+        if pairs != self._seen.pairs:
+            found = touches(geoms, self.model.owners)
+            robots = frozenset(number for touch in found for number in touch.robots)
+            self._seen = _Seen(pairs, len(geoms), found, robots)
 
 
-def in_force(command: Twist, age: int) -> Twist:
-    """What a command of so many ticks ago still means: after half a second, nothing."""
-    return command if age < COMMAND_TIMEOUT_TICKS else STILL
+@dataclass(frozen=True, slots=True)
+class _Seen:
+    """The contacts of the last look: their geoms as bytes, their number, what is told of them."""
+
+    pairs: bytes = b""
+    count: int = -1
+    touches: tuple[Touch, ...] = ()
+    robots: frozenset[int] = frozenset()
+
+
+def in_force(command: Twist, age: float, timeout: float) -> Twist:
+    """What a command of so many simulated seconds ago still means: after the time-out, nothing."""
+    # Ages are sums of ticks; a hair less than the time-out is the time-out.
+    return command if age < timeout - TICK / 1000 else STILL

@@ -9,34 +9,34 @@ from typing import TYPE_CHECKING
 import numpy as np
 from geometry_msgs.msg import Twist as TwistMessage
 from nav_msgs.msg import Odometry as OdometryMessage
-from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
-from sensor_msgs.msg import Imu, LaserScan
-from std_msgs.msg import UInt32
+from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
+from std_msgs.msg import String, UInt32
 
 from bringup.world import messages
+from bringup.world.description import JOINTS, describe
 from bringup.world.drive import STILL, Twist
-from bringup.world.geometry import Pose, compose, relative, wrap
+from bringup.world.geometry import Pose, compose, wrap
 from bringup.world.inbox import Inbox
-from bringup.world.inertial import Inertial
-from bringup.world.lidar import Lidar, noisy
-from bringup.world.model import TICKS_PER_SECOND, pose, twist, wheel_angles
-from bringup.world.odometry import Odometry
-from bringup.world.simulation import Simulation, in_force
+from bringup.world.model import TICKS_PER_SECOND, wheel_angles, wheel_speeds
+from bringup.world.sensing import Readings, Sensors, due
+from bringup.world.simulation import TICK, Simulation, in_force
+from bringup.world.spoken import InertialOut, JointsOut, OdometryOut, ScanOut
 from bringup.world.track import Recent, Trail
 
 if TYPE_CHECKING:
     from rclpy.node import Node
 
-    from bringup.world.settings import Settings
+    from bringup.world.settings import RobotSettings, Settings
 
-# Every how many ticks something is done; rates are exact in simulated time. The IMU speaks at every tick.
-ODOMETRY_TICKS = TICKS_PER_SECOND // 50
-SCAN_TICKS = TICKS_PER_SECOND // 10
+# What happens so often in a simulated second. The trails have a point at each of a trail's ticks.
+JOINTS_RATE = 20.0
+TRAIL_TICKS = TICKS_PER_SECOND // 10
 CONTACTS_TICKS = TICKS_PER_SECOND
 KEPT_TICKS = 5 * TICKS_PER_SECOND
 
 NEWEST = QoSProfile(depth=1)
 NEWEST_OF_ANY = QoSProfile(depth=1, reliability=ReliabilityPolicy.BEST_EFFORT)
+ALL = QoSProfile(history=HistoryPolicy.KEEP_ALL)
 QUEUED = QoSProfile(depth=10)
 LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
@@ -55,95 +55,97 @@ class RobotTopics:
 
     def __init__(self, node: Node, simulation: Simulation, number: int, settings: Settings) -> None:
         self.robot = simulation.model.robots[number]
+        self._simulation = simulation
+        self._contacts = simulation.contacts[number]
+        self.sensors = Sensors(simulation, number, settings.each[number], settings.seed)
+        self._open(node, settings, number)
+        self.reset(settings.each[number])
+
+    def reset(self, settings: RobotSettings) -> None:
+        """Begin anew, as at the first tick."""
         self.nearest = math.inf
         self.filter_error: FilterError | None = None
         self.true_trail, self.odometry_trail, self.filtered_trail = Trail(), Trail(), Trail()
-        self._simulation = simulation
-        self._contacts = simulation.contacts[number]
-        self._settings = settings
-        # A stream of chance for each sensor: none depends on how often another one speaks.
-        seeds = np.random.SeedSequence([settings.seed, number]).spawn(3)
-        wheels, inertial, self._lidar_chance = map(np.random.default_rng, seeds)
-        self._odometry = Odometry(settings.wheels, ODOMETRY_TICKS / TICKS_PER_SECOND, wheels)
-        self._inertial = Inertial(settings.inertial, inertial)
-        self._lidar = Lidar(simulation.model, self.robot)
+        self.sensors.reset(settings)
         self._recent = Recent(KEPT_TICKS)
         self._recent.add(Pose(0.0, 0.0, 0.0))
-        self._command, self._command_tick = STILL, 0
+        self._believed = Pose(0.0, 0.0, 0.0)
+        self._command, self._command_tick = STILL, -1
         self._told_contacts = -1
-        self._make_messages()
-        self._open(node)
 
     def command(self) -> Twist:
         """The velocity command that is in force at the tick to come."""
         message = self._commands.newest()
         if message is not None:
-            self._command = Twist(message.linear.x, message.angular.z)
-            self._command_tick = self._simulation.ticks
-        return in_force(self._command, self._simulation.ticks - self._command_tick)
+            self._obey(message)
+        age = (self._simulation.ticks - self._command_tick) * TICK
+        return in_force(self._command, age, self.sensors.settings.command_timeout)
+
+    def next_command(self) -> bool:
+        """Take the next command in the order in which they came; False if there is none yet."""
+        message = self._commands.oldest()
+        if message is not None:
+            self._obey(message)
+        return message is not None
+
+    @property
+    def told_at(self) -> int:
+        """The tick before which the last command was taken; -1 before any."""
+        return self._command_tick
+
+    @property
+    def last_command(self) -> Twist:
+        """The last command that was taken, whatever its age."""
+        return self._command
 
     def publish(self) -> None:
         """Publish what is due at this tick."""
-        ticks = self._simulation.ticks
-        here = pose(self._simulation.data, self.robot)
-        local = relative(self.robot.start, here)
-        self._recent.add(local)
-        self._publish_imu(ticks)
-        if ticks % ODOMETRY_TICKS == 0:
-            self._publish_truth(ticks, here, local)
-            self._publish_odometry(ticks)
-        if ticks % SCAN_TICKS == 0:
-            self._publish_scan(ticks)
+        ticks, settings = self._simulation.ticks, self.sensors.settings
+        readings = self.sensors.read()
+        if readings.inertial is not None:
+            self._imu.publish(ticks, readings.inertial)
+        self._publish_motion(ticks, readings)
+        if readings.ranges is not None:
+            self.nearest = float(np.fmin.reduce(readings.ranges, initial=math.inf))
+            self._scan.publish(ticks, readings.ranges, settings.scan_rate, settings.lidar)
+        if ticks % TRAIL_TICKS == 0:
             self._hear_filter()
-            self.true_trail.add(here.x, here.y)
+            self.true_trail.add(readings.world.x, readings.world.y)
+            believed = compose(self.robot.start, self._believed)
+            self.odometry_trail.add(believed.x, believed.y)
+        if due(ticks, JOINTS_RATE):
+            data = self._simulation.data
+            self._joints.publish(ticks, wheel_angles(data, self.robot), wheel_speeds(data, self.robot))
         if ticks % CONTACTS_TICKS == 0 or self._contacts.episodes != self._told_contacts:
             self._publish_contacts()
 
-    def _make_messages(self) -> None:
+    def _open(self, node: Node, settings: Settings, number: int) -> None:
         name = self.robot.name
-        self._truth_message = messages.new_odometry(name)
-        self._odometry_message = messages.new_wheel_odometry(name)
-        self._imu_message = messages.new_imu(name, self._settings.inertial)
-        self._scan_message = messages.new_scan(name)
-
-    def _open(self, node: Node) -> None:
-        name = self.robot.name
-        self._truth = node.create_publisher(OdometryMessage, f"{name}/ground_truth", QUEUED)
-        self._wheel = node.create_publisher(OdometryMessage, f"{name}/wheel/odometry", QUEUED)
-        self._imu = node.create_publisher(Imu, f"{name}/imu/data", QUEUED)
-        self._scan = node.create_publisher(LaserScan, f"{name}/scan", qos_profile_sensor_data)
+        self._truth = OdometryOut(node, f"{name}/ground_truth", messages.new_odometry(name), QUEUED)
+        self._wheel = OdometryOut(node, f"{name}/wheel/odometry", messages.new_wheel_odometry(name), QUEUED)
+        imu = messages.new_imu(name, self.sensors.settings.inertial)
+        self._imu = InertialOut(node, f"{name}/imu/data", imu, QUEUED)
+        self._scan = ScanOut(node, f"{name}/scan", messages.new_scan(name), qos_profile_sensor_data)
+        joints = [f"{name}/{joint}" for joint in JOINTS]
+        self._joints = JointsOut(node, f"{name}/joint_states", joints, QUEUED)
         self._contact_count = node.create_publisher(UInt32, f"{name}/contacts", LATCHED)
-        self._commands = Inbox(node, TwistMessage, f"{name}/cmd_vel", NEWEST)
+        self._description = node.create_publisher(String, f"{name}/robot_description", LATCHED)
+        self._description.publish(String(data=describe(self._simulation.model, number)))
+        commands = NEWEST if settings.lockstep_ticks is None else ALL
+        self._commands = Inbox(node, TwistMessage, f"{name}/cmd_vel", commands)
         self._filtered = Inbox(node, OdometryMessage, f"{name}/odometry/filtered", NEWEST_OF_ANY)
 
-    def _publish_imu(self, ticks: int) -> None:
-        messages.stamp(self._imu_message.header.stamp, ticks)
-        true = self._simulation.data.sensordata[self.robot.imu]
-        messages.fill_imu(self._imu_message, self._inertial.measure(true))
-        self._imu.publish(self._imu_message)
+    def _obey(self, message: TwistMessage) -> None:
+        self._command = Twist(message.linear.x, message.angular.z)
+        self._command_tick = self._simulation.ticks
 
-    def _publish_truth(self, ticks: int, here: Pose, local: Pose) -> None:
-        motion, sideways = twist(self._simulation.data, self.robot, here.yaw)
-        messages.stamp(self._truth_message.header.stamp, ticks)
-        messages.fill_motion(self._truth_message, local, motion, sideways)
-        self._truth.publish(self._truth_message)
-
-    def _publish_odometry(self, ticks: int) -> None:
-        estimate = self._odometry.update(wheel_angles(self._simulation.data, self.robot))
-        messages.stamp(self._odometry_message.header.stamp, ticks)
-        messages.fill_motion(self._odometry_message, estimate.pose, estimate.twist)
-        messages.fill_covariances(self._odometry_message, estimate.pose_covariance, estimate.twist_covariance)
-        self._wheel.publish(self._odometry_message)
-        if ticks % SCAN_TICKS == 0:
-            believed = compose(self.robot.start, estimate.pose)
-            self.odometry_trail.add(believed.x, believed.y)
-
-    def _publish_scan(self, ticks: int) -> None:
-        true = self._lidar.measure(self._simulation.data)
-        self.nearest = float(true.min())
-        messages.stamp(self._scan_message.header.stamp, ticks)
-        messages.fill_scan(self._scan_message, noisy(true, self._settings.lidar_noise, self._lidar_chance))
-        self._scan.publish(self._scan_message)
+    def _publish_motion(self, ticks: int, readings: Readings) -> None:
+        self._recent.add(readings.local)
+        if readings.truth is not None:
+            self._truth.publish_truth(ticks, readings.truth)
+        if readings.odometry is not None:
+            self._believed = readings.odometry.pose
+            self._wheel.publish_estimate(ticks, readings.odometry)
 
     def _publish_contacts(self) -> None:
         self._told_contacts = self._contacts.episodes

@@ -23,9 +23,9 @@ def names(count: int) -> list[str]:
 
 
 @pytest.mark.parametrize("world", WORLDS)
-@pytest.mark.parametrize("robots", [1, 2, 5, 16])
-def test_every_robot_starts_with_room_to_turn_and_a_way_ahead(world: str, robots: int) -> None:
-    for seed in SEEDS:
+@pytest.mark.parametrize(("robots", "seeds"), [(1, 60), (2, 60), (5, 20), (16, 5)])
+def test_every_robot_starts_with_room_to_turn_and_a_way_ahead(world: str, robots: int, seeds: int) -> None:
+    for seed in range(seeds):
         layout = lay_out(world, seed, names(robots))
         for start in layout.starts:
             here = start.pose
@@ -37,7 +37,7 @@ def test_every_robot_starts_with_room_to_turn_and_a_way_ahead(world: str, robots
 
 
 @pytest.mark.parametrize("world", WORLDS)
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(4))
 def test_every_world_loads_and_stands_still(world: str, seed: int) -> None:
     """A robot that has started inside something would be thrown out by the physics."""
     simulation = Simulation(load(lay_out(world, seed, names(3))))
@@ -105,7 +105,7 @@ def _open(layout: Layout, one: tuple[int, int], other: tuple[int, int]) -> bool:
 @pytest.mark.parametrize(
     ("world", "robots", "poses", "reason"),
     [
-        ("moon", ["a"], [], "there are arena, maze"),
+        ("moon", ["a"], [], "there are arena, maze, corridor, warehouse"),
         ("arena", ["a", "b"], [Pose(0.0, 0.0, 0.0)], "1 start poses for 2 robots"),
         ("arena", ["a"], [Pose(4.9, 0.0, 0.0)], "a cannot start at x 4.9, y 0"),
         ("arena", ["a"], [Pose(50.0, 0.0, 0.0)], "a cannot start"),

@@ -10,14 +10,13 @@ import yaml
 
 import bringup
 from bringup.world import report
-from bringup.world.drive import STILL, Limits
+from bringup.world.drive import STILL
 from bringup.world.geometry import Pose
 from bringup.world.inertial import Inertial, InertialNoise, variance
 from bringup.world.layout import lay_out
 from bringup.world.model import load
-from bringup.world.odometry import WheelErrors
 from bringup.world.pace import LARGEST_LAG, Pace, kept, wait
-from bringup.world.settings import TABLE, SettingsError, settings
+from bringup.world.settings import TABLE, RobotSettings, SettingsError, settings
 from bringup.world.simulation import Simulation
 from bringup.world.track import MOST_POINTS, Recent, Trail
 
@@ -99,7 +98,7 @@ def test_the_defaults_go_together() -> None:
     made = settings(DEFAULTS)
     assert made.robots == ("robot1", "robot2")
     assert made.start_poses == ()
-    assert (made.limits, made.wheels, made.inertial) == (Limits(), WheelErrors(), InertialNoise())
+    assert made.each == (RobotSettings(), RobotSettings())
 
 
 def test_every_default_is_within_its_range() -> None:

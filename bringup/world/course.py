@@ -1,0 +1,146 @@
+"""The run as it stands on the ROS graph: the world, its robots' topics, and what moves them on."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from bringup.world import messages
+from bringup.world.body import CAMERAS, FOOTPRINT_RADIUS
+from bringup.world.collisions import Collisions
+from bringup.world.layout import LayoutError, lay_out, room
+from bringup.world.model import load, pose
+from bringup.world.script import Script, read_script
+from bringup.world.simulation import Simulation
+from bringup.world.spoken import ClockOut
+from bringup.world.topics import LATCHED, QUEUED, RobotTopics
+from orchestra.ros.interfaces import tf_message_type
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
+
+    from rclpy.node import Node
+
+    from bringup.world.drive import Twist
+    from bringup.world.geometry import Pose
+    from bringup.world.settings import Settings
+
+
+class Course:
+    """The simulation on the ROS graph; everything here happens between two ticks or is one.
+
+    Raises LayoutError and ScriptError.
+    """
+
+    def __init__(self, node: Node, settings: Settings) -> None:
+        self.settings = settings
+        layout = lay_out(settings.world, settings.seed, settings.robots, settings.start_poses)
+        self._script = read_script(Path(settings.script), settings.robots) if settings.script else Script({})
+        self.simulation = Simulation(load(layout), [each.limits for each in settings.each])
+        self.robots = [
+            RobotTopics(node, self.simulation, number, settings) for number in range(len(settings.robots))
+        ]
+        self._collisions = Collisions(node, self.simulation)
+        self._clock = ClockOut(node, QUEUED)
+        self._publish_mounts(node)
+        self._steps: list[tuple[int, Future[int]]] = []
+
+    @property
+    def finished(self) -> bool:
+        """Whether the duration of the run has passed."""
+        return 0.0 < self.settings.duration <= self.simulation.time
+
+    @property
+    def moving(self) -> bool:
+        """Whether time goes on: it is not paused, or a step is under way."""
+        return not self.settings.paused or bool(self._steps)
+
+    @property
+    def stepping(self) -> bool:
+        """Whether a step is under way: it does not wait for real time."""
+        return bool(self._steps)
+
+    def apply(self, settings: Settings) -> None:
+        """Go on with other settings."""
+        self.settings = settings
+        self.simulation.limits[:] = [each.limits for each in settings.each]
+        for robot, each in zip(self.robots, settings.each, strict=True):
+            robot.sensors.settings = each
+
+    def reset(self) -> None:
+        """Begin anew, at time 0."""
+        self.simulation.reset()
+        for robot, each in zip(self.robots, self.settings.each, strict=True):
+            robot.reset(each)
+        self.tell_time()
+
+    def step(self, ticks: int, done: Future[int]) -> None:
+        """Go on by so many ticks, and tell then at which tick that has ended."""
+        self._steps.append((self.simulation.ticks + ticks, done))
+
+    def teleport(self, robot: str, target: Pose) -> None:
+        """Put a robot elsewhere. Raises LayoutError: there is no such robot, or no room for it."""
+        if robot not in self.settings.robots:
+            raise LayoutError(f"no robot is called '{robot}'; there are {', '.join(self.settings.robots)}")
+        number = self.settings.robots.index(robot)
+        layout = self.simulation.model.layout
+        if not (math.isfinite(target.yaw) and room(layout, target.x, target.y) > FOOTPRINT_RADIUS):
+            raise LayoutError(f"{robot} has no room at x {target.x:g}, y {target.y:g}, yaw {target.yaw:g}")
+        for other in self.simulation.model.robots:
+            here = pose(self.simulation.data, other)
+            near = math.hypot(here.x - target.x, here.y - target.y) <= 2 * FOOTPRINT_RADIUS
+            if other.name != robot and near:
+                raise LayoutError(f"{robot} has no room there: {other.name} stands in the way")
+        self.simulation.teleport(number, target)
+
+    def tick(self) -> bool:
+        """Advance by one tick and publish what is due; False if a command that has to come first is missing."""
+        commands = self._commands()
+        if commands is None:
+            return False
+        self.simulation.tick(commands)
+        self.tell_time()
+        for robot in self.robots:
+            robot.publish()
+        self._collisions.publish()
+        while self._steps and self._steps[0][0] <= self.simulation.ticks:
+            _, done = self._steps.pop(0)
+            done.set_result(self.simulation.ticks)
+        return True
+
+    def tell_time(self) -> None:
+        """Publish the clock as it is."""
+        self._clock.publish(self.simulation.ticks)
+
+    def _commands(self) -> list[Twist] | None:
+        """What each robot obeys at the tick to come; None in lockstep while one of them waits for its command."""
+        ticks, stretch = self.simulation.ticks, self.settings.lockstep_ticks
+        if stretch is None:
+            return [self._script.command(robot.robot.name, ticks) or robot.command() for robot in self.robots]
+        if ticks % stretch == 0 and not self._all_told():
+            return None
+        return [self._script.command(robot.robot.name, ticks) or robot.last_command for robot in self.robots]
+
+    def _all_told(self) -> bool:
+        """Take one command for each robot that waits for one; whether all have theirs for the stretch to come."""
+        ticks = self.simulation.ticks
+        for robot in self.robots:
+            scripted = self._script.command(robot.robot.name, ticks) is not None
+            if not scripted and robot.told_at != ticks and not robot.next_command():
+                return False
+        return True
+
+    def _publish_mounts(self, node: Node) -> None:
+        message_type = tf_message_type()
+        self._mounts = node.create_publisher(message_type, "/tf_static", LATCHED)
+        settings = self.settings
+        transforms = [mount for name in settings.robots for mount in messages.mounts(name)]
+        if settings.camera_rate:
+            transforms += [mount for name in settings.robots for mount in messages.mounts(name, CAMERAS)]
+        if settings.world_frame:
+            transforms += [
+                messages.odom_frame(settings.world_frame, robot.name, robot.start)
+                for robot in self.simulation.model.robots
+            ]
+        self._mounts.publish(message_type(transforms=transforms))
