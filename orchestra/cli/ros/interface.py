@@ -37,6 +37,7 @@ def _comments(parser: CommandParser) -> None:
 def _paths(parser: CommandParser) -> None:
     tell = "folders of packages with definitions, or folders with such packages in them (default: this one)"
     parser.add_argument("paths", nargs="*", default=["."], metavar="PATH", help=tell)
+    parser.add_argument("--only-check", action="store_true", help="build nothing: say what is wrong in them")
 
 
 _TYPE: Final = word("type", "its full name, as std_msgs/msg/String")
@@ -55,7 +56,10 @@ _VERBS: Final = {
     "build": Verb(
         "make packages of definitions ready to use",
         "building:build",
-        (_paths, flag("--without-compiler", tell="as where there is no compiler: nothing to wait for, but slower")),
+        (
+            _paths,
+            flag("--without-compiler", tell="as where there is no compiler: nothing to wait for, but slower"),
+        ),
     ),
 }
 

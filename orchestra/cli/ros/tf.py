@@ -29,7 +29,9 @@ def _echoing(parser: CommandParser) -> None:
 
 
 def _drawing(parser: CommandParser) -> None:
-    parser.add_argument("--dot", action="store_true", help="as a graph in the language of Graphviz")
+    how = parser.add_mutually_exclusive_group()
+    how.add_argument("--dot", action="store_true", help="as a graph in the language of Graphviz")
+    how.add_argument("--svg", action="store_true", help="as a picture, which Graphviz draws")
     parser.add_argument(
         "--wait",
         type=seconds,

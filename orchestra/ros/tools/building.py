@@ -34,13 +34,15 @@ def build(options: Namespace) -> int:
     found: list[DefinitionError] = []
     for source in wanted:
         try:
-            builder.build(source)
+            builder.check(source) if options.only_check else builder.build(source)
         except MistakesError as error:
             found.extend(error.found)
         except DefinitionError as error:
             found.append(error)
     if found:
         raise DescriptionError(tuple(dict.fromkeys(map(problem_of, found))))
+    if options.only_check:
+        return 0
     told = [_told(built) for built in builder.built]
     tell(options, "".join(f"{line}\n" for line in map(_line, told)), told)
     return 0
@@ -49,7 +51,9 @@ def build(options: Namespace) -> int:
 def problem_of(error: DefinitionError) -> Problem:
     """Return the problem that a mistake in a definition is."""
     line, column, end = error.place or (1, 1, 1)
-    return Problem(Code.BAD_DEFINITION, Severity.ERROR, error.message, Span(error.file, line, column, line, end))
+    return Problem(
+        Code.BAD_DEFINITION, Severity.ERROR, error.message, Span(error.file, line, column, line, end)
+    )
 
 
 def _at(path: Path) -> list[Source]:
@@ -80,5 +84,3 @@ def _line(told: dict[str, object]) -> str:
     seconds = told["seconds"]
     when = f", in {seconds:.1f} s" if isinstance(seconds, float) else ", as before"
     return f"{told['package']}: {how}{when}"
-
-

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.errors import RunError
 from orchestra.ros.tools.frames import Frames
 from orchestra.ros.tools.graph.joining import joined
-from orchestra.ros.tools.telling import tell, warn
+from orchestra.ros.tools.telling import as_json, tell, warn
 from orchestra.ros.tools.transforms import listen
 
 if TYPE_CHECKING:
@@ -36,7 +36,11 @@ def tree(options: Namespace) -> int:
     for child, parents in sorted(frames.parents.items()):
         if len(parents) > 1:
             warn(f"warning: {child} has several parents: {', '.join(sorted(parents))}")
-    text = _dot(frames, heard) if options.dot else _text(frames, heard)
+    text = _dot(frames, heard) if options.dot or options.svg else _text(frames, heard)
+    if options.svg and not as_json(options):
+        from orchestra.plan.render.svg import image  # noqa: PLC0415 - other pictures do not need it
+
+        text = image(text)
     tell(options, text, [_data(child, edge, heard) for child, edge in sorted(frames.edges.items())])
     return 0
 

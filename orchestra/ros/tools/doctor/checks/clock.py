@@ -25,13 +25,13 @@ def check(seen: Observed) -> Iterator[Finding]:
     if len(givers) > 1:
         message = f"{CLOCK} has {len(givers)} publishers: {', '.join(givers)}"
         yield Finding("clock", message, tuple(givers), {"publishers": givers})
-    else:
-        for before, after in jumps(seen.ticks):
-            way = "back" if after.time < before.time else "ahead"
-            message = (
-                f"{CLOCK} jumps {way} by {abs(after.time - before.time):.3g} s, from {before.time:.9g} s"
-            )
-            yield Finding("clock", message, (CLOCK,), {"from": before.time, "to": after.time})
+    elif found := list(jumps(seen.ticks)):
+        before, after = found[0]
+        way = "back" if after.time < before.time else "ahead"
+        size = f"{abs(after.time - before.time):.3g} s, from {before.time:.9g} s"
+        often = f", and {len(found) - 1} times more" if len(found) > 1 else ""
+        facts = [{"from": before.time, "to": after.time} for before, after in found]
+        yield Finding("clock", f"{CLOCK} jumps {way} by {size}{often}", (CLOCK,), {"jumps": facts})
     if abs(seen.set_by) > _SET:
         message = f"the clock of this machine was set by {seen.set_by:+.3g} s in the last seconds"
         yield Finding("clock", message, (), {"set_by": seen.set_by})

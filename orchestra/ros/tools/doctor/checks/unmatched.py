@@ -65,10 +65,19 @@ def _slip(topic: str, other: str, known: set[str]) -> bool:
     if len(tokens) != len(theirs):
         return topic.replace("/", "").lower() == other.replace("/", "").lower()
     differing = [place for place, pair in enumerate(zip(tokens, theirs, strict=True)) if pair[0] != pair[1]]
-    if len(differing) != 1 or not is_slip(tokens[differing[0]], theirs[differing[0]]):
+    if len(differing) != 1:
+        return False
+    token, its = tokens[differing[0]], theirs[differing[0]]
+    if _siblings(token, its) or not is_slip(token, its):
         return False
     namespace = "/".join(tokens[: differing[0] + 1]) + "/"
     return differing[0] == len(tokens) - 1 or not any(name.startswith(namespace) for name in known)
+
+
+def _siblings(token: str, other: str) -> bool:
+    """Tell whether names are of several of a kind, as `robot_a` and `robot_b` are."""
+    (head, mark, tail), (its_head, _, its_tail) = token.rpartition("_"), other.rpartition("_")
+    return bool(mark) and head == its_head and len(tail) == len(its_tail) == 1
 
 
 def _moved(topic: str, other: str) -> bool:
