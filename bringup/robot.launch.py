@@ -59,7 +59,8 @@ def generate_launch_description() -> LaunchDescription:
                             },
                         ],
                         ros_arguments=["--log-level", LaunchConfiguration("log_level")],
-                        restart="on-failure",
+                        # The robot stands before it is driven again.
+                        restart={"policy": "on-failure", "delay": 1.0},
                     ),
                     Node(
                         package="bringup",
@@ -75,7 +76,8 @@ def generate_launch_description() -> LaunchDescription:
                             },
                         ],
                         ros_arguments=["--log-level", LaunchConfiguration("log_level")],
-                        restart="on-failure",
+                        # The robot stands before it is driven again.
+                        restart={"policy": "on-failure", "delay": 1.0},
                     ),
                 ],
             ),
