@@ -97,6 +97,11 @@ class Estimator:
         self.state, self.covariance = kalman.predict(state, self.covariance, noise, dt)
         self.stamp = stamp
 
+    def doubt_pose(self, covariance: Array) -> None:
+        """Add to the covariance (6x6) of the pose."""
+        self.covariance = self.covariance.copy()
+        self.covariance[POSE, POSE] += covariance
+
     def place(self, stamp: int, pose: Array, covariance: Array) -> None:
         """Put the robot at rest at a pose (x y z roll pitch yaw) with a 6x6 covariance."""
         self.state = np.zeros_like(self.state)

@@ -1,15 +1,20 @@
 """The periodic update: which waiting measurements are fused when, and when time passes without any."""
 
 import heapq
+from collections.abc import Callable
 from itertools import count
+from typing import TypeAlias
 
 import numpy as np
 
-from bringup.filter.estimator import Estimator
+from bringup.filter.estimator import Estimator, Snapshot
 from bringup.filter.history import History
 from bringup.filter.measurement import Measurement
 from bringup.filter.settings import NANOSECONDS, Timing
 from bringup.filter.state import ANGULAR, Array
+
+# Hears of each measurement, of the estimate after it, and whether the gate let it pass.
+Trace: TypeAlias = Callable[[Measurement, Snapshot, bool], None]
 
 
 class Fusion:
@@ -25,6 +30,7 @@ class Fusion:
         self.angular_acceleration: Array = np.zeros(3)
         self.angular_acceleration_covariance: Array = np.zeros((3, 3))
         self._rejected: list[str] = []
+        self.trace: Trace | None = None
 
     def add(self, measurement: Measurement) -> None:
         """Put a measurement in the queue."""
@@ -37,6 +43,13 @@ class Fusion:
         self._updated = None
         self.angular_acceleration = np.zeros(3)
         self.angular_acceleration_covariance = np.zeros((3, 3))
+
+    def skip(self, now: int) -> None:
+        """Drop what waits and let the estimate stand as of `now` (ns), as if no time had passed."""
+        self._queue.clear()
+        self._history.clear()
+        if self._estimator.initialised:
+            self._estimator.stamp = max(now, self._estimator.stamp)
 
     def take_rejected(self) -> list[str]:
         """Name the parts whose measurements a gate has refused since the last call."""
@@ -71,8 +84,11 @@ class Fusion:
             measurement = heapq.heappop(queue)[2]
             if measurement.command is not None:
                 estimator.command, estimator.commanded_at = measurement.command, measurement.commanded_at
-            if not estimator.process(measurement):
+            accepted = estimator.process(measurement)
+            if not accepted:
                 self._rejected.append(measurement.part)
+            if self.trace is not None:
+                self.trace(measurement, estimator.snapshot(), accepted)
             if self._timing.smooth_lagged_data:
                 self._remember(measurement)
         estimator.command, estimator.commanded_at = command, commanded_at

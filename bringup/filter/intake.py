@@ -82,6 +82,10 @@ class Intake:
             if measurement is not None:
                 self._around.fusion.add(self._with_command(measurement))
 
+    def drop(self) -> None:
+        """Forget the messages that wait for their transforms."""
+        self._waiting.clear()
+
     def _accepts(self, stream: Stream, stamp: int) -> bool:
         if stamp <= self._ignored_up_to:
             what = f"is not later than the last set pose at {self._ignored_up_to / NANOSECONDS:.9f} s"

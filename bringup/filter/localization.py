@@ -7,16 +7,18 @@ import numpy as np
 from bringup.filter import readings
 from bringup.filter.estimator import Estimator, Observer
 from bringup.filter.frames import FrameResolver
-from bringup.filter.fusion import Fusion
+from bringup.filter.fusion import Fusion, Trace
 from bringup.filter.intake import ClockJumpError, Intake
 from bringup.filter.notices import Notices
 from bringup.filter.readings import Heard, Message
 from bringup.filter.rigid import transform
 from bringup.filter.rotation import rpy_from_matrix, six_dimensional
 from bringup.filter.settings import Settings
-from bringup.filter.state import Array
+from bringup.filter.start import doubt_about_origin
+from bringup.filter.state import POSE, Array
 from bringup.filter.streams import Surroundings
 from bringup.filter.transforms import TransformBuffer
+from bringup.filter.variances import finite, judged
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -30,8 +32,16 @@ class Estimate:
     angular_acceleration_covariance: Array
 
 
+class UnusablePoseError(Exception):
+    """The robot cannot be put at a pose; the text says why."""
+
+
 class Localization:
-    """A filter with its sensors and frames. All times are nanoseconds of one clock."""
+    """A filter with its sensors and frames. All times are nanoseconds of one clock.
+
+    While it is not `enabled` it does nothing; while it is not `processing` it drops measurements and its estimate
+    stands still.
+    """
 
     def __init__(self, settings: Settings) -> None:
         self.notices = Notices()
@@ -42,6 +52,9 @@ class Localization:
         self._estimator = Estimator(settings.estimation, settings.control)
         self._fusion = Fusion(self._estimator, settings.timing)
         surroundings = Surroundings(settings, self._estimator, self._fusion, self.frames, self.notices)
+        self.processing = True
+        self._widening = tuple(sensor.name for sensor in settings.sensors if sensor.widens_start)
+        self._to_widen = set(self._widening)
         self._kinds = {sensor.name: sensor.kind for sensor in settings.sensors}
         self._intake = Intake(settings.sensors, surroundings)
         self._corrections = settings.publication.corrections
@@ -56,6 +69,9 @@ class Localization:
         """Take in what a message of a sensor says; a disabled filter takes nothing in."""
         if not self.enabled:
             return
+        if sensor in self._to_widen:
+            self._to_widen.remove(sensor)
+            self._estimator.doubt_pose(doubt_about_origin(said))
         try:
             self._intake.receive(sensor, said, now)
         except ClockJumpError:
@@ -66,6 +82,10 @@ class Localization:
     def observe(self, observer: Observer) -> None:
         """Tell `observer` of each measurement that is about to be fused, with what was predicted for it."""
         self._estimator.observer = observer
+
+    def trace(self, trace: Trace) -> None:
+        """Tell `trace` of each measurement that has been fused or refused, with the estimate after it."""
+        self._fusion.trace = trace
 
     def command(self, velocities: tuple[float, ...], stamp: int) -> None:
         """Note the velocities (vx vy vz vroll vpitch vyaw) that the robot is told to drive."""
@@ -81,6 +101,10 @@ class Localization:
             self.reset()
             self.notices.warn("time_jump", "the clock jumped back: the filter starts afresh")
         self._updated = now
+        if not self.processing:
+            self._intake.drop()
+            self._fusion.skip(now)
+            return
         self._intake.release(now)
         self._fusion.update(now)
         for part in self._fusion.take_rejected():
@@ -112,28 +136,32 @@ class Localization:
         self._published = estimate.stamp
         return estimate
 
-    def set_pose(self, message: Message, now: int) -> bool:
+    def set_pose(self, message: Message, now: int) -> None:
         """Put the robot at rest at a pose (geometry_msgs/PoseWithCovarianceStamped).
 
-        Messages stamped up to the pose's own stamp are ignored from then on. Tells whether the pose could be
-        taken into the world frame; otherwise nothing changes.
+        Messages stamped up to the pose's own stamp are ignored from then on. Raises UnusablePoseError, and changes
+        nothing, if the pose is not finite or cannot be taken into the world frame.
         """
         reading = readings.pose(readings.heard("pose", message))
+        if not np.isfinite((*reading.position, *reading.orientation)).all():
+            raise UnusablePoseError("the pose has numbers that are not finite")
         frame = self.frames.between(self._world, reading.frame, reading.stamp)
         if frame is None:
-            return False
+            raise UnusablePoseError(f"no transform from {reading.frame} to {self._world}")
         pose = frame @ transform(reading.position, reading.orientation)
         turn = six_dimensional(frame.rotation)
         vector = np.concatenate((pose.translation, rpy_from_matrix(pose.rotation)))
+        covariance = judged(turn @ finite(reading.covariance) @ turn.T, np.arange(POSE.stop)).matrix
         self._fusion.clear()
         self._intake.reset(ignored_up_to=reading.stamp)
-        self._estimator.place(now, vector, turn @ reading.covariance @ turn.T)
+        self._estimator.place(now, vector, covariance)
+        self._to_widen.clear()
         self._published = None
-        return True
 
     def reset(self) -> None:
         """Start afresh, as if nothing had been received; static transforms stay known."""
         self._estimator.reset()
+        self._to_widen = set(self._widening)
         self._fusion.clear()
         self._intake.reset()
         self.frames.buffer.clear()

@@ -17,21 +17,21 @@ class Report(Protocol):
     """Where faults in parameters are told; an rclpy logger is one."""
 
     def warning(self, message: str) -> object:
-        """Tell what is questionable but used."""
+        """Tell what is questionable and how it is understood: robot_localization goes on with it, and so do we."""
 
     def error(self, message: str) -> object:
-        """Tell what is wrong and not used."""
+        """Tell what is wrong and not used: robot_localization would not start."""
 
 
 class Reader:
     """Reads parameters by name and remembers each name with the value that is in force.
 
     A value of the wrong type is told to the report and replaced by the default. Whole numbers count as doubles,
-    and any sequence of numbers as a list of doubles.
+    and any sequence of numbers as a list of doubles. A parameter without a value is not set.
     """
 
     def __init__(self, values: Mapping[str, object], report: Report) -> None:
-        self._values = values
+        self._values = {name: value for name, value in values.items() if value is not None}
         self.report = report
         self.in_force: dict[str, object] = {}
 
@@ -42,6 +42,10 @@ class Reader:
     def unread(self) -> list[str]:
         """Names that are set and that nobody has asked for."""
         return sorted(name for name in self._values if name not in self.in_force)
+
+    def know(self, *names: str) -> None:
+        """Take note of parameters that have no effect as things are; those that are set stay what they are."""
+        self.in_force.update((name, self._values[name]) for name in names if name in self._values)
 
     def boolean(self, name: str, *, default: bool = False) -> bool:
         """Read a true or false."""
@@ -55,7 +59,7 @@ class Reader:
         """Read a finite number as a double."""
         value = self._values.get(name, default)
         number = _double(value)
-        if number is None:
+        if number is None or not math.isfinite(number):
             number = self._refused(name, value, "a number", default)
         self.in_force[name] = number
         return number
@@ -68,11 +72,27 @@ class Reader:
             self.in_force[name] = number
         return number
 
+    def threshold(self, name: str, default: float) -> float:
+        """Read a distance; whatever cannot be reached, such as infinity, is the default, and so is no number."""
+        value = self._values.get(name, default)
+        number = _double(value)
+        if number is None:
+            number = self._refused(name, value, "a number", default)
+        elif not math.isfinite(number):
+            number = default
+        self.in_force[name] = number
+        return abs(number)
+
     def count(self, name: str, default: int) -> int:
         """Read a whole number from 1 on."""
         value = self._values.get(name, default)
-        if isinstance(value, bool) or not isinstance(value, int) or value < 1:
+        if isinstance(value, bool) or not isinstance(value, int):
             value = self._refused(name, value, "a whole number from 1 on", default)
+        elif value < 1:
+            self.report.warning(
+                f"parameter {name} must be a whole number from 1 on, not {value}; {default} is used instead"
+            )
+            value = default
         self.in_force[name] = value
         return value
 
@@ -97,15 +117,17 @@ class Reader:
         self.in_force[name] = list(doubles)
         return doubles
 
-    def flags(self, name: str, size: int) -> tuple[bool, ...] | None:
-        """Read a list of `size` booleans; None, told as an error, if it is missing or not such a list."""
+    def flags(self, name: str) -> tuple[bool, ...] | None:
+        """Read a list of booleans; None if it is not set, or told as an error and not such a list."""
         value = self._values.get(name)
-        items = list(value) if isinstance(value, Sequence) and not isinstance(value, str) else []
-        self.in_force[name] = items
-        if len(items) != size or not all(isinstance(item, bool) for item in items):
-            what = "is missing" if value is None else f"is {value!r}"
-            self.report.error(f"parameter {name} {what}; it must be a list of {size} booleans")
+        if value is None:
             return None
+        items = list(value) if isinstance(value, Sequence) and not isinstance(value, str) else [value]
+        if not all(isinstance(item, bool) for item in items):
+            self.report.error(f"parameter {name} must be a list of booleans, not {value!r}; it is not used")
+            self.in_force[name] = []
+            return None
+        self.in_force[name] = items
         return tuple(bool(item) for item in items)
 
     def _refused(self, name: str, value: object, wanted: str, default: _Value) -> _Value:
@@ -116,12 +138,11 @@ class Reader:
 def _double(value: object) -> float | None:
     if isinstance(value, bool) or not isinstance(value, int | float | np.number):
         return None
-    number = float(value)
-    return number if math.isfinite(number) else None
+    return float(value)
 
 
 def _doubles(value: object) -> tuple[float, ...] | None:
     if isinstance(value, str) or not isinstance(value, Sequence):
         return None
-    doubles = [number for number in map(_double, value) if number is not None]
+    doubles = [number for number in map(_double, value) if number is not None and math.isfinite(number)]
     return tuple(doubles) if len(doubles) == len(value) else None

@@ -1,10 +1,9 @@
 """Turns parameters, in the names of robot_localization's `ekf.yaml`, into settings.
 
-Sizes and types that are wrong are told to the report; only a covariance of a wrong size stops the start
-(as upstream). A parameter that is set and that nobody reads is told as well.
+What upstream goes on with is a warning, what keeps it from starting (a value of another type) an error; only a
+covariance of a wrong size stops the start here too. A parameter that is set and that nobody reads is told as well.
 """
 
-import difflib
 from collections.abc import Mapping
 
 import numpy as np
@@ -22,6 +21,7 @@ from bringup.filter.settings import (
     Timing,
 )
 from bringup.filter.state import SIZE, Array
+from bringup.filter.unknown_parameters import tell_unread
 
 DEFAULT_PROCESS_NOISE = (
     *(0.05, 0.05, 0.06, 0.03, 0.03, 0.06),
@@ -31,8 +31,12 @@ DEFAULT_PROCESS_NOISE = (
 _DEFAULT_VARIANCE = 1e-9
 _CONTROL_AXES = 6
 _CONTROL_AXIS_NAMES = ("x", "y", "z")
-# Known to robot_localization, without effect here.
-_UNSUPPORTED = ("debug", "debug_out_file")
+_ONES = (1.0,) * _CONTROL_AXES
+# What only counts with use_control.
+_OF_CONTROL = (
+    *("stamped_control", "control_timeout", "control_config", "acceleration_limits", "acceleration_gains"),
+    *("deceleration_limits", "deceleration_gains"),
+)
 
 
 def read_settings(values: Mapping[str, object], report: Report) -> tuple[Settings, dict[str, object]]:
@@ -52,18 +56,8 @@ def read_settings(values: Mapping[str, object], report: Report) -> tuple[Setting
         publication=_publication(reader),
         control=_control(reader, sensors),
     )
-    _tell_unread(reader)
+    tell_unread(reader)
     return settings, reader.in_force
-
-
-def _tell_unread(reader: Reader) -> None:
-    for name in reader.unread():
-        if name in _UNSUPPORTED:
-            reader.report.warning(f"parameter {name} is not supported and has no effect")
-            continue
-        near = difflib.get_close_matches(name, reader.in_force, n=1)
-        hint = f"; did you mean {near[0]}?" if near else ""
-        reader.report.warning(f"parameter {name} is unknown and has no effect{hint}")
 
 
 def _frames(reader: Reader) -> Frames:
@@ -87,17 +81,17 @@ def _frames(reader: Reader) -> Frames:
 
 def _check_frames(frames: Frames, report: Report) -> None:
     if len({frames.map, frames.odom, frames.base_link}) < len(("map", "odom", "base_link")):
-        report.error(
+        report.warning(
             "invalid frames: map_frame, odom_frame and base_link_frame must differ, but are "
             f"{frames.map}, {frames.odom} and {frames.base_link}"
         )
     if frames.base_link_output in {frames.map, frames.odom}:
-        report.error(
+        report.warning(
             f"invalid frames: base_link_frame_output {frames.base_link_output} must differ from "
             "map_frame and odom_frame"
         )
     if frames.world not in {frames.map, frames.odom}:
-        report.error(
+        report.warning(
             f"invalid frames: world_frame {frames.world} must be the odom_frame {frames.odom} "
             f"or the map_frame {frames.map}"
         )
@@ -106,7 +100,9 @@ def _check_frames(frames: Frames, report: Report) -> None:
 def _estimation(reader: Reader) -> Estimation:
     initial = reader.numbers("initial_state")
     if initial is not None and len(initial) != SIZE:
-        reader.report.error(f"parameter initial_state has {len(initial)} entries, not {SIZE}; it is not used")
+        reader.report.warning(
+            f"parameter initial_state has {len(initial)} entries, not {SIZE}; it is not used"
+        )
         initial = None
     return Estimation(
         process_noise=_covariance(reader, "process_noise_covariance", DEFAULT_PROCESS_NOISE),
@@ -137,10 +133,10 @@ def _timing(reader: Reader) -> Timing:
     smooth = reader.boolean("smooth_lagged_data")
     history = reader.number("history_length", 0.0)
     if history < 0.0:
-        reader.report.error(f"parameter history_length is negative ({history}); {-history} is used")
+        reader.report.warning(f"parameter history_length is negative ({history}); {-history} is used")
         history = -history
     if history > 0.0 and not smooth:
-        reader.report.error("parameter history_length has no effect without smooth_lagged_data")
+        reader.report.warning("parameter history_length has no effect without smooth_lagged_data")
     jumps = reader.boolean("reset_on_time_jump")
     if not reader.boolean("use_sim_time") and jumps:
         reader.report.warning("reset_on_time_jump has no effect without use_sim_time")
@@ -164,25 +160,36 @@ def _publication(reader: Reader) -> Publication:
         acceleration=reader.boolean("publish_acceleration"),
         corrections=reader.boolean("permit_corrected_publication"),
         diagnostics=reader.boolean("print_diagnostics"),
+        debug_file=_debug_file(reader),
     )
 
 
+def _debug_file(reader: Reader) -> str | None:
+    wanted = reader.boolean("debug")
+    file = reader.text("debug_out_file", "robot_localization_debug.txt")
+    return file if wanted else None
+
+
 def _control(reader: Reader, sensors: tuple[Sensor, ...]) -> Control | None:
-    used = reader.boolean("use_control")
+    if not reader.boolean("use_control"):
+        reader.know(*_OF_CONTROL)
+        return None
     stamped = reader.boolean("stamped_control")
     timeout = reader.number("control_timeout", 0.0)
-    axes = reader.flags("control_config", _CONTROL_AXES) if used or reader.has("control_config") else None
-    limits = _six(reader, "acceleration_limits", (1.0,) * _CONTROL_AXES)
-    gains = _six(reader, "acceleration_gains", (1.0,) * _CONTROL_AXES) or (1.0,) * _CONTROL_AXES
+    axes = _controlled_axes(reader)
+    limits = _six(reader, "acceleration_limits", _ONES)
+    gains = _six(reader, "acceleration_gains", _ONES) or _ONES
     braking_limits = _six(reader, "deceleration_limits", limits)
-    braking_gains = _six(reader, "deceleration_gains", gains) or gains
-    if not used:
-        return None
+    braking_gains = _six(reader, "deceleration_gains", gains) or _ONES
     if axes is None or limits is None or braking_limits is None:
-        reader.report.error("use_control is set, but its parameters are not usable; control is off")
+        reader.report.warning("use_control is set, but its parameters are not usable; control is off")
+        return None
+    axes = _without_measured(axes, sensors, reader.report)
+    if not any(axes):
+        reader.report.warning("use_control is set, but no axis is left to be controlled; control is off")
         return None
     return Control(
-        axes=_without_measured(axes, sensors, reader.report),
+        axes=axes,
         timeout=_nanoseconds(timeout),
         acceleration_limits=limits,
         acceleration_gains=gains,
@@ -192,6 +199,15 @@ def _control(reader: Reader, sensors: tuple[Sensor, ...]) -> Control | None:
     )
 
 
+def _controlled_axes(reader: Reader) -> tuple[bool, ...] | None:
+    axes = reader.flags("control_config")
+    if axes is not None and len(axes) == _CONTROL_AXES:
+        return axes
+    what = f"has {len(axes)} entries" if axes is not None else "is missing"
+    reader.report.warning(f"parameter control_config {what}; it must be a list of {_CONTROL_AXES} booleans")
+    return None
+
+
 def _six(reader: Reader, name: str, default: tuple[float, ...] | None) -> tuple[float, ...] | None:
     values = reader.numbers(name)
     if values is None and not reader.has(name):
@@ -199,7 +215,7 @@ def _six(reader: Reader, name: str, default: tuple[float, ...] | None) -> tuple[
             reader.in_force[name] = list(default)
         return default
     if values is None or len(values) != _CONTROL_AXES:
-        reader.report.error(f"parameter {name} needs {_CONTROL_AXES} numbers; it is not used")
+        reader.report.warning(f"parameter {name} needs {_CONTROL_AXES} numbers; it is not used")
         return None
     return values
 
@@ -215,7 +231,7 @@ def _without_measured(
         for axis, measured in enumerate(sensor.acceleration.flags):
             if measured and kept[axis]:
                 name = _CONTROL_AXIS_NAMES[axis]
-                report.error(f"{sensor.name} measures the acceleration along {name}; its control is off")
+                report.warning(f"{sensor.name} measures the acceleration along {name}; its control is off")
                 kept[axis] = False
     return tuple(kept)
 

@@ -27,10 +27,11 @@ def _names(reader: Reader, kind: Kind) -> Iterator[str]:
 
 def _is_of_use(sensor: Sensor, reader: Reader) -> bool:
     if not sensor.topic:
+        reader.report.error(f"parameter {sensor.name} must be a topic; the sensor is not used")
         return False
     if sensor.pose or sensor.twist or sensor.acceleration:
         return True
-    reader.report.error(
+    reader.report.warning(
         f"{sensor.name}_config enables nothing that {sensor.topic} measures; it is not subscribed"
     )
     return False
@@ -42,14 +43,15 @@ def _odometry(reader: Reader, name: str) -> Sensor:
     pose = Part(
         name=f"{name}_pose",
         flags=flags[POSE],
-        threshold=reader.number(f"{name}_pose_rejection_threshold", NEVER_REJECT),
+        threshold=reader.threshold(f"{name}_pose_rejection_threshold", NEVER_REJECT),
         differential=differential,
         relative=relative,
         use_child_frame=reader.boolean(f"{name}_pose_use_child_frame"),
     )
-    threshold = reader.number(f"{name}_twist_rejection_threshold", NEVER_REJECT)
+    threshold = reader.threshold(f"{name}_twist_rejection_threshold", NEVER_REJECT)
     twist = Part(name=f"{name}_twist", flags=flags[TWIST], threshold=threshold)
-    return _sensor(reader, name, "odom", pose=_used(pose), twist=_used(twist))
+    widens = reader.boolean(f"{name}_widens_start")
+    return _sensor(reader, name, "odom", pose=_used(pose), twist=_used(twist), widens_start=widens)
 
 
 def _pose(reader: Reader, name: str) -> Sensor:
@@ -58,7 +60,7 @@ def _pose(reader: Reader, name: str) -> Sensor:
     pose = Part(
         name=name,
         flags=flags[POSE],
-        threshold=reader.number(f"{name}_rejection_threshold", NEVER_REJECT),
+        threshold=reader.threshold(f"{name}_rejection_threshold", NEVER_REJECT),
         differential=differential,
         relative=relative,
     )
@@ -67,7 +69,7 @@ def _pose(reader: Reader, name: str) -> Sensor:
 
 def _twist(reader: Reader, name: str) -> Sensor:
     flags = _config(reader, name)
-    threshold = reader.number(f"{name}_rejection_threshold", NEVER_REJECT)
+    threshold = reader.threshold(f"{name}_rejection_threshold", NEVER_REJECT)
     return _sensor(reader, name, "twist", twist=_used(Part(name, flags[TWIST], threshold)))
 
 
@@ -79,17 +81,17 @@ def _imu(reader: Reader, name: str) -> Sensor:
     pose = Part(
         name=f"{name}_pose",
         flags=_NO_POSITION + flags[3:6],
-        threshold=reader.number(f"{name}_pose_rejection_threshold", NEVER_REJECT),
+        threshold=reader.threshold(f"{name}_pose_rejection_threshold", NEVER_REJECT),
         differential=differential,
         relative=relative,
     )
-    twist_threshold = reader.number(f"{name}_twist_rejection_threshold", NEVER_REJECT)
+    twist_threshold = reader.threshold(f"{name}_twist_rejection_threshold", NEVER_REJECT)
     twist = Part(f"{name}_twist", _NO_POSITION + flags[9:12], twist_threshold)
     # Whether the orientation is relative also decides which way is down.
     acceleration = Part(
         name=f"{name}_acceleration",
         flags=flags[ACCELERATION],
-        threshold=reader.number(f"{name}_linear_acceleration_rejection_threshold", NEVER_REJECT),
+        threshold=reader.threshold(f"{name}_linear_acceleration_rejection_threshold", NEVER_REJECT),
         relative=relative,
     )
     remove_gravity = reader.boolean(f"{name}_remove_gravitational_acceleration")
@@ -121,6 +123,7 @@ def _sensor(
     twist: Part | None = None,
     acceleration: Part | None = None,
     remove_gravity: bool = False,
+    widens_start: bool = False,
 ) -> Sensor:
     return Sensor(
         name=name,
@@ -131,21 +134,28 @@ def _sensor(
         twist=twist,
         acceleration=acceleration,
         remove_gravity=remove_gravity,
+        widens_start=widens_start,
     )
 
 
 def _config(reader: Reader, name: str) -> Flags:
-    if not reader.has(f"{name}_config"):
-        reader.in_force[f"{name}_config"] = list(_NOTHING)
+    name = f"{name}_config"
+    flags = reader.flags(name)
+    if flags is None:
+        reader.in_force.setdefault(name, list(_NOTHING))
         return _NOTHING
-    return reader.flags(f"{name}_config", SIZE) or _NOTHING
+    if len(flags) != SIZE:
+        reader.report.warning(
+            f"parameter {name} has {len(flags)} entries, not {SIZE}; those that are missing count as false"
+        )
+    return (flags + _NOTHING)[:SIZE]
 
 
 def _pose_modes(reader: Reader, name: str) -> tuple[bool, bool]:
     differential = reader.boolean(f"{name}_differential")
     relative = reader.boolean(f"{name}_relative")
     if differential and relative:
-        reader.report.error(
+        reader.report.warning(
             f"{name}_differential and {name}_relative are both set; only differential is used"
         )
     return differential, relative and not differential

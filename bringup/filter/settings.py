@@ -30,7 +30,10 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class Sensor:
-    """One subscription, with the parts of its messages that are fused (None: not fused)."""
+    """One subscription, with the parts of its messages that are fused (None: not fused).
+
+    `widens_start`: what its first message says of the pose is how wrong the origin may be as the place to start from.
+    """
 
     name: str
     kind: Kind
@@ -40,6 +43,7 @@ class Sensor:
     twist: Part | None = None
     acceleration: Part | None = None
     remove_gravity: bool = False
+    widens_start: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,6 +105,7 @@ class Publication:
     acceleration: bool = False
     corrections: bool = False
     diagnostics: bool = False
+    debug_file: str | None = None
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -31,7 +31,12 @@ class Inputs:
     """The subscriptions of one filter."""
 
     def __init__(
-        self, node: Node, settings: Settings, localization: Localization, now: Callable[[], int]
+        self,
+        node: Node,
+        settings: Settings,
+        localization: Localization,
+        now: Callable[[], int],
+        place: Callable[[Message], None],
     ) -> None:
         self._node = node
         self._localization = localization
@@ -48,7 +53,7 @@ class Inputs:
                 _sensor_qos(sensor.queue_size),
                 raw=True,
             )
-        self._subscribe(PoseWithCovarianceStamped, "set_pose", self._set_pose, QoSProfile(depth=_QUEUE))
+        self._subscribe(PoseWithCovarianceStamped, "set_pose", place, QoSProfile(depth=_QUEUE))
         self._subscribe(tf_message_type(), "/tf_static", self._add_static, _static_qos())
         if settings.control is not None:
             self._subscribe_commands(settings.control)
@@ -87,12 +92,6 @@ class Inputs:
 
     def _receive(self, sensor: str, read: Callable[[bytes], Heard], data: bytes) -> None:
         self._localization.hear(sensor, read(data), self._visited_at)
-
-    def _set_pose(self, message: Message) -> None:
-        if not self._localization.set_pose(message, self._now()):
-            self._node.get_logger().error(
-                f"set_pose: no transform from {message.header.frame_id} to {self._frames.world}; it is ignored"
-            )
 
     def _add_static(self, message: Message) -> None:
         for stamped in message.transforms:

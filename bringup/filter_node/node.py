@@ -1,23 +1,22 @@
 """The filter's node: its timer on ROS time, its services and its logging."""
 
+from contextlib import AbstractContextManager
 from time import perf_counter
-from typing import Any, TypeAlias
 
 from rclpy.callback_groups import CallbackGroup
 from rclpy.node import Node
-from std_srvs.srv import Empty
 
 from bringup.filter.checks import doubts
 from bringup.filter.localization import Localization
 from bringup.filter.notices import Level
 from bringup.filter.settings import NANOSECONDS
 from bringup.filter_node.configuration import configure
+from bringup.filter_node.debugging import traced
 from bringup.filter_node.diagnostics import Diagnostics
 from bringup.filter_node.inputs import Inputs
 from bringup.filter_node.outputs import Outputs
+from bringup.filter_node.services import Services
 from bringup.filter_node.ticks import Ticks
-
-Response: TypeAlias = Any
 
 # Seconds of real time, so that a clock that jumps about cannot flood the log.
 _HOUSEKEEPING = 1.0
@@ -34,25 +33,30 @@ class FilterNode:
         self._clock = node.get_clock()
         settings = configure(node)
         self._localization = Localization(settings)
-        self._inputs = Inputs(node, settings, self._localization, self._now)
+        services = Services(node, self._localization, self._now, self._take_in)
+        self._inputs = Inputs(node, settings, self._localization, self._now, services.place)
         self._outputs = Outputs(node, settings, self._localization)
         self._diagnostics = Diagnostics(node, settings) if settings.publication.diagnostics else None
         self._period = round(NANOSECONDS / settings.timing.frequency)
         self._kept_house: float | None = None
         self._is_settled = False
         self._told: frozenset[str] = frozenset()
-        for level, _, text in doubts(settings):
-            self._log(level, text)
+        self._debug_file = settings.publication.debug_file
+        for _, _, text in doubts(settings):
+            # However bad for the estimate, nothing that is wrong with the parameters as such.
+            self._log(Level.WARN, text)
         if not self._localization.enabled:
             self._logger.info("the filter is disabled at start-up; the enable service starts it")
-        node.create_service(Empty, "reset", self._reset)
-        node.create_service(Empty, "enable", self._enable)
         self._ticks = Ticks(node, settings.timing.frequency)
 
     @property
     def visited_group(self) -> CallbackGroup:
         """The group of those subscriptions that nobody needs to wait for."""
         return self._inputs.visited_group
+
+    def traced(self) -> AbstractContextManager[None]:
+        """Write a trace of each measurement to the debug file, if the parameters say so."""
+        return traced(self._debug_file, self._localization, self._logger)
 
     def time_left(self) -> int:
         """Tell how long the filter can do without being asked to work (ns)."""
@@ -70,6 +74,9 @@ class FilterNode:
 
     def _now(self) -> int:
         return int(self._clock.now().nanoseconds)
+
+    def _take_in(self) -> None:
+        self._inputs.visit(self._now())
 
     def _update(self, now: int) -> None:
         began = perf_counter()
@@ -110,15 +117,3 @@ class FilterNode:
             self._logger.error(text)
         else:
             self._logger.warning(text)
-
-    def _reset(self, _request: object, response: Response) -> Response:
-        self._inputs.visit(self._now())
-        self._localization.reset()
-        self._logger.info("the filter starts afresh")
-        return response
-
-    def _enable(self, _request: object, response: Response) -> Response:
-        if self._localization.enabled:
-            self._logger.warning("the filter is enabled already")
-        self._localization.enabled = True
-        return response

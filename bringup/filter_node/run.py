@@ -49,7 +49,7 @@ def _spin(node: Node) -> int:
         node.get_logger().fatal(str(error))
         return 1
     told_to_end = Event()
-    with Waiting(node, running.visited_group) as waiting:
+    with Waiting(node, running.visited_group) as waiting, running.traced():
         Thread(target=_wait_for_the_end, args=(told_to_end, waiting.wake_up), daemon=True).start()
         served = monotonic()
         while not told_to_end.is_set():

@@ -355,9 +355,11 @@ def test_a_covariance_of_a_wrong_size_ends_it_with_one_line(start: Callable[...,
 
 
 def test_what_is_wrong_but_not_fatal_is_logged(start: Callable[..., Ekf], bench: Bench) -> None:
-    ekf = start("-r", "__ns:=/faulty", *_parameters(frequenci=3.0, initial_state="[1.0]", debug="true"))
+    file = "/nowhere/trace.txt"
+    wrong = _parameters(frequenci=3.0, initial_state="[1.0]", debug="true", debug_out_file=file)
+    ekf = start("-r", "__ns:=/faulty", *wrong)
     bench.until(lambda: bench.sees("/faulty/ekf"))
-    told = ("initial_state has 1 entries", "did you mean frequency?", "debug is not supported")
+    told = ("initial_state has 1 entries", "did you mean frequency?", "the debug file cannot be written")
     bench.until(lambda: all(part in ekf.said for part in told))
 
 

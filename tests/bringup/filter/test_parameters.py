@@ -10,7 +10,7 @@ import bringup
 from bringup.filter.checks import doubts
 from bringup.filter.parameter_reader import ParameterError
 from bringup.filter.parameters import DEFAULT_PROCESS_NOISE, read_settings
-from bringup.filter.settings import NANOSECONDS, Settings
+from bringup.filter.settings import NANOSECONDS, NEVER_REJECT, Settings
 
 ON = [True] * 15
 VX = [index == 6 for index in range(15)]
@@ -112,8 +112,27 @@ def test_thresholds_and_modes_reach_their_parts(settings_of: Callable[..., Setti
         ({"frequency": 0.0}, "frequency must be greater than zero"),
         ({"two_d_mode": 1}, "two_d_mode must be true or false"),
         ({"odom0": 5}, "odom0 must be a string"),
-        ({"odom0": "o", "odom0_config": [True] * 14}, "it must be a list of 15 booleans"),
-        ({"odom0": "o", "odom0_config": [1] * 15}, "it must be a list of 15 booleans"),
+        ({"odom0": ""}, "odom0 must be a topic"),
+        ({"odom0": "o", "odom0_config": [1] * 15}, "odom0_config must be a list of booleans"),
+        (
+            {"odom0": "o", "odom0_config": VX, "odom0_queue_size": 2.5},
+            "odom0_queue_size must be a whole number",
+        ),
+        ({"odom0": "o", "odom0_config": VX, "odom0_pose_rejection_threshold": "far"}, "must be a number"),
+        ({"initial_state": "zero"}, "initial_state must be a list of numbers"),
+    ],
+)
+def test_a_value_of_another_type_is_an_error_that_names_it(
+    complaints: Any, parameters: Mapping[str, object], error: str
+) -> None:
+    read_settings(parameters, complaints)
+    assert any(error in told for told in complaints.errors), complaints.errors
+
+
+@pytest.mark.parametrize(
+    ("parameters", "warning"),
+    [
+        ({"odom0": "o", "odom0_config": [True] * 14}, "odom0_config has 14 entries, not 15"),
         ({"odom0": "o"}, "odom0_config enables nothing that o measures; it is not subscribed"),
         ({"pose0": "p", "pose0_config": VX}, "pose0_config enables nothing"),
         (
@@ -125,7 +144,6 @@ def test_thresholds_and_modes_reach_their_parts(settings_of: Callable[..., Setti
             "only differential is used",
         ),
         ({"initial_state": [0.0] * 3}, "initial_state has 3 entries, not 15"),
-        ({"initial_state": "zero"}, "initial_state must be a list of numbers"),
         ({"map_frame": "odom"}, "map_frame, odom_frame and base_link_frame must differ"),
         ({"base_link_frame_output": "odom"}, "base_link_frame_output odom must differ"),
         ({"world_frame": "mars"}, "world_frame mars must be the odom_frame odom or the map_frame map"),
@@ -133,34 +151,66 @@ def test_thresholds_and_modes_reach_their_parts(settings_of: Callable[..., Setti
         ({"history_length": 2.0}, "no effect without smooth_lagged_data"),
         ({"use_control": True}, "control_config is missing"),
         ({"use_control": True, "control_config": [True] * 5}, "a list of 6 booleans"),
+        ({"use_control": True, "control_config": [False] * 6}, "no axis is left to be controlled"),
         (
             {"use_control": True, "control_config": [True] * 6, "acceleration_limits": [1.0]},
             "acceleration_limits needs 6 numbers",
         ),
-    ],
-)
-def test_what_is_wrong_is_an_error_that_names_it(
-    complaints: Any, parameters: Mapping[str, object], error: str
-) -> None:
-    read_settings(parameters, complaints)
-    assert any(error in told for told in complaints.errors), complaints.errors
-
-
-@pytest.mark.parametrize(
-    ("parameters", "warning"),
-    [
         ({"frequencie": 30.0}, "frequencie is unknown and has no effect; did you mean frequency?"),
-        ({"debug": True}, "debug is not supported and has no effect"),
         ({"reset_on_time_jump": True}, "reset_on_time_jump has no effect without use_sim_time"),
         ({"imu0": "i", "imu0_config": ON}, "imu0_config enables positions or linear velocities"),
-        ({"odom1": "o"}, "odom1 is unknown"),
+        ({"odom1": "o"}, "odom1 is unknown and has no effect; odom0 is missing"),
+        ({"pose0_config": ON}, "pose0_config is unknown and has no effect; pose0, its topic, is missing"),
+        ({"odom0": "o", "odom0_config": VX, "odom0_nodelay": True}, "odom0_nodelay is unknown"),
+        ({"imu0_differental": True}, "did you mean imu0_differential?"),
+        ({"base_link_output_frame": "b"}, "did you mean base_link_frame_output?"),
+        ({"zzz": 1}, "zzz is unknown and has no effect; the nearest name is"),
     ],
 )
-def test_what_has_no_effect_is_a_warning(
+def test_what_upstream_goes_on_with_is_a_warning_and_no_error(
     complaints: Any, parameters: Mapping[str, object], warning: str
 ) -> None:
     read_settings(parameters, complaints)
     assert any(warning in told for told in complaints.warnings), complaints.warnings
+    assert complaints.errors == []
+
+
+def test_control_parameters_are_nobodys_business_without_control(
+    settings_of: Callable[..., Settings],
+) -> None:
+    settings = settings_of(use_control=False, control_config=[], acceleration_limits=[1.0], control_timeout=1)
+    assert settings.control is None
+
+
+@pytest.mark.parametrize("name", ["acceleration_gains", "deceleration_gains"])
+def test_gains_of_a_wrong_size_are_all_one(complaints: Any, name: str) -> None:
+    given = {"acceleration_gains": [3.0] * 6, "deceleration_gains": [3.0] * 6, name: [3.0]}
+    settings, _ = read_settings({"use_control": True, "control_config": [True] * 6, **given}, complaints)
+    assert settings.control is not None
+    assert getattr(settings.control, name) == (1.0,) * 6
+
+
+def test_flags_that_are_missing_count_as_false(complaints: Any) -> None:
+    settings, _ = read_settings({"twist0": "t", "twist0_config": [False] * 6 + [True]}, complaints)
+    twist = settings.sensors[0].twist
+    assert twist is not None
+    assert twist.flags == (True, False, False, False, False, False)
+
+
+def test_a_threshold_out_of_reach_rejects_nothing(settings_of: Callable[..., Settings]) -> None:
+    settings = settings_of(pose0="p", pose0_config=ON, pose0_rejection_threshold=float("inf"))
+    pose = settings.sensors[0].pose
+    assert pose is not None
+    assert pose.threshold == NEVER_REJECT
+
+
+def test_a_parameter_without_a_value_is_not_set(settings_of: Callable[..., Settings]) -> None:
+    assert settings_of(frequency=None, odom0=None).timing.frequency == 30.0
+
+
+@pytest.mark.parametrize(("debug", "file"), [(False, None), (True, "trace.txt")])
+def test_debugging_goes_to_its_file(settings_of: Callable[..., Settings], file: str, *, debug: bool) -> None:
+    assert settings_of(debug=debug, debug_out_file="trace.txt").publication.debug_file == file
 
 
 def test_differential_wins_over_relative(complaints: Any) -> None:
@@ -189,7 +239,7 @@ def test_controlled_axes_that_an_imu_measures_are_left_to_it(complaints: Any) ->
     )
     assert settings.control is not None
     assert settings.control.axes == (False, True, True, True, True, True)
-    assert complaints.errors == ["imu0 measures the acceleration along x; its control is off"]
+    assert complaints.warnings == ["imu0 measures the acceleration along x; its control is off"]
 
 
 def test_defaults_in_force_are_told(complaints: Any) -> None:

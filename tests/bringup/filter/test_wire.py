@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from rclpy.serialization import serialize_message
 
@@ -37,6 +37,7 @@ def _fill(message: Any, draw: st.DataObject) -> None:
 
 @pytest.mark.parametrize("kind", MESSAGE_TYPES)
 @given(st.data())
+@settings(max_examples=20)
 def test_bytes_say_what_the_message_says(kind: Kind, data: st.DataObject) -> None:
     message = MESSAGE_TYPES[kind]()
     _fill(message, data)
