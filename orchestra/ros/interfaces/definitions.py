@@ -4,7 +4,7 @@
 in any of them). From then on its modules are found as those of an installed package are. A definition is read when
 a name of it is first asked for; its type support is made when rclpy first uses the class. A package of that name that
 is really installed wins. With the first of them come the packages that Orchestra brings the definitions of, because
-no wheel has them: tf2_msgs and composition_interfaces.
+no wheel has them: tf2_msgs, composition_interfaces and robot_localization (two services of its filter).
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from types import ModuleType
 
 KINDS: Final = ("msg", "srv", "action")
-PROVIDED: Final = ("composition_interfaces", "tf2_msgs")
+PROVIDED: Final = ("composition_interfaces", "robot_localization", "tf2_msgs")
 _FOLDER: Final = Path(__file__).parent / "provided"
 _PARTS_OF_KIND = 2
 
@@ -37,6 +37,13 @@ def install(package: str, folder: str | Path) -> bool:
     if _FINDER not in sys.meta_path:
         sys.meta_path.insert(0, _FINDER)
     return True
+
+
+def take_over(package: str, folder: Path) -> None:
+    """Serve the modules of a package that is being imported of its definitions."""
+    _FINDER.folders[package] = folder
+    if _FINDER not in sys.meta_path:
+        sys.meta_path.insert(0, _FINDER)
 
 
 def provide(package: str) -> bool:
