@@ -101,6 +101,8 @@ class Code(StrEnum):
 
     UNUSED_IGNORE = "ORC100"
 
+    BAD_DEFINITION = "ORC150"
+
 
 @dataclass(frozen=True, slots=True)
 class Problem:

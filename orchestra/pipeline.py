@@ -19,6 +19,7 @@ from orchestra.resolve import launch_files
 from orchestra.resolve.command_line import inputs_from
 from orchestra.resolve.commands import run_command
 from orchestra.resolve.packages import InstalledPackages
+from orchestra.resolve.packages.manifests import may_need_definitions
 from orchestra.resolve.python.calling import take_environment
 from orchestra.resolve.python.connection import LoadingConnection
 from orchestra.resolve.python.isolation import isolated
@@ -126,6 +127,11 @@ def opened(
             launch = None
             if description is not None:
                 resolved = _symbolic(carry_through(description, run), isolation.files)
+                if any(map(may_need_definitions, resolved.processes)):
+                    # Here, because few packages say what they need in a file that is looked for.
+                    from orchestra.resolve.interfaces.needed import with_definitions  # noqa: PLC0415
+
+                    resolved = with_definitions(resolved, inputs, problems, run_command)
                 _warn_of_remaining(path, isolation, problems)
                 plan = build(resolved, problems, digests=digests)
                 plan = warmed(plan, inputs.environment) if digests else plan

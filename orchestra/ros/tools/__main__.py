@@ -36,7 +36,9 @@ def main() -> int:
         tool = import_module(f"orchestra.ros.tools.{module}")
         return int(getattr(tool, function)(Namespace(**question["options"])))
 
-    return guarded(answer, Telling(command, "json" if question["options"].get("format") == "json" else "text"))
+    return guarded(
+        answer, Telling(command, "json" if question["options"].get("format") == "json" else "text")
+    )
 
 
 def _leave(_signal: int, _frame: FrameType | None) -> NoReturn:
