@@ -40,7 +40,7 @@ class CommandArbiter(Node):  # type: ignore[misc] # rclpy is untyped
     def __init__(self, **options: Any) -> None:  # noqa: ANN401 - rclpy's own arguments of a node
         super().__init__("command_arbiter", **options)
         try:
-            self._parameters = Parameters(self)
+            self._given = Parameters(self)
         except Exception:
             self.destroy_node()
             raise
@@ -48,7 +48,7 @@ class CommandArbiter(Node):  # type: ignore[misc] # rclpy is untyped
         self._locked: dict[str, tuple[float, bool]] = {}
         self._broken: set[str] = set()
         self._choice = Choice(None, NOBODY)
-        self._kind = twist_type(self._parameters.use_stamped)
+        self._kind = twist_type(self._given.use_stamped)
         self._stop = self._kind()
         self._commands = self.create_publisher(self._kind, "cmd_vel", NEWEST, event_callbacks=UNWATCHED)
         self._active = self.create_publisher(String, "~/active", LATCHED, event_callbacks=UNWATCHED)
@@ -61,7 +61,7 @@ class CommandArbiter(Node):  # type: ignore[misc] # rclpy is untyped
 
     @property
     def _settings(self) -> Settings:
-        return self._parameters.settings
+        return self._given.settings
 
     def tick(self) -> None:
         """Order the robot to stand if nobody is in force; tell the state."""

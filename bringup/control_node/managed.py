@@ -24,7 +24,7 @@ class ManagedVelocityController(LifecycleNode):  # type: ignore[misc] # rclpy is
 
     def __init__(self, **options: Any) -> None:  # noqa: ANN401 - rclpy's own arguments of a node
         super().__init__("velocity_controller", **options)
-        self._parameters = declared(self)
+        self._tuning = declared(self)
         self._controller: VelocityController | None = None
         self._is_active = False
 
@@ -44,7 +44,7 @@ class ManagedVelocityController(LifecycleNode):  # type: ignore[misc] # rclpy is
 
     def on_configure(self, _: LifecycleState) -> TransitionCallbackReturn:
         """Open topics, services and the action."""
-        self._controller = VelocityController(self, self._parameters)
+        self._controller = VelocityController(self, self._tuning)
         return SUCCESS
 
     def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
