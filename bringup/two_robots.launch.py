@@ -55,6 +55,11 @@ def generate_launch_description() -> LaunchDescription:
                 description="Least severity that the nodes print.",
             ),
             DeclareLaunchArgument(
+                "record",
+                default_value="",
+                description="Film (.mp4) or last view (.png) of the world, rendered where a GL library is there.",
+            ),
+            DeclareLaunchArgument(
                 "picture",
                 default_value=[LaunchLogDir(), "/two_robots.png"],
                 description="Where the picture of the driven paths is written when the run ends.",
@@ -74,10 +79,13 @@ def generate_launch_description() -> LaunchDescription:
                         "duration": ParameterValue(LaunchConfiguration("duration"), value_type=float),
                         "speed": ParameterValue(LaunchConfiguration("speed"), value_type=float),
                         "picture": ParameterValue(LaunchConfiguration("picture"), value_type=str),
+                        "record": ParameterValue(LaunchConfiguration("record"), value_type=str),
                     },
                 ],
                 ros_arguments=["--log-level", LaunchConfiguration("log_level")],
                 required=True,  # its end, after `duration`, ends the run
+                # Not where it fails at its start.
+                restart={"policy": "on-failure", "delay": 1.0, "budget": 0},
                 ready={"message": "/clock", "timeout": 60.0},
             ),
             IncludeLaunchDescription(
