@@ -128,12 +128,14 @@ def value_of(value: Any) -> ParameterValue:
 
 
 @contextmanager
-def controller(domain: int, *parameters: str) -> Iterator["subprocess.Popen[str]"]:
+def controller(
+    domain: int, *parameters: str, executable: str = "velocity_controller"
+) -> Iterator["subprocess.Popen[str]"]:
     arguments = ["--ros-args", "-r", "__ns:=/robot1"]
     for parameter in parameters:
         arguments += ["-p", parameter]
     process = subprocess.Popen(
-        [sys.executable, "-m", "bringup.nodes.velocity_controller", *arguments],
+        [sys.executable, "-m", f"bringup.nodes.{executable}", *arguments],
         stdout=subprocess.PIPE,
         stderr=subprocess.PIPE,
         text=True,
