@@ -81,7 +81,9 @@ class Run:
         metronome = pace.Metronome(now, course.settings.speed)
         while not self.over:
             self._orders.carry_out()
-            time.sleep(self._turn(metronome, now))
+            rest = self._turn(metronome, now)
+            if rest > 0.0:
+                time.sleep(rest)
             now = time.monotonic()
             self._telling.update(now, metronome)
         self._telling.end(now - began)
