@@ -1,13 +1,13 @@
-"""Which interfaces are installed: the resource `rosidl_interfaces` of the ament index, one file per line."""
+"""Which interfaces there are: the resource `rosidl_interfaces` of the ament index, one file per line, and sources."""
 
 from __future__ import annotations
 
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from orchestra.cli.interfaces.built_in import DEFINITIONS
 from orchestra.errors import RunError
 from orchestra.nearest import nearest
+from orchestra.resolve.interfaces.available import available
 from orchestra.resolve.packages import ament
 
 if TYPE_CHECKING:
@@ -31,21 +31,20 @@ class Interfaces:
                     if not marker.name.startswith(".") and marker.name not in self._folders:
                         self._folders[marker.name] = prefix / "share" / marker.name
                         self._texts[marker.name] = marker.read_text("utf-8")
+        for source in available(Path.cwd(), environment).values():
+            if source.name not in self._folders:
+                self._folders[source.name] = source.folder
+                self._texts[source.name] = "".join(f"{path.as_posix()}\n" for path in source.files)
 
     def packages(self, kinds: tuple[str, ...] = tuple(KINDS)) -> list[str]:
         """Return the packages that have interfaces of these kinds."""
-        known = {*self._texts, *(name.partition("/")[0] for name in DEFINITIONS)}
-        return sorted(package for package in known if self.of(package, kinds))
+        return sorted(package for package in self._texts if self.of(package, kinds))
 
     def of(self, package: str, kinds: tuple[str, ...] = tuple(KINDS)) -> list[str]:
         """Return the full names of the interfaces of a package."""
-        if package not in self._texts:
-            found = {name for name in DEFINITIONS if name.startswith(f"{package}/")}
-        else:
-            lines = {
-                line.strip().rpartition(".")[0] for line in self._texts[package].splitlines() if "." in line
-            }
-            found = {f"{package}/{line}" for line in lines}
+        text = self._texts.get(package, "")
+        lines = {line.strip().rpartition(".")[0] for line in text.splitlines() if "." in line}
+        found = {f"{package}/{line}" for line in lines}
         return sorted(name for name in found if name.split("/")[1] in kinds and name.count("/") == _PARTS - 1)
 
     def all(self, kinds: tuple[str, ...] = tuple(KINDS)) -> list[str]:
@@ -59,8 +58,6 @@ class Interfaces:
             raise RunError(f"'{name}' is not the full name of an interface, as std_msgs/msg/String")
         package, kind, local = parts
         if package not in self._texts:
-            if name in DEFINITIONS:
-                return DEFINITIONS[name]
             raise RunError(f"{name}: {self.unknown_package(package)}")
         folder = self._folders[package] / kind
         for path in (folder / f"{local}.{kind}", folder / f"{local}.idl"):

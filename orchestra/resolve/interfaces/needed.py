@@ -19,6 +19,7 @@ from orchestra.errors import Code, Problem, Severity
 from orchestra.fields import replace
 from orchestra.location import Span
 from orchestra.resolve.interfaces import prefixes, sources
+from orchestra.resolve.interfaces.available import provided
 from orchestra.resolve.model import EnvironmentChange
 from orchestra.resolve.packages import ament
 from orchestra.resolve.packages.manifests import manifest_of, may_need_definitions
@@ -33,9 +34,7 @@ if TYPE_CHECKING:
     from orchestra.resolve.interfaces.sources import Source
     from orchestra.resolve.model import Resolved, ResolvedProcess
 
-_ROOM: Final = Path(__file__).parents[2] / "ros"
-_TOOL: Final = str(_ROOM / "tools" / "__main__.py")
-_PROVIDED: Final = _ROOM / "interfaces" / "provided"
+_TOOL: Final = str(Path(__file__).parents[2] / "ros" / "tools" / "__main__.py")
 _SECONDS: Final = 900.0  # that a build may take
 
 
@@ -70,8 +69,7 @@ def _wanted(folder: Path, environment: Mapping[str, str]) -> tuple[tuple[Source,
     missing = [name for name in sources.dependencies(folder) if not _is_installed(name, environment)]
     if not missing:
         return (), {}
-    provided = (sources.in_folder(path, path.name) for path in sorted(_PROVIDED.iterdir()))
-    known = {source.name: source for source in provided if source is not None}
+    known = provided()
     if any(name not in known for name in missing):
         known |= sources.found_in(sources.places(folder, environment))
     found: dict[str, Source] = {}

@@ -31,7 +31,7 @@ def install(package: str, folder: str | Path) -> bool:
 
     Nothing is read yet. A package that is installed for real is left as it is.
     """
-    if package in sys.modules or package in _FINDER.folders or _is_installed(package):
+    if is_here(package):
         return False
     _FINDER.folders[package] = Path(folder).absolute()
     if _FINDER not in sys.meta_path:
@@ -54,6 +54,11 @@ def provide(package: str) -> bool:
 def provided_folder(package: str) -> Path:
     """Return the folder with the definitions of a package that Orchestra brings them of."""
     return _FOLDER / package
+
+
+def is_here(package: str) -> bool:
+    """Tell whether a package can be imported already."""
+    return package in sys.modules or package in _FINDER.folders or _is_installed(package)
 
 
 def _is_installed(package: str) -> bool:

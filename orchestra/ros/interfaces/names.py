@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.errors import UsageError
 from orchestra.nearest import nearest
-from orchestra.ros.interfaces.definitions import provide
+from orchestra.ros.interfaces.finding import known, make_importable
 from orchestra.ros.interfaces.tf_package import MESSAGE, PACKAGE, tf_message_type
 
 if TYPE_CHECKING:
@@ -31,7 +31,7 @@ def message_type(name: str) -> MessageClass:
     package, message = _split(name)
     if (package, message) == (PACKAGE, MESSAGE):
         return tf_message_type()
-    provide(package)
+    make_importable(package)
     module = _messages_of(package, name)
     found = getattr(module, message, None)
     if not _is_message(found):
@@ -70,7 +70,7 @@ def _is_message(value: object) -> bool:
 
 def _installed() -> list[str]:
     folders = [Path(entry) for entry in sys.path]
-    return [found.parts[-3] for folder in folders for found in folder.glob("*/msg/__init__.py")]
+    return [*known(), *(found.parts[-3] for folder in folders for found in folder.glob("*/msg/__init__.py"))]
 
 
 def _hint(word: str, candidates: list[str]) -> str:

@@ -18,8 +18,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING, NamedTuple
 
 from orchestra.resolve.interfaces import prefixes, sources
+from orchestra.resolve.interfaces.available import provided
 from orchestra.resolve.packages import ament
-from orchestra.ros.interfaces import definitions
 from orchestra.ros.interfaces.building import checking
 from orchestra.ros.interfaces.building.layout import lay_out
 
@@ -58,10 +58,7 @@ class Builder:
         environment: Mapping[str, str],
         tell: Callable[[str], None] = lambda _: None,
     ) -> None:
-        provided = (
-            sources.in_folder(definitions.provided_folder(name), name) for name in definitions.PROVIDED
-        )
-        self._sources = {source.name: source for source in provided if source is not None} | dict(found)
+        self._sources = provided() | dict(found)
         self._cache = cache
         self._installed = ament.prefixes(environment)
         self._built: dict[str, Built] = {}

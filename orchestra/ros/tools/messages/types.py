@@ -7,9 +7,9 @@ from typing import Any
 
 from orchestra.errors import RunError
 from orchestra.nearest import nearest
+from orchestra.ros.interfaces.finding import make_importable
 from orchestra.ros.interfaces.names import UnknownMessageTypeError, message_type
 
-_COMPOSITION = "composition_interfaces/srv/LoadNode"
 # What a class of this kind has, and no other.
 _PARTS = {"srv": "Request", "action": "Goal"}
 _WORDS = {"srv": "service", "action": "action", "msg": "message"}
@@ -49,10 +49,7 @@ def _of_kind(kind: str, name: str) -> Any:  # noqa: ANN401 - as above
     if len(parts) != 3 or parts[1] != kind or not all(part.isidentifier() for part in parts):  # noqa: PLR2004
         raise RunError(f"'{name}' is not the name of a type of {word}: expected package/{kind}/Name")
     package, _, local = parts
-    if "/".join(parts) == _COMPOSITION:
-        from orchestra.ros.interfaces import load_node_type  # noqa: PLC0415 - it makes C structures
-
-        return load_node_type()
+    make_importable(package)
     try:
         module = importlib.import_module(f"{package}.{kind}")
     except ModuleNotFoundError as error:
@@ -61,7 +58,7 @@ def _of_kind(kind: str, name: str) -> Any:  # noqa: ANN401 - as above
         raise RunError(f"{name}: package {package} is not installed or has no {word}s") from None
     found = getattr(module, local, None)
     if not hasattr(found, _PARTS[kind]):
-        known = [key for key, value in vars(module).items() if hasattr(value, _PARTS[kind])]
+        known = [key for key in dir(module) if hasattr(getattr(module, key), _PARTS[kind])]
         near = nearest(local, known)
         raise RunError(
             f"{name}: package {package} has no {word} {local}" + (f"; did you mean {near}?" if near else "")
