@@ -13,13 +13,13 @@ import yaml
 
 from bringup.evaluation.bar import moments, summary, unmet
 from bringup.evaluation.ground import facts
-from bringup.evaluation.lockstep import run
+from bringup.evaluation.lockstep import laid_out, run
 from bringup.evaluation.many import Runs, outcomes
 from bringup.evaluation.recording import Writer, read
 from bringup.evaluation.scenario import Choice, scenario
 from bringup.evaluation.table import heading, lines, row
 from bringup.evaluation.tracks import tracks, write
-from bringup.world.layout import WORLDS, lay_out
+from bringup.world.layout import WORLDS
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -113,10 +113,10 @@ def draw_one(arguments: argparse.Namespace) -> int:
 def _simulate(arguments: argparse.Namespace, path: Path) -> None:
     chosen = scenario(_choice(arguments), world=arguments.world, seed=arguments.seed)
     world = chosen.world
-    layout = lay_out(world.world, world.seed, world.robots, world.start_poses)
+    layout = laid_out(chosen)
     with Writer(path) as writer:
         writer.tell({"robots": list(world.robots), **facts(layout)})
-        write(writer, run(chosen))
+        write(writer, run(chosen, innovations=True))
 
 
 def _add_one(word: argparse.ArgumentParser) -> None:

@@ -1,11 +1,12 @@
 """One robot in lockstep: its sensors, its filter and its controller, as on the ROS graph but without one.
 
-The messages are those that the simulation's node publishes, so that filters see the same covariances; they are filled
-and taken in at once, in the order of simulated time.
+What the sensors say goes to the filter in the order of the numbers in the simulation's messages, with the covariances
+that stand in them, and is taken in at once, in the order of simulated time.
 """
 
 from __future__ import annotations
 
+import math
 import zlib
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -18,25 +19,31 @@ from bringup.control.controller import Sight, State, ticked
 from bringup.control.sight import obstacle_points
 from bringup.filter.localization import Estimate, Localization
 from bringup.filter.parameters import read_settings
+from bringup.filter.readings import Heard
 from bringup.filter.state import YAW, X, Y
 from bringup.filter.transforms import Sample
-from bringup.world import lidar, messages
 from bringup.world.body import MOUNTS
 from bringup.world.drive import STILL, Twist
 from bringup.world.geometry import Pose
-from bringup.world.inertial import Inertial
-from bringup.world.model import TICKS_PER_SECOND, wheel_angles
-from bringup.world.odometry import Odometry
+from bringup.world.lidar import ANGLE_INCREMENT, ANGLE_MIN
+from bringup.world.messages import DRIVEN, NANOSECONDS_PER_TICK, PLANAR, SIDEWAYS, quaternion
+from bringup.world.sensing import Sensors, due
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from bringup.evaluation.scenario import Scenario
+    from bringup.world.odometry import Estimate as Reckoned
+    from bringup.world.sensing import InertialReading, Readings
     from bringup.world.simulation import Simulation
 
-ODOMETRY_TICKS = TICKS_PER_SECOND // 50
-SCAN_TICKS = TICKS_PER_SECOND // 10
-# Ticks between a controller's decision and the base obeying it.
+# Decisions of a controller in a simulated second, and ticks until the base obeys one.
+DECISIONS = 10.0
 LATENCY = 2
-NO_TURN = (0.0, 0.0, 0.0, 1.0)
+# How many numbers nav_msgs/Odometry and sensor_msgs/Imu have, and where those that are told begin.
+ODOMETRY_NUMBERS, TWIST, POSE_COVARIANCE, TWIST_COVARIANCE = 85, 43, slice(7, 43), slice(49, 85)
+IMU_NUMBERS, RATES, FORCES = 37, slice(13, 16), slice(25, 28)
+RATES_COVARIANCE, FORCES_COVARIANCE = slice(16, 25, 4), slice(28, 37, 4)
 
 
 class Complaints:
@@ -55,18 +62,12 @@ class Member:
     def __init__(self, simulation: Simulation, number: int, scenario: Scenario) -> None:
         self.robot = simulation.model.robots[number]
         self.believed = Pose(0.0, 0.0, 0.0)
+        self.estimate: Estimate | None = None
         self._simulation = simulation
-        self._settings = scenario.world
-        # The same streams of chance as those of the simulation's node.
-        seeds = np.random.SeedSequence([scenario.world.seed, number]).spawn(3)
-        wheels, inertial, self._lidar_chance = map(np.random.default_rng, seeds)
-        self._odometry = Odometry(scenario.world.wheels, ODOMETRY_TICKS / TICKS_PER_SECOND, wheels)
-        self._inertial = Inertial(scenario.world.inertial, inertial)
-        self._lidar = lidar.Lidar(simulation.model, self.robot)
-        self._imu_message = messages.new_imu(self.robot.name, scenario.world.inertial)
-        self._odometry_message = messages.new_wheel_odometry(self.robot.name)
-        self.filter = _filter(self.robot.name, scenario)
+        self._sensors = Sensors(simulation, number, scenario.world.each[number], scenario.world.seed)
+        self.filter, self._updates = _filter(self.robot.name, scenario)
         node = f"/{self.robot.name}/velocity_controller"
+        # As the controller's node does, so that no two robots make the same choices.
         seed = zlib.crc32(f"{scenario.control.seed}{node}".encode())
         self._control = replace(scenario.control, seed=seed)
         self._state = State()
@@ -74,45 +75,24 @@ class Member:
         self._location: Location | None = None
         self._commands = [STILL] * LATENCY
 
-    def sense(self) -> None:
-        """Let the filter have what the IMU and the wheels say at this tick."""
-        ticks, data = self._simulation.ticks, self._simulation.data
-        now = ticks * messages.NANOSECONDS_PER_TICK
-        messages.stamp(self._imu_message.header.stamp, ticks)
-        messages.fill_imu(self._imu_message, self._inertial.measure(data.sensordata[self.robot.imu]))
-        self.filter.receive("imu0", self._imu_message, now)
-        if ticks % ODOMETRY_TICKS:
-            return
-        estimate = self._odometry.update(wheel_angles(data, self.robot))
-        message = self._odometry_message
-        messages.stamp(message.header.stamp, ticks)
-        messages.fill_motion(message, estimate.pose, estimate.twist)
-        messages.fill_covariances(message, estimate.pose_covariance, estimate.twist_covariance)
-        self.filter.receive("odom0", message, now)
-        self.believed = estimate.pose
-
-    def fuse(self) -> Estimate | None:
-        """The filter's estimate after all that has come."""
-        self.filter.update(self._simulation.ticks * messages.NANOSECONDS_PER_TICK)
-        estimate = self.filter.estimate()
-        if estimate is not None:
-            x, y, yaw = estimate.state[[X, Y, YAW]].tolist()
-            self._location = Location(self._simulation.time, ControlPose(x, y, yaw))
-        return estimate
-
-    def look(self) -> None:
-        """Let the controller have a scan."""
-        true = self._lidar.measure(self._simulation.data)
-        ranges = lidar.noisy(true, self._settings.lidar_noise, self._lidar_chance)
-        angles = lidar.ANGLE_MIN, lidar.ANGLE_INCREMENT
-        points = obstacle_points(ranges, angles, (lidar.RANGE_MIN, lidar.RANGE_MAX), self._control.lidar_x)
-        if points is not None:
-            seen_from = self._location.pose if self._location else None
-            self._sight = Sight(self._simulation.time, points, seen_from)
-
-    def decide(self) -> None:
-        """Let the controller make its next decision."""
-        self._state = ticked(self._state, self._control, self._simulation.time, self._sight, self._location)
+    def tick(self) -> Readings:
+        """Let sensors, filter and controller do what is due at this tick."""
+        ticks = self._simulation.ticks
+        now = ticks * NANOSECONDS_PER_TICK
+        readings = self._sensors.read()
+        if readings.inertial is not None:
+            self.filter.hear("imu0", said_by_imu(self.robot.name, now, readings.inertial), now)
+        if readings.odometry is not None:
+            self.believed = readings.odometry.pose
+            self.filter.hear("odom0", said_by_wheels(self.robot.name, now, readings.odometry), now)
+        if due(ticks, self._updates):
+            self._fuse(now)
+        if readings.ranges is not None:
+            self._look(readings.ranges)
+        if due(ticks, DECISIONS):
+            time = self._simulation.time
+            self._state = ticked(self._state, self._control, time, self._sight, self._location)
+        return readings
 
     def command(self) -> Twist:
         """What the base obeys at the tick to come."""
@@ -120,16 +100,59 @@ class Member:
         self._commands.append(Twist(decided.linear, decided.angular))
         return self._commands.pop(0)
 
+    def _fuse(self, now: int) -> None:
+        self.filter.update(now)
+        self.estimate = self.filter.estimate()
+        if self.estimate is not None:
+            x, y, yaw = self.estimate.state[[X, Y, YAW]].tolist()
+            self._location = Location(self._simulation.time, ControlPose(x, y, yaw))
 
-def _filter(robot: str, scenario: Scenario) -> Localization:
-    frames = {
+    def _look(self, ranges: NDArray[np.float64]) -> None:
+        lidar = self._sensors.settings.lidar
+        angles, limits = (ANGLE_MIN, ANGLE_INCREMENT), (lidar.range_min, lidar.range_max)
+        points = obstacle_points(ranges, angles, limits, self._control.lidar_x)
+        if points is not None:
+            self._sight = Sight(
+                self._simulation.time, points, self._location.pose if self._location else None
+            )
+
+
+def said_by_wheels(robot: str, stamp: int, estimate: Reckoned) -> Heard:
+    """What the message of the wheels' odometry says."""
+    numbers = np.zeros(ODOMETRY_NUMBERS)
+    numbers[:2] = estimate.pose.x, estimate.pose.y
+    numbers[5:7] = math.sin(estimate.pose.yaw / 2), math.cos(estimate.pose.yaw / 2)
+    numbers[POSE_COVARIANCE].reshape(6, 6)[PLANAR] = estimate.pose_covariance
+    numbers[TWIST], numbers[TWIST + 5] = estimate.twist.linear, estimate.twist.angular
+    covariance = numbers[TWIST_COVARIANCE].reshape(6, 6)
+    covariance[DRIVEN] = estimate.twist_covariance
+    covariance[1, 1] = SIDEWAYS
+    return Heard(stamp, f"{robot}/odom", f"{robot}/base_footprint", numbers)
+
+
+def said_by_imu(robot: str, stamp: int, reading: InertialReading) -> Heard:
+    """What the message of the IMU says; it measures no orientation."""
+    numbers = np.zeros(IMU_NUMBERS)
+    numbers[3], numbers[4] = 1.0, -1.0
+    numbers[RATES], numbers[FORCES] = reading.values[:3], reading.values[3:]
+    numbers[RATES_COVARIANCE], numbers[FORCES_COVARIANCE] = (
+        reading.gyro_variance,
+        reading.accelerometer_variance,
+    )
+    return Heard(stamp, f"{robot}/imu_link", "", numbers)
+
+
+def _filter(robot: str, scenario: Scenario) -> tuple[Localization, float]:
+    """A robot's filter, and how often in a second it works."""
+    told = {
+        "use_sim_time": True,
         "odom_frame": f"{robot}/odom",
         "world_frame": f"{robot}/odom",
         "base_link_frame": f"{robot}/base_footprint",
     }
-    settings, _ = read_settings({**scenario.filter, **frames}, Complaints())
+    settings, _ = read_settings({**scenario.filter, **told}, Complaints())
     made = Localization(settings)
     for mount in MOUNTS:
-        sample = Sample(0, (mount.x, mount.y, mount.z), NO_TURN)
+        sample = Sample(0, (mount.x, mount.y, mount.z), quaternion(mount.roll, mount.pitch, mount.yaw))
         made.frames.add_static(f"{robot}/{mount.parent}", f"{robot}/{mount.child}", sample)
-    return made
+    return made, settings.timing.frequency

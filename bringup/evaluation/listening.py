@@ -19,11 +19,13 @@ from std_msgs.msg import UInt32
 
 from bringup.evaluation.ground import facts
 from bringup.evaluation.recording import CONTACTS, FILTERED, TRUTH, WHEELS, Writer
-from bringup.world.geometry import Pose, yaw_of
+from bringup.world import robots_file
+from bringup.world.geometry import yaw_of
 from bringup.world.layout import LayoutError, lay_out
+from bringup.world.settings import TABLE, SettingsError, settings
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Mapping
 
     from rclpy.node import Node
 
@@ -36,7 +38,8 @@ LATCHED = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 PERIOD = 1.0
 NANOSECONDS = 10**9
 RATE = 10
-WORLD = ("world", "seed", "robots", "start_poses")
+# What a simulation is asked for. One without start poses answers nothing at all where they are asked for with others.
+WORLD = (("world", "seed", "robots", "robots_file"), ("start_poses",))
 # The upper half of the covariance over (x, y, yaw) in a message's 6 x 6 one.
 UPPER = (0, 1, 5, 7, 11, 35)
 
@@ -53,13 +56,13 @@ class Recorder:
         self._robots: list[str] = []
         self._newest: dict[tuple[int, int], int] = {}
         self._writer = Writer(path)
-        self._world: dict[str, Any] | None = None
         self._client = (
             node.create_client(GetParameters, f"{simulation.rstrip('/')}/get_parameters")
             if simulation
             else None
         )
-        self._asked: Any = None
+        self._asked: list[Any] = []
+        self._has_map = False
         self._look()
         # Simulated time may stand still; what has been heard is written all the same.
         node.create_timer(PERIOD, self._keep, clock=Clock(clock_type=ClockType.STEADY_TIME))
@@ -125,24 +128,31 @@ class Recorder:
         self._writer.add(CONTACTS, number, now, (float(message.data),))
 
     def _ask(self) -> None:
-        """Ask the simulation for its world, once it is there."""
-        if self._client is None or self._asked is not None or not self._client.service_is_ready():
+        """Ask the simulation for its world, once it is there, and write down what it answers."""
+        if self._client is None or self._has_map or not self._client.service_is_ready():
             return
-        self._asked = self._client.call_async(GetParameters.Request(names=list(WORLD)))
-        self._asked.add_done_callback(self._told)
+        if not self._asked:
+            self._asked = [
+                self._client.call_async(GetParameters.Request(names=list(names))) for names in WORLD
+            ]
+        elif all(future.done() for future in self._asked):
+            self._has_map = True
+            self._tell_map()
 
-    def _told(self, future: Any) -> None:  # noqa: ANN401 - rclpy's futures have no types
-        values = [parameter_value_to_python(value) for value in future.result().values]
+    def _tell_map(self) -> None:
+        told: dict[str, Any] = {}
+        for names, future in zip(WORLD, self._asked, strict=True):
+            told.update(zip(names, map(parameter_value_to_python, future.result().values), strict=False))
         try:
-            self._writer.tell(world(**dict(zip(WORLD, values, strict=True))))
-        except (LayoutError, TypeError, ValueError) as error:
+            self._writer.tell(world_of(told))
+        except (KeyError, LayoutError, SettingsError) as error:
             self._node.get_logger().warning(f"the recording has no map: {error}")
 
 
-def world(
-    world: str, seed: int, robots: Sequence[str], start_poses: Sequence[float] | None
-) -> dict[str, Any]:
-    """The map of a world that a simulation has told its parameters of. Raises what `lay_out` raises."""
-    numbers = list(start_poses or ())
-    poses = [Pose(*numbers[at : at + 3]) for at in range(0, len(numbers), 3)]
-    return facts(lay_out(world, seed, robots, poses))
+def world_of(parameters: Mapping[str, Any]) -> dict[str, Any]:
+    """The map of a simulation's world, from its parameters. Raises LayoutError, SettingsError, KeyError."""
+    defaults = {setting.name: setting.default for setting in TABLE}
+    file = parameters["robots_file"]
+    described = robots_file.read(Path(file)) if file else ()
+    made = settings({**defaults, **parameters}, described)
+    return facts(lay_out(made.world, made.seed, made.robots, made.start_poses))

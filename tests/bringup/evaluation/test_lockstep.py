@@ -13,7 +13,8 @@ from bringup.world.settings import SettingsError
 def tracks(
     seconds: float = 6.0, *, parameters: dict[str, object] | None = None, **simulation: object
 ) -> list[Track]:
-    return run(scenario(Choice(seconds, simulation=simulation, filter=parameters or {})))
+    chosen = scenario(Choice(seconds, simulation=simulation, filter=parameters or {}))
+    return run(chosen, innovations=True)
 
 
 @pytest.fixture(scope="module")
