@@ -1,0 +1,218 @@
+"""Nodes of the two robots are killed, one after another: the robot stands, the others go on, the node comes again."""
+
+from __future__ import annotations
+
+import math
+import os
+import signal
+import time
+from collections import defaultdict
+from functools import partial
+from itertools import pairwise
+from pathlib import Path
+from statistics import median
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+pytest.importorskip("rclpy", reason="needs ROS")
+pytest.importorskip("mujoco", reason="needs the bringup")
+
+import rclpy
+from nav_msgs.msg import Odometry
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import QoSProfile, ReliabilityPolicy
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+    from orchestra.testing.run import Run
+
+# What rclpy imports to find its types still uses the old name of a standard module.
+pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
+
+_TWO_ROBOTS = str(Path(__file__).parents[3] / "bringup" / "two_robots.yaml")
+_ROBOTS = ("robot1", "robot2")
+# Simulated seconds within which the robot stands, and within which the velocities of a filter are right.
+_STANDS, _RIGHT = 0.6, 1.0
+_STILL = 0.01  # m/s, rad/s
+_PATIENCE = 90.0
+
+
+class _Witness:
+    """What is heard of the robots: truth and estimate, by simulated time."""
+
+    def __init__(self, run: Run) -> None:
+        self.run = run
+        self.context = rclpy.Context()
+        rclpy.init(context=self.context, domain_id=run.domain)
+        self.node = rclpy.create_node("witness", context=self.context)
+        self.executor = SingleThreadedExecutor(context=self.context)
+        self.executor.add_node(self.node)
+        self.heard: dict[str, list[tuple[float, Any]]] = defaultdict(list)
+        qos = QoSProfile(depth=1000, reliability=ReliabilityPolicy.BEST_EFFORT)
+        for robot in _ROBOTS:
+            for topic in ("ground_truth", "odometry/filtered"):
+                name = f"{robot}/{topic}"
+                self.node.create_subscription(
+                    Odometry, f"/{name}", lambda message, name=name: self._hear(name, message), qos
+                )
+
+    def _hear(self, name: str, message: Any) -> None:
+        stamp = message.header.stamp
+        self.heard[name].append((stamp.sec + stamp.nanosec * 1e-9, message))
+
+    def until(self, condition: Callable[[], bool], what: str) -> None:
+        end = time.monotonic() + _PATIENCE
+        while not condition():
+            assert time.monotonic() < end, f"not within {_PATIENCE} s: {what}"
+            self.executor.spin_once(timeout_sec=0.1)
+
+    def now(self, name: str) -> float:
+        return self.heard[name][-1][0] if self.heard[name] else 0.0
+
+    def since(self, name: str, moment: float) -> list[tuple[float, Any]]:
+        return [(stamp, message) for stamp, message in self.heard[name] if stamp > moment]
+
+    def close(self) -> None:
+        self.executor.shutdown()
+        self.node.destroy_node()
+        rclpy.shutdown(context=self.context)
+
+
+@pytest.fixture
+def witness(launch: Callable[..., Run]) -> Iterator[_Witness]:
+    # Slower than real time, so that a busy machine delays what is measured in simulated seconds by less.
+    run = launch(_TWO_ROBOTS, "speed:=0.7")
+    run.wait_ready(timeout=60)
+    witness = _Witness(run)
+    try:
+        yield witness
+    finally:
+        witness.close()
+
+
+def _speed(message: Any) -> tuple[float, float]:
+    twist = message.twist.twist
+    return math.hypot(twist.linear.x, twist.linear.y), abs(twist.angular.z)
+
+
+def _drives(witness: _Witness, robot: str) -> bool:
+    """Tell whether a robot drives, and its filter says so."""
+    truth, estimate = witness.heard[f"{robot}/ground_truth"], witness.heard[f"{robot}/odometry/filtered"]
+    return bool(truth and estimate) and _speed(truth[-1][1])[0] > 0.3 and _speed(estimate[-1][1])[0] > 0.3
+
+
+def _kill(witness: _Witness, name: str) -> float:
+    """Kill a process of the run; return when, in simulated time."""
+    robot = name.partition("/")[0] if "/" in name else _ROBOTS[0]
+    witness.until(lambda: _drives(witness, robot), f"{robot} drives")
+    started = [
+        each for each in witness.run.events if each.kind == "process_running" and each.process == f"/{name}"
+    ]
+    assert started[-1].pid is not None
+    os.kill(started[-1].pid, signal.SIGKILL)
+    return witness.now(f"{robot}/ground_truth")
+
+
+def _starts(witness: _Witness, name: str) -> int:
+    return sum(each.kind == "process_running" and each.process == f"/{name}" for each in witness.run.events)
+
+
+def _stands_and_others_go_on(witness: _Witness, name: str) -> float:
+    """Kill a node, and return when, in simulated time, after all is seen to go as it should."""
+    robot = name.partition("/")[0]
+    other = next(each for each in _ROBOTS if each != robot)
+    starts = _starts(witness, name)
+    killed = _kill(witness, name)
+
+    def stood() -> list[float]:
+        truth = witness.since(f"{robot}/ground_truth", killed)
+        return [stamp for stamp, message in truth if max(_speed(message)) < _STILL]
+
+    witness.until(lambda: bool(stood()), f"{robot} stands")
+    assert stood()[0] - killed <= _STANDS, (
+        f"{robot} stands {stood()[0] - killed:.2f} s after {name} was killed"
+    )
+    witness.until(lambda: _starts(witness, name) > starts, f"{name} starts again")
+    witness.until(lambda: _drives(witness, robot), f"{robot} drives again")
+    for topic in ("ground_truth", "odometry/filtered"):
+        stamps = [stamp for stamp, _ in witness.since(f"{other}/{topic}", killed)]
+        assert median(after - before for before, after in pairwise(stamps)) == pytest.approx(0.02, abs=0.004)
+    return killed
+
+
+def _check_estimate(witness: _Witness, robot: str, killed: float) -> None:
+    """The new filter begins at the origin, where the robot stands, and soon has its velocities right."""
+    name, truth = f"{robot}/odometry/filtered", f"{robot}/ground_truth"
+    witness.until(lambda: bool(witness.since(name, killed + 0.4)), "the filter estimates again")
+    began = witness.since(name, killed + 0.4)[0][0]
+    witness.until(lambda: witness.now(name) > began + _RIGHT + 1.0, "the filter goes on")
+    real = {round(stamp, 3): message for stamp, message in witness.since(truth, killed)}
+    pairs = [
+        (stamp, message, real[round(stamp, 3)])
+        for stamp, message in witness.since(name, began)
+        if round(stamp, 3) in real
+    ]
+    stood = next(message for message in real.values() if max(_speed(message)) < _STILL)
+    assert math.dist(_place(pairs[0][1]), _seen_from(stood, pairs[0][2])) < 0.1
+    right = [(message, truly) for stamp, message, truly in pairs if stamp > began + _RIGHT]
+    assert len(right) > 10
+    for message, truly in right:
+        assert message.twist.twist.linear.x == pytest.approx(truly.twist.twist.linear.x, abs=0.1)
+        assert message.twist.twist.angular.z == pytest.approx(truly.twist.twist.angular.z, abs=0.1)
+
+
+def _place(message: Any) -> tuple[float, float]:
+    return message.pose.pose.position.x, message.pose.pose.position.y
+
+
+def _seen_from(stood: Any, message: Any) -> tuple[float, float]:
+    """Return where a robot is, seen from where it stood."""
+    turn = 2 * math.atan2(stood.pose.pose.orientation.z, stood.pose.pose.orientation.w)
+    ahead, aside = (now - then for now, then in zip(_place(message), _place(stood), strict=True))
+    return (
+        math.cos(turn) * ahead + math.sin(turn) * aside,
+        math.cos(turn) * aside - math.sin(turn) * ahead,
+    )
+
+
+@pytest.mark.timeout(300)
+def test_a_robot_stands_when_a_node_of_it_is_killed_and_goes_on_when_it_is_back(witness: _Witness) -> None:
+    _stands_and_others_go_on(witness, "robot1/velocity_controller")
+    killed = _stands_and_others_go_on(witness, "robot2/ekf")
+    _check_estimate(witness, "robot2", killed)
+
+
+@pytest.mark.long
+@pytest.mark.timeout(600)
+@pytest.mark.parametrize(
+    "name", [f"{robot}/{node}" for robot in _ROBOTS for node in ("ekf", "velocity_controller")]
+)
+def test_every_node_may_be_killed(name: str, witness: _Witness) -> None:
+    for _ in range(3):
+        killed = _stands_and_others_go_on(witness, name)
+        if name.endswith("ekf"):
+            _check_estimate(witness, name.partition("/")[0], killed)
+
+
+@pytest.mark.long
+@pytest.mark.timeout(600)
+def test_the_world_may_be_killed(witness: _Witness) -> None:
+    """It begins anew, at time 0, where the robots started; filters and controllers take it as it is."""
+    # What ends within its first seconds ends the run.
+    witness.until(lambda: witness.now("robot1/ground_truth") > 12.0, "the world has run for a while")
+    _kill(witness, "simulation")
+    witness.heard.clear()
+    witness.until(lambda: 0.0 < witness.now("robot1/ground_truth") < 5.0, "the time begins anew")
+    for robot in _ROBOTS:
+        witness.until(partial(_drives, witness, robot), f"{robot} drives again")
+        (stamp, estimate), truth = (
+            witness.heard[f"{robot}/odometry/filtered"][-1],
+            dict(witness.heard[f"{robot}/ground_truth"]),
+        )
+        real = truth[min(truth, key=lambda moment: abs(moment - stamp))]
+        assert math.dist(
+            (estimate.pose.pose.position.x, estimate.pose.pose.position.y),
+            (real.pose.pose.position.x, real.pose.pose.position.y),
+        ) == pytest.approx(0.0, abs=0.2)
