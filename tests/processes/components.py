@@ -1,0 +1,265 @@
+"""Components to load, and a client that asks containers: components.py
+
+The client reads lines of JSON. `{"call": SERVICE, "type": "package/srv/Name", "fields": {...}}` is answered with the
+fields of the response, `{"graph": [NODE, ...]}` with all that is in the graph but for those nodes and the client.
+"""
+
+import json
+import os
+import sys
+import threading
+import time
+from importlib import import_module
+from typing import Any
+
+import rclpy
+from rclpy.action import ActionClient, ActionServer
+from rclpy.lifecycle import LifecycleNode
+from rclpy.node import Node
+from std_msgs.msg import String
+from std_srvs.srv import Trigger
+
+from orchestra.ros.interfaces.definitions import provide
+
+provide("tf2_msgs")  # no wheel has it
+provide("composition_interfaces")
+from tf2_msgs.action import LookupTransform  # noqa: E402 - as above
+
+MET = threading.Event()
+
+
+def write(line: str) -> None:
+    os.write(1, f"{line}\n".encode())
+
+
+class Plain(Node):
+    """Takes nothing, as most classes of nodes do."""
+
+    def __init__(self) -> None:
+        super().__init__("plain")
+        self.chatter = self.create_publisher(String, "chatter", 1)
+        self.create_service(Trigger, "~/thread", self.tell_thread)
+        self.declare_parameters("", [(name, default) for name, default in TYPES.items()])
+        self.declare_parameter("unset", "as it is")
+
+    def tell_thread(self, _request: Any, response: Any) -> Any:
+        response.message = threading.current_thread().name
+        return response
+
+
+class Keywords(Node):
+    """Passes on what it is given, and insists on a name."""
+
+    def __init__(self, node_name: str, **options: Any) -> None:
+        super().__init__(node_name, cli_args=["--ros-args", "-r", "chatter:=own"], **options)
+        self.create_publisher(String, "chatter", 1)
+
+
+class Everything(LifecycleNode):
+    """Has one of everything in the graph, and another node."""
+
+    def __init__(self) -> None:
+        super().__init__("everything")
+        self.server = ActionServer(self, LookupTransform, "look", lambda _goal: LookupTransform.Result())
+        self.client = ActionClient(self, LookupTransform, "look")
+        self.create_lifecycle_publisher(String, "chatter", 1)
+        self.create_subscription(String, "chatter", self.hear, 1)
+        self.create_client(Trigger, "trigger")
+        self.create_timer(0.01, lambda: None)
+        self.inner = rclpy.create_node("inner")
+
+    def hear(self, _message: String) -> None:
+        """Hear nobody."""
+
+
+class Broken(Everything):
+    def __init__(self) -> None:
+        super().__init__()
+        raise ValueError("no such device")
+
+
+class Quitting(Node):
+    def __init__(self) -> None:
+        super().__init__("quitting")
+        raise SystemExit(3)
+
+
+class Stubborn(Node):
+    """Says good-bye, and forgets all else."""
+
+    def __init__(self) -> None:
+        super().__init__("stubborn")
+        self.create_publisher(String, "chatter", 1)
+
+    def destroy_node(self) -> None:
+        write("good-bye")
+
+
+class Failing(Node):
+    """Fails, or ends the process, when it is told to."""
+
+    def __init__(self) -> None:
+        super().__init__("failing")
+        self.create_service(Trigger, "~/fail", self.fail)
+        self.create_service(Trigger, "~/leave", self.leave)
+
+    def fail(self, _request: Any, _response: Any) -> Any:
+        raise RuntimeError("out of order")
+
+    def leave(self, _request: Any, _response: Any) -> Any:
+        raise SystemExit(4)
+
+
+class Waiting(Node):
+    """Has a callback that ends when that of another node is called."""
+
+    def __init__(self) -> None:
+        super().__init__("waiting")
+        self.create_service(Trigger, "~/wait", self.wait)
+
+    def wait(self, _request: Any, response: Any) -> Any:
+        write("waits")
+        response.success = MET.wait(20)
+        return response
+
+
+class Meeting(Node):
+    def __init__(self) -> None:
+        super().__init__("meeting")
+        self.create_service(Trigger, "~/meet", self.meet)
+
+    def meet(self, _request: Any, response: Any) -> Any:
+        MET.set()
+        response.success = True
+        return response
+
+
+class Demanding(Node):
+    def __init__(self, node_name: str, robot: str) -> None:
+        super().__init__(f"{node_name}_{robot}")
+
+
+def made_by_a_function() -> Node:
+    return Plain()
+
+
+def no_node() -> int:
+    return 7
+
+
+TYPES = {
+    "flag": False,
+    "whole": 0,
+    "real": 0.0,
+    "text": "",
+    "bytes": [b"\0"],
+    "flags": [False],
+    "wholes": [0],
+    "reals": [0.0],
+    "texts": [""],
+}
+
+
+class Client:
+    def __init__(self) -> None:
+        rclpy.init(args=[])
+        self.node = rclpy.create_node("asking_client", start_parameter_services=False, enable_rosout=False)
+        self.clients: dict[str, Any] = {}
+
+    def call(self, service: str, kind: str, fields: dict[str, Any]) -> dict[str, Any]:
+        package, _, name = kind.split("/")
+        of_type = getattr(import_module(f"{package}.srv"), name)
+        client = self.clients.get(service)
+        if client is None:
+            client = self.node.create_client(of_type, service)
+            assert client.wait_for_service(30)
+            self.greet(service.partition("/_container/")[0].removesuffix(f"/{service.rpartition('/')[2]}"))
+        request = of_type.Request()
+        for key, value in fields.items():
+            setattr(request, key, made(key, value))
+        future = client.call_async(request)
+        rclpy.spin_until_future_complete(self.node, future, timeout_sec=40)
+        if "/_container/" in service:
+            self.clients[service] = client
+        else:
+            self.node.destroy_client(client)
+        answer = future.result()
+        found = {key: getattr(answer, key) for key in answer.get_fields_and_field_types()}
+        return {key: value if isinstance(value, str | int) else plain(value) for key, value in found.items()}
+
+    def greet(self, node: str) -> None:
+        """Ask until the node answers: then it has discovered the readers that were made before."""
+        kind = import_module("type_description_interfaces.srv").GetTypeDescription
+        greeting = self.node.create_client(kind, f"{node}/get_type_description")
+        assert greeting.wait_for_service(30)
+        greeted = False
+        while not greeted:
+            future = greeting.call_async(kind.Request())
+            rclpy.spin_until_future_complete(self.node, future, timeout_sec=1)
+            greeted = future.done()
+        self.node.destroy_client(greeting)
+
+    def graph(self, but: list[str]) -> list[str]:
+        """Return every node, and every end of a topic or service, of others."""
+        left_out = {*but, "asking_client"}
+        found = []
+        for name, namespace in self.node.get_node_names_and_namespaces():
+            if name not in left_out:
+                found.append(f"node {namespace} {name}")
+        for topic, _ in self.node.get_topic_names_and_types():
+            for look in (self.node.get_publishers_info_by_topic, self.node.get_subscriptions_info_by_topic):
+                found += [
+                    f"{topic} {end.endpoint_type.name} {end.node_name}"
+                    for end in look(topic)
+                    if end.node_name not in left_out
+                ]
+        names = {name for name, _ in self.node.get_service_names_and_types()} - self.clients.keys()
+        found += [
+            f"service {name}" for name in names if not any(name.startswith(f"/{one}/") for one in left_out)
+        ]
+        return sorted(found)
+
+
+def made(key: str, value: Any) -> Any:
+    """Return a field of a request: parameters are given as a mapping from name to type and value."""
+    if key not in ("parameters", "extra_arguments"):
+        return value
+    from rclpy.parameter import Parameter  # noqa: PLC0415 - only the client needs it
+
+    found = []
+    for name, (kind, data) in value.items():
+        held = [bytes([one]) for one in data] if kind == "BYTE_ARRAY" else data
+        found.append(Parameter(name, Parameter.Type[kind], held).to_parameter_msg())
+    return found
+
+
+def plain(value: Any) -> Any:
+    """Return a list of plain values; a parameter's value is the one that is set."""
+    return [one if isinstance(one, str | int) else held(one) for one in value]
+
+
+def held(value: Any) -> Any:
+    from rclpy.parameter import parameter_value_to_python  # noqa: PLC0415 - only the client needs it
+
+    found = parameter_value_to_python(value)
+    if isinstance(found, str | int | float) or found is None:
+        return found
+    return [one[0] if isinstance(one, bytes) else one for one in found]
+
+
+def main() -> None:
+    client = Client()
+    write(json.dumps("ready"))
+    for line in sys.stdin:
+        order = json.loads(line)
+        if "call" in order:
+            answer: Any = client.call(order["call"], order["type"], order["fields"])
+        else:
+            rclpy.spin_once(client.node, timeout_sec=0)
+            answer = client.graph(order["graph"])
+            time.sleep(0.02)
+        write(json.dumps(answer))
+
+
+if __name__ == "__main__":
+    main()

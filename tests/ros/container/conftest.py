@@ -1,0 +1,153 @@
+"""Containers in a domain of their own, and a client that asks them."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from orchestra.testing.domain import free_domain
+from tests.supervise.plans import PATIENCE, PROCESSES, wait_for
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from pathlib import Path
+
+EXECUTABLES = ("component_container", "component_container_mt", "component_container_isolated")
+
+
+class Asking:
+    """The client of `tests/processes/components.py`."""
+
+    def __init__(self, popen: subprocess.Popen[str]) -> None:
+        self._popen = popen
+
+    def call(self, service: str, kind: str, /, **fields: Any) -> dict[str, Any]:
+        """Return the fields of a service's answer."""
+        found: dict[str, Any] = self._asked({"call": service, "type": kind, "fields": fields})
+        return found
+
+    def graph(self, *but: str) -> list[str]:
+        """Return what is in the graph beside these nodes."""
+        found: list[str] = self._asked({"graph": but})
+        return found
+
+    def _asked(self, order: dict[str, Any]) -> Any:
+        assert self._popen.stdin
+        assert self._popen.stdout
+        self._popen.stdin.write(json.dumps(order) + "\n")
+        self._popen.stdin.flush()
+        return json.loads(self._popen.stdout.readline())
+
+
+class Box:
+    """A container that runs, and what it has written."""
+
+    def __init__(self, popen: subprocess.Popen[bytes], name: str, asking: Asking, path: Path) -> None:
+        self.popen = popen
+        self.name = name
+        self.asking = asking
+        self._path = path
+
+    @property
+    def written(self) -> str:
+        """All that it has written."""
+        return self._path.read_text("utf-8")
+
+    def load(self, plugin: str, **fields: Any) -> dict[str, Any]:
+        """Ask it to load a component of `tests/processes/components.py`."""
+        whole = plugin if ":" in plugin else f"components:{plugin}"
+        return self._asked("LoadNode", "load_node", plugin_name=whole, **fields)
+
+    def loaded(self, plugin: str, **fields: Any) -> str:
+        """Return the full name of a component that it loads."""
+        answer = self.load(plugin, **fields)
+        assert answer["success"], answer
+        return str(answer["full_node_name"])
+
+    def unload(self, number: int) -> dict[str, Any]:
+        return self._asked("UnloadNode", "unload_node", unique_id=number)
+
+    def list(self) -> dict[int, str]:
+        answer = self._asked("ListNodes", "list_nodes")
+        return dict(zip(answer["unique_ids"], answer["full_node_names"], strict=True))
+
+    def empty(self) -> None:
+        """Unload whatever is there, and wait until nothing of it is seen."""
+        for number in self.list():
+            assert self.unload(number) == {"success": True, "error_message": ""}
+        wait_for(lambda: not self.asking.graph(self.name), "an empty graph")
+
+    def _asked(self, kind: str, service: str, **fields: Any) -> dict[str, Any]:
+        of_type = f"composition_interfaces/srv/{kind}"
+        return self.asking.call(f"/{self.name}/_container/{service}", of_type, **fields)
+
+
+@pytest.fixture(scope="module")
+def domain() -> Iterator[dict[str, str]]:
+    """An environment with a domain in which nobody else is, and the components on the path."""
+    pytest.importorskip("rclpy", reason="needs ROS")
+    with free_domain({}) as number:
+        yield {
+            **os.environ,
+            "ROS_DOMAIN_ID": str(number),
+            "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
+            "PYTHONPATH": os.pathsep.join([str(PROCESSES), os.environ.get("PYTHONPATH", "")]),
+            "NO_COLOR": "1",
+        }
+
+
+@pytest.fixture(scope="module")
+def asking(domain: dict[str, str]) -> Iterator[Asking]:
+    command = [sys.executable, str(PROCESSES / "components.py")]
+    with subprocess.Popen(
+        command, env=domain, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
+    ) as popen:
+        try:
+            assert popen.stdout
+            assert popen.stdout.readline() == '"ready"\n'
+            yield Asking(popen)
+        finally:
+            popen.kill()
+
+
+@contextmanager
+def container(
+    executable: str, domain: dict[str, str], asking: Asking, folder: Path, *words: str
+) -> Iterator[Box]:
+    """Have a container, called as its executable is."""
+    command = [sys.executable, "-m", "orchestra.ros.container", executable]
+    path = folder / executable
+    with (
+        path.open("wb") as output,
+        subprocess.Popen(
+            [*command, "--ros-args", "-r", f"__node:={executable}", *words],
+            env=domain,
+            stdout=output,
+            stderr=output,
+        ) as popen,
+    ):
+        try:
+            yield Box(popen, executable, asking, path)
+            popen.send_signal(signal.SIGINT)  # one that is killed stays in the graphs of others for 20 s
+            popen.wait(PATIENCE)
+        finally:
+            popen.kill()
+
+
+@pytest.fixture(scope="module", params=EXECUTABLES)
+def box(
+    request: pytest.FixtureRequest,
+    domain: dict[str, str],
+    asking: Asking,
+    tmp_path_factory: pytest.TempPathFactory,
+) -> Iterator[Box]:
+    """Each of the containers, shared by the tests of a module."""
+    with container(request.param, domain, asking, tmp_path_factory.mktemp("box")) as found:
+        yield found
