@@ -23,6 +23,7 @@ MEASUREMENTS: Final = (
     "watching",
     "restarts",
     "checked_tree",
+    "graph_questions",
 )
 
 
