@@ -1,5 +1,6 @@
 """Parameters: what is declared, and which sets of values are refused and why."""
 
+import json
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -53,6 +54,17 @@ def test_the_parameter_file_of_the_bringup_names_every_parameter_and_can_be_used
     values = yaml.safe_load(text)["/**/velocity_controller"]["ros__parameters"]
     assert list(values) == [each.name for each in table()]
     assert objection(Settings(**values)) is None
+
+
+def test_the_schema_of_the_managed_controller_says_the_same_as_the_other_one() -> None:
+    folder = Path(bringup.__file__).parent / "params"
+    plain, managed = (
+        json.loads((folder / f"{name}.schema.json").read_text())
+        for name in ("velocity_controller", "velocity_controller_lifecycle")
+    )
+    assert managed["properties"] == plain["properties"]
+    assert list(plain["properties"]) == sorted(each.name for each in table())
+    assert plain["properties"]["mode"]["enum"] == list(Mode)
 
 
 @given(distance=st.floats(0.1, 5.0), radius=st.floats(0.05, 1.0))
