@@ -22,14 +22,23 @@ _ROOT = Path(__file__).parents[2]
 _ORDINARY = _ROOT / "tests" / "data" / "ordinary"
 _ENVIRONMENT: Mapping[str, str] = {"PATH": "/usr/bin:/bin"}
 _BRINGUP = {"two_robots.yaml": (), "robot.yaml": ("namespace:=robot1",)}
+# Files that include others; as many words as make all that is in them count.
+_VARIANTS = {
+    "one_robot.yaml": (),
+    "lifecycle.yaml": ("mode:=hold",),
+    "container.yaml": (),
+    "fleet.yaml": ("robots:=a,b", "site:=warehouse"),
+    "fleet_robot.yaml": ("namespace:=robot1", "claim_service:=/claim"),
+    "real_robot.yaml": ("scan:=lidar/scan", "cmd_vel:=base/cmd_vel"),
+}
 
 
 def _bringup(folder: Path) -> Path:
     """Return a copy of the bringup's launch files and what they read."""
-    for name in ("params", "worlds"):
+    for name in ("params", "worlds", "robots"):
         shutil.copytree(_ROOT / "bringup" / name, folder / name)
-    for name in _BRINGUP:
-        shutil.copy(_ROOT / "bringup" / name, folder / name)
+    for path in (_ROOT / "bringup").glob("*.yaml"):
+        shutil.copy(path, folder / path.name)
     return folder
 
 
@@ -39,6 +48,13 @@ def test_the_bringup_says_the_same_everywhere(name: str, tmp_path: Path) -> None
     assert not seen(path, _ENVIRONMENT, _BRINGUP[name]).errors
     same_everywhere(path, _ENVIRONMENT, _BRINGUP[name])
     round_trip(path, _ENVIRONMENT, _BRINGUP[name], rounds=2)
+
+
+@pytest.mark.parametrize("name", _VARIANTS)
+def test_other_ways_to_bring_it_up_say_the_same_there_and_back(name: str, tmp_path: Path) -> None:
+    path = _bringup(tmp_path) / name
+    assert not seen(path, _ENVIRONMENT, _VARIANTS[name]).errors
+    round_trip(path, _ENVIRONMENT, _VARIANTS[name])
 
 
 def test_the_whole_bringup_in_python_starts_the_same(tmp_path: Path) -> None:
