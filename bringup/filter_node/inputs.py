@@ -19,11 +19,13 @@ from bringup.filter.settings import Control, Settings
 from bringup.filter.transforms import Sample
 from bringup.filter_node import quiet
 from bringup.filter_node.messages import Message
+from bringup.filter_node.throttle import Throttle
 from bringup.filter_node.visits import Subscription, VisitedSubscriptions
 from bringup.filter_node.wire import MESSAGE_TYPES, reader
 from orchestra.ros.interfaces import tf_message_type
 
 _QUEUE = 10
+_SECONDS_BETWEEN_COMPLAINTS = 5.0
 _TRANSFORM_QUEUE = 100
 
 
@@ -44,6 +46,7 @@ class Inputs:
         self._frames = settings.frames
         self._visited = VisitedSubscriptions(node)
         self._visited_at = 0
+        self._wrong_frame = Throttle(_SECONDS_BETWEEN_COMPLAINTS)
         self._moving: Subscription | None = None
         for sensor in settings.sensors:
             self._visited.add(
@@ -107,10 +110,10 @@ class Inputs:
     def _command_stamped(self, message: Message) -> None:
         frame = message.header.frame_id.lstrip("/")
         if frame not in {"", self._frames.base_link}:
-            self._node.get_logger().error(
-                f"cmd_vel: the frame must be {self._frames.base_link}, not {frame}; it is ignored",
-                throttle_duration_sec=5.0,
-            )
+            if self._wrong_frame.passes():
+                self._node.get_logger().error(
+                    f"cmd_vel: the frame must be {self._frames.base_link}, not {frame}; it is ignored"
+                )
             return
         self._localization.command(velocity_command(message.twist), stamp_of(message))
 

@@ -15,6 +15,7 @@ from bringup.filter.state import ORIENTATION, POSE
 from bringup.filter.transforms import TransformUnavailableError
 from bringup.filter_node import quiet
 from bringup.filter_node.messages import EstimateMessages
+from bringup.filter_node.throttle import Throttle
 from orchestra.ros.interfaces import tf_message_type
 
 Publisher: TypeAlias = Any
@@ -29,6 +30,8 @@ class Outputs:
 
     def __init__(self, node: Node, settings: Settings, localization: Localization) -> None:
         self._logger = node.get_logger()
+        self._not_finite = Throttle(_SECONDS_BETWEEN_COMPLAINTS)
+        self._no_odometry = Throttle(_SECONDS_BETWEEN_COMPLAINTS)
         self._frames = settings.frames
         self._offset = settings.publication.transform_offset
         self._buffer = localization.frames.buffer
@@ -45,10 +48,10 @@ class Outputs:
     def publish(self, estimate: Estimate) -> bool:
         """Publish an estimate; one that is not finite is only complained about (upstream publishes it)."""
         if not (math.isfinite(estimate.state.sum()) and math.isfinite(estimate.covariance.sum())):
-            self._logger.error(
-                "critical error, NaNs in the estimate: nothing is published; call the reset service",
-                throttle_duration_sec=_SECONDS_BETWEEN_COMPLAINTS,
-            )
+            if self._not_finite.passes():
+                self._logger.error(
+                    "critical error, NaNs in the estimate: nothing is published; call the reset service"
+                )
             return False
         self._odometry.publish(self._messages.odometry(estimate))
         if self._acceleration is not None:
@@ -75,7 +78,8 @@ class Outputs:
             return self._buffer.lookup(self._frames.odom, self._frames.base_link)
         except TransformUnavailableError as error:
             text = f"{self._frames.map} -> {self._frames.odom} is not broadcast: {error}"
-        self._logger.error(text, throttle_duration_sec=_SECONDS_BETWEEN_COMPLAINTS)
+        if self._no_odometry.passes():
+            self._logger.error(text)
         return None
 
 
