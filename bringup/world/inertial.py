@@ -6,9 +6,10 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import numpy as np
+from bringup.world.draws import Draws
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
 
 SMALLEST_VARIANCE = 1e-9
@@ -34,8 +35,8 @@ class Inertial:
     """One robot's IMU; `noise` can be replaced at any time."""
 
     def __init__(self, noise: InertialNoise, chance: np.random.Generator) -> None:
-        self._chance = chance
-        self._strayed = np.zeros(6)
+        self._draws = Draws(chance)
+        self._strayed = [0.0] * 6
         self._walked = [0.0, 0.0]
         self.noise = noise
 
@@ -47,20 +48,23 @@ class Inertial:
     @noise.setter
     def noise(self, noise: InertialNoise) -> None:
         self._noise = noise
-        self._bias = np.repeat([noise.gyro_bias, noise.accelerometer_bias], 3)
-        self._deviation = np.repeat([noise.gyro_noise, noise.accelerometer_noise], 3)
-        self._walk = np.repeat([noise.gyro_walk, noise.accelerometer_walk], 3)
-        self._strays = bool(self._walk.any())
+        self._bias = [noise.gyro_bias] * 3 + [noise.accelerometer_bias] * 3
+        self._deviation = [noise.gyro_noise] * 3 + [noise.accelerometer_noise] * 3
+        self._walk = [noise.gyro_walk] * 3 + [noise.accelerometer_walk] * 3
+        self._strays = any(self._walk)
 
     def measure(self, true: NDArray[np.float64], dt: float = PERIOD) -> list[float]:
         """What it reports for true turning rates (three, rad/s) and accelerations (three, m/s^2), `dt` s later."""
         if self._strays:
-            self._strayed += math.sqrt(dt) * self._walk * self._chance.standard_normal(6)
+            root = math.sqrt(dt)
+            steps = zip(self._strayed, self._walk, self._draws.take(6), strict=True)
+            self._strayed = [strayed + root * walk * draw for strayed, walk, draw in steps]
             self._walked[0] += dt * self._noise.gyro_walk**2
             self._walked[1] += dt * self._noise.accelerometer_walk**2
-        reported = true + self._bias + self._strayed + self._deviation * self._chance.standard_normal(6)
-        values: list[float] = reported.tolist()
-        return values
+        draws = self._draws.take(6)
+        # Without checks of the lengths, which are all six: this is the busiest line of the sensors.
+        parts = zip(true.tolist(), self._bias, self._strayed, self._deviation, draws, strict=False)
+        return [value + bias + strayed + deviation * draw for value, bias, strayed, deviation, draw in parts]
 
     def variances(self) -> tuple[float, float]:
         """The expected square of the error of a turning rate and of an acceleration, by now."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import array
 import math
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -35,6 +36,7 @@ UNKNOWN = 1e6
 SIDEWAYS = 0.01**2
 
 
+@lru_cache(maxsize=1)
 def seconds(ticks: int) -> tuple[int, int]:
     """The time of a tick in whole seconds and nanoseconds."""
     return divmod(ticks * NANOSECONDS_PER_TICK, NANOSECONDS)

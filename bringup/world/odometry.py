@@ -17,6 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bringup.world.body import WHEEL_RADIUS, WHEEL_SEPARATION
+from bringup.world.draws import Draws
 from bringup.world.drive import Twist
 from bringup.world.geometry import Pose, wrap
 
@@ -71,10 +72,10 @@ class Odometry:
     def __init__(self, errors: WheelErrors, dt: float, chance: np.random.Generator) -> None:
         self.errors = errors
         self._dt = dt
-        self._chance = chance
+        self._draws = Draws(chance)
         self._angles = (0.0, 0.0)
         # Slip in units of its standard deviation.
-        self._slip: list[float] = chance.standard_normal(2).tolist()
+        self._slip = self._draws.take(2)
         self._pose = Pose(0.0, 0.0, 0.0)
         self._walk = _Walk()
         # How x, y and yaw depend on each wheel's radius.
@@ -101,7 +102,7 @@ class Odometry:
         """The travel of each wheel that is counted for so much turning."""
         errors, keep = self.errors, math.exp(-dt / SLIP_TIME)
         fresh = math.sqrt(1 - keep * keep)
-        draws = self._chance.standard_normal(4).tolist()
+        draws = self._draws.take(4)
         self._slip = [keep * slip + fresh * draw for slip, draw in zip(self._slip, draws, strict=False)]
         return (
             WHEEL_RADIUS * left * (errors.left_scale + errors.slip * self._slip[0])

@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import threading
 import time
-from contextlib import closing, contextmanager, suppress
+from contextlib import closing, contextmanager
 from typing import TYPE_CHECKING
 
 import rclpy
 from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
-from rclpy.executors import ExternalShutdownException, SingleThreadedExecutor
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
 
 from bringup.world import pace
 from bringup.world.course import Course
@@ -123,18 +124,16 @@ def served(node: Node) -> Iterator[None]:
     """Serve the parameters and services of a node in a thread of their own, until the end."""
     executor = SingleThreadedExecutor()
     executor.add_node(node)
-    thread = threading.Thread(target=_spin, args=(executor,), name="services")
+    over: Future[None] = Future()
+    thread = threading.Thread(target=executor.spin_until_future_complete, args=(over,), name="services")
     thread.start()
     try:
         yield
     finally:
-        executor.shutdown()
+        # An executor that is shut down while it waits fails now and then: what it waits on is destroyed.
+        over.set_result(None)
         thread.join()
-
-
-def _spin(executor: SingleThreadedExecutor) -> None:
-    with suppress(ExternalShutdownException):
-        executor.spin()
+        executor.shutdown()
 
 
 def serve(args: list[str] | None, stop: Stop) -> int:

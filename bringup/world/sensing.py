@@ -31,11 +31,10 @@ class Truth:
 
 @dataclass(frozen=True, slots=True)
 class InertialReading:
-    """Three turning rates (rad/s), then three accelerations (m/s^2), and the variance of one of each."""
+    """Three turning rates (rad/s), then three accelerations (m/s^2), and the variances of one of each."""
 
     values: list[float]
-    gyro_variance: float
-    accelerometer_variance: float
+    variances: tuple[float, float]
 
 
 @dataclass(frozen=True, slots=True)
@@ -112,7 +111,7 @@ class Sensors:
     def _felt(self, ticks: int) -> InertialReading:
         true = self._simulation.data.sensordata[self.robot.imu]
         values = self._inertial.measure(true, self._since("inertial", ticks))
-        return InertialReading(values, *self._inertial.variances())
+        return InertialReading(values, self._inertial.variances())
 
     def _seen(self) -> NDArray[np.float64]:
         errors = self._settings.lidar

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 
 from bringup.world import messages
-from bringup.world.wire import Wire
+from bringup.world.wire import Message, Wire
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
     from rclpy.node import Node
     from rclpy.qos import QoSProfile
+    from sensor_msgs.msg import LaserScan
 
     from bringup.world.drive import Twist
     from bringup.world.geometry import Pose
@@ -33,33 +34,25 @@ class ClockOut:
     """The clock."""
 
     def __init__(self, node: Node, qos: QoSProfile) -> None:
-        self._wire = Wire(node, "/clock", Clock(), qos, stamp=("clock.sec", "iI"))
+        self._wire = Wire(node, "/clock", Clock(), qos)
+        self._stamp = self._wire.slot("clock.sec", "iI")
 
     def publish(self, ticks: int) -> None:
         """Tell the time of a tick."""
-        self._wire.write("stamp", *messages.seconds(ticks))
+        self._stamp(*messages.seconds(ticks))
         self._wire.publish()
 
 
 class OdometryOut:
     """Odometry: a pose, a velocity and how sure they are."""
 
-    def __init__(self, node: Node, topic: str, message: Any, qos: QoSProfile) -> None:  # noqa: ANN401 - messages have no types
-        self._wire = Wire(
-            node,
-            topic,
-            message,
-            qos,
-            stamp=STAMP,
-            pose=("pose.pose.position.x", "7d"),
-            twist=("twist.twist.linear.x", "6d"),
-            pose_covariance=("pose.covariance.0", "36d"),
-            twist_covariance=("twist.covariance.0", "36d"),
-        )
-        self._pose_covariance, self._twist_covariance = (
-            np.frombuffer(self._wire.bytes, "<f8", 36, self._wire.at(f"{kind}_covariance"))
-            for kind in ("pose", "twist")
-        )
+    def __init__(self, node: Node, topic: str, message: Message, qos: QoSProfile) -> None:
+        self._wire = wire = Wire(node, topic, message, qos)
+        self._stamp = wire.slot(*STAMP)
+        self._pose = wire.slot("pose.pose.position.x", "7d")
+        self._twist = wire.slot("twist.twist.linear.x", "6d")
+        self._pose_covariance = wire.view("pose.covariance.0", "d", 36)
+        self._twist_covariance = wire.view("twist.covariance.0", "d", 36)
 
     def publish_truth(self, ticks: int, truth: Truth) -> None:
         """Tell how the robot moves."""
@@ -72,56 +65,50 @@ class OdometryOut:
         self._publish(ticks, estimate.pose, estimate.twist)
 
     def _publish(self, ticks: int, pose: Pose, twist: Twist, sideways: float = 0.0) -> None:
-        wire, half = self._wire, pose.yaw / 2
-        wire.write("stamp", *messages.seconds(ticks))
-        wire.write("pose", pose.x, pose.y, 0.0, 0.0, 0.0, math.sin(half), math.cos(half))
-        wire.write("twist", twist.linear, sideways, 0.0, 0.0, 0.0, twist.angular)
-        wire.publish()
+        half = pose.yaw / 2
+        self._stamp(*messages.seconds(ticks))
+        self._pose(pose.x, pose.y, 0.0, 0.0, 0.0, math.sin(half), math.cos(half))
+        self._twist(twist.linear, sideways, 0.0, 0.0, 0.0, twist.angular)
+        self._wire.publish()
 
 
 class InertialOut:
     """What the IMU feels."""
 
-    def __init__(self, node: Node, topic: str, message: Any, qos: QoSProfile) -> None:  # noqa: ANN401 - messages have no types
-        self._wire = Wire(
-            node,
-            topic,
-            message,
-            qos,
-            stamp=STAMP,
-            rate=("angular_velocity.x", "12d"),
-            force=("linear_acceleration.x", "12d"),
-        )
+    def __init__(self, node: Node, topic: str, message: Message, qos: QoSProfile) -> None:
+        self._wire = wire = Wire(node, topic, message, qos)
+        self._stamp = wire.slot(*STAMP)
+        self._rate = wire.slot("angular_velocity.x", "3d")
+        self._force = wire.slot("linear_acceleration.x", "3d")
+        self._rate_covariance = wire.slot("angular_velocity_covariance.0", "9d")
+        self._force_covariance = wire.slot("linear_acceleration_covariance.0", "9d")
+        self._variances = (math.nan, math.nan)
 
     def publish(self, ticks: int, reading: InertialReading) -> None:
         """Tell turning rates and accelerations, each three with a diagonal covariance."""
-        wire, values = self._wire, reading.values
-        gyro, accelerometer = _diagonal(reading.gyro_variance), _diagonal(reading.accelerometer_variance)
-        wire.write("stamp", *messages.seconds(ticks))
-        wire.write("rate", *values[:3], *gyro)
-        wire.write("force", *values[3:], *accelerometer)
-        wire.publish()
+        self._stamp(*messages.seconds(ticks))
+        self._rate(*reading.values[:3])
+        self._force(*reading.values[3:])
+        if reading.variances != self._variances:
+            self._variances = gyro, accelerometer = reading.variances
+            self._rate_covariance(*_diagonal(gyro))
+            self._force_covariance(*_diagonal(accelerometer))
+        self._wire.publish()
 
 
 class ScanOut:
     """What the lidar sees."""
 
-    def __init__(self, node: Node, topic: str, message: Any, qos: QoSProfile) -> None:  # noqa: ANN401 - messages have no types
-        self._wire = Wire(
-            node,
-            topic,
-            message,
-            qos,
-            stamp=STAMP,
-            span=("scan_time", "3f"),
-            ranges=("ranges.0", "f"),
-        )
-        self._ranges = np.frombuffer(self._wire.bytes, "<f4", len(message.ranges), self._wire.at("ranges"))
+    def __init__(self, node: Node, topic: str, message: LaserScan, qos: QoSProfile) -> None:
+        self._wire = wire = Wire(node, topic, message, qos)
+        self._stamp = wire.slot(*STAMP)
+        self._span = wire.slot("scan_time", "3f")
+        self._ranges = wire.view("ranges.0", "f", len(message.ranges))
 
     def publish(self, ticks: int, ranges: NDArray[np.float64], rate: float, errors: LidarErrors) -> None:
         """Tell the ranges of a scan, taken so often in a second within such limits."""
-        self._wire.write("stamp", *messages.seconds(ticks))
-        self._wire.write("span", 1.0 / rate, errors.range_min, errors.range_max)
+        self._stamp(*messages.seconds(ticks))
+        self._span(1.0 / rate, errors.range_min, errors.range_max)
         self._ranges[:] = ranges
         self._wire.publish()
 
@@ -131,22 +118,16 @@ class JointsOut:
 
     def __init__(self, node: Node, topic: str, joints: list[str], qos: QoSProfile) -> None:
         message = JointState(name=joints, position=[0.0] * len(joints), velocity=[0.0] * len(joints))
-        form = f"{len(joints)}d"
-        self._wire = Wire(
-            node,
-            topic,
-            message,
-            qos,
-            stamp=STAMP,
-            position=("position.0", form),
-            velocity=("velocity.0", form),
-        )
+        self._wire = wire = Wire(node, topic, message, qos)
+        self._stamp = wire.slot(*STAMP)
+        self._position = wire.slot("position.0", f"{len(joints)}d")
+        self._velocity = wire.slot("velocity.0", f"{len(joints)}d")
 
     def publish(self, ticks: int, angles: tuple[float, ...], speeds: tuple[float, ...]) -> None:
         """Tell angles and speeds in the order of the joints, in rad and rad/s."""
-        self._wire.write("stamp", *messages.seconds(ticks))
-        self._wire.write("position", *angles)
-        self._wire.write("velocity", *speeds)
+        self._stamp(*messages.seconds(ticks))
+        self._position(*angles)
+        self._velocity(*speeds)
         self._wire.publish()
 
 

@@ -8,11 +8,16 @@ encoding but that numbers are little-endian.
 from __future__ import annotations
 
 import struct
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
 from rclpy.serialization import serialize_message
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from numpy.typing import NDArray
     from rclpy.node import Node
     from rclpy.qos import QoSProfile
 
@@ -23,30 +28,26 @@ MARKS = {size: bytes(range(0x21, 0x21 + size)) for size in (4, 8)}
 
 
 class Wire:
-    """One topic and the message that it carries, as bytes; slots are named by their first field and their format."""
+    """One topic and the message that it carries, as bytes."""
 
-    def __init__(
-        self, node: Node, topic: str, message: Message, qos: QoSProfile, **slots: tuple[str, str]
-    ) -> None:
+    def __init__(self, node: Node, topic: str, message: Message, qos: QoSProfile) -> None:
         self._publisher = node.create_publisher(type(message), topic, qos)
+        # What Publisher.publish does with bytes, without asking each time what it was given.
+        self._send = self._publisher.handle.publish_raw
         self.bytes = bytearray(serialize_message(message))
-        self._slots = {
-            name: (struct.Struct(f"<{form}"), offset(message, path, form[-1]))
-            for name, (path, form) in slots.items()
-        }
+        self._message = message
 
-    def write(self, slot: str, *numbers: float) -> None:
-        """Put numbers into a slot, as many as its format has."""
-        form, at = self._slots[slot]
-        form.pack_into(self.bytes, at, *numbers)
+    def slot(self, path: str, form: str) -> Callable[..., None]:
+        """What puts numbers into consecutive fields, the first of which is named, in a format of struct."""
+        return partial(struct.Struct(f"<{form}").pack_into, self.bytes, offset(self._message, path, form[-1]))
 
-    def at(self, slot: str) -> int:
-        """Where a slot begins, for those who write into `bytes` themselves."""
-        return self._slots[slot][1]
+    def view(self, path: str, form: str, count: int) -> NDArray[Any]:
+        """The numbers of an array, the first of which is named, as one that can be written to."""
+        return np.frombuffer(self.bytes, f"<{form}", count, offset(self._message, path, form))
 
     def publish(self) -> None:
         """Send the message as it is now."""
-        self._publisher.publish(bytes(self.bytes))
+        self._send(bytes(self.bytes))
 
 
 def offset(message: Message, path: str, kind: str) -> int:

@@ -21,6 +21,7 @@ from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import QoSProfile
+from rclpy.task import Future
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -110,13 +111,16 @@ def ears(domain: int) -> Iterator[Ears]:
         warnings.simplefilter("ignore", DeprecationWarning)
         node = rclpy.create_node("ears", context=context)
     executor.add_node(node)
-    thread = threading.Thread(target=executor.spin)
+    over: Future[None] = Future()
+    thread = threading.Thread(target=executor.spin_until_future_complete, args=(over,))
     thread.start()
     try:
         yield Ears(node)
     finally:
-        executor.shutdown()
+        # An executor that is shut down while it waits fails now and then: what it waits on is destroyed.
+        over.set_result(None)
         thread.join()
+        executor.shutdown()
         node.destroy_node()
         context.shutdown()
 
