@@ -2,6 +2,7 @@
 
 The client reads lines of JSON. `{"call": SERVICE, "type": "package/srv/Name", "fields": {...}}` is answered with the
 fields of the response, `{"graph": [NODE, ...]}` with all that is in the graph but for those nodes and the client.
+`{"begin": ...}` is a call that is answered at once, `{"end": SERVICE}` with its response.
 """
 
 import json
@@ -39,7 +40,7 @@ class Plain(Node):
         super().__init__("plain")
         self.chatter = self.create_publisher(String, "chatter", 1)
         self.create_service(Trigger, "~/thread", self.tell_thread)
-        self.declare_parameters("", [(name, default) for name, default in TYPES.items()])
+        self.declare_parameters("", list(TYPES.items()))
         self.declare_parameter("unset", "as it is")
 
     def tell_thread(self, _request: Any, response: Any) -> Any:
@@ -165,8 +166,13 @@ class Client:
         rclpy.init(args=[])
         self.node = rclpy.create_node("asking_client", start_parameter_services=False, enable_rosout=False)
         self.clients: dict[str, Any] = {}
+        self.futures: dict[str, Any] = {}
 
     def call(self, service: str, kind: str, fields: dict[str, Any]) -> dict[str, Any]:
+        self.begin(service, kind, fields)
+        return self.end(service)
+
+    def begin(self, service: str, kind: str, fields: dict[str, Any]) -> None:
         package, _, name = kind.split("/")
         of_type = getattr(import_module(f"{package}.srv"), name)
         client = self.clients.get(service)
@@ -177,20 +183,22 @@ class Client:
         request = of_type.Request()
         for key, value in fields.items():
             setattr(request, key, made(key, value))
-        future = client.call_async(request)
+        self.clients[service] = client
+        self.futures[service] = client.call_async(request)
+
+    def end(self, service: str) -> dict[str, Any]:
+        future = self.futures.pop(service)
         rclpy.spin_until_future_complete(self.node, future, timeout_sec=40)
-        if "/_container/" in service:
-            self.clients[service] = client
-        else:
-            self.node.destroy_client(client)
+        if "/_container/" not in service:
+            self.node.destroy_client(self.clients.pop(service))
         answer = future.result()
         found = {key: getattr(answer, key) for key in answer.get_fields_and_field_types()}
         return {key: value if isinstance(value, str | int) else plain(value) for key, value in found.items()}
 
     def greet(self, node: str) -> None:
         """Ask until the node answers: then it has discovered the readers that were made before."""
-        kind = import_module("type_description_interfaces.srv").GetTypeDescription
-        greeting = self.node.create_client(kind, f"{node}/get_type_description")
+        kind = import_module("rcl_interfaces.srv").GetParameters
+        greeting = self.node.create_client(kind, f"{node}/get_parameters")
         assert greeting.wait_for_service(30)
         greeted = False
         while not greeted:
@@ -254,6 +262,11 @@ def main() -> None:
         order = json.loads(line)
         if "call" in order:
             answer: Any = client.call(order["call"], order["type"], order["fields"])
+        elif "begin" in order:
+            client.begin(order["begin"], order["type"], order["fields"])
+            answer = order["begin"]
+        elif "end" in order:
+            answer = client.end(order["end"])
         else:
             rclpy.spin_once(client.node, timeout_sec=0)
             answer = client.graph(order["graph"])

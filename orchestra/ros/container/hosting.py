@@ -99,7 +99,7 @@ def _single(manager: Node, failed: Failed, _words: Sequence[str]) -> Hosting:
 
 
 def _multiple(manager: Node, failed: Failed, _words: Sequence[str]) -> Hosting:
-    return Together(manager, failed, threads_of(manager))
+    return Together(manager, failed, threads_of(manager) + 1)  # an order may wait for callbacks to end
 
 
 def _isolated(manager: Node, failed: Failed, words: Sequence[str]) -> Hosting:

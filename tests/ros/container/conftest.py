@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import json
 import os
 import signal
@@ -12,6 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from orchestra.supervise.graph.discovery import quick_discovery
 from orchestra.testing.domain import free_domain
 from tests.supervise.plans import PATIENCE, PROCESSES, wait_for
 
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+_NUMBERS = itertools.count(1)
 EXECUTABLES = ("component_container", "component_container_mt", "component_container_isolated")
 
 
@@ -31,6 +34,15 @@ class Asking:
     def call(self, service: str, kind: str, /, **fields: Any) -> dict[str, Any]:
         """Return the fields of a service's answer."""
         found: dict[str, Any] = self._asked({"call": service, "type": kind, "fields": fields})
+        return found
+
+    def begin(self, service: str, kind: str, /, **fields: Any) -> None:
+        """Call a service and go on at once."""
+        assert self._asked({"begin": service, "type": kind, "fields": fields}) == service
+
+    def ended(self, service: str) -> dict[str, Any]:
+        """Return the fields of the answer to a call that has begun."""
+        found: dict[str, Any] = self._asked({"end": service})
         return found
 
     def graph(self, *but: str) -> list[str]:
@@ -89,13 +101,14 @@ class Box:
         return self.asking.call(f"/{self.name}/_container/{service}", of_type, **fields)
 
 
-@pytest.fixture(scope="module")
-def domain() -> Iterator[dict[str, str]]:
+@pytest.fixture(scope="package")
+def domain(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
     """An environment with a domain in which nobody else is, and the components on the path."""
     pytest.importorskip("rclpy", reason="needs ROS")
     with free_domain({}) as number:
         yield {
             **os.environ,
+            **quick_discovery(os.environ, tmp_path_factory.mktemp("profiles")),
             "ROS_DOMAIN_ID": str(number),
             "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
             "PYTHONPATH": os.pathsep.join([str(PROCESSES), os.environ.get("PYTHONPATH", "")]),
@@ -103,7 +116,7 @@ def domain() -> Iterator[dict[str, str]]:
         }
 
 
-@pytest.fixture(scope="module")
+@pytest.fixture(scope="package")
 def asking(domain: dict[str, str]) -> Iterator[Asking]:
     command = [sys.executable, str(PROCESSES / "components.py")]
     with subprocess.Popen(
@@ -121,20 +134,21 @@ def asking(domain: dict[str, str]) -> Iterator[Asking]:
 def container(
     executable: str, domain: dict[str, str], asking: Asking, folder: Path, *words: str
 ) -> Iterator[Box]:
-    """Have a container, called as its executable is."""
+    """Have a container, which has a name that none had before."""
+    name = f"box{next(_NUMBERS)}"
     command = [sys.executable, "-m", "orchestra.ros.container", executable]
     path = folder / executable
     with (
         path.open("wb") as output,
         subprocess.Popen(
-            [*command, "--ros-args", "-r", f"__node:={executable}", *words],
+            [*command, "--ros-args", "-r", f"__node:={name}", *words],
             env=domain,
             stdout=output,
             stderr=output,
         ) as popen,
     ):
         try:
-            yield Box(popen, executable, asking, path)
+            yield Box(popen, name, asking, path)
             popen.send_signal(signal.SIGINT)  # one that is killed stays in the graphs of others for 20 s
             popen.wait(PATIENCE)
         finally:

@@ -133,13 +133,13 @@ def test_nothing_of_a_component_stays(box: Box) -> None:
     assert "good-bye" in box.written
 
 
-def test_whose_thread_calls_is_as_the_executable_says(box: Box) -> None:
+def test_whose_thread_calls_is_as_the_executable_says(box: Box, request: pytest.FixtureRequest) -> None:
     box.loaded("Plain", node_name="first")
     box.loaded("Plain", node_name="second")
     threads = [
         box.asking.call(f"/{name}/thread", "std_srvs/srv/Trigger")["message"] for name in ("first", "second")
     ]
-    match box.name:
+    match request.node.callspec.params["box"]:
         case "component_container":
             assert threads == ["MainThread"] * 2
         case "component_container_isolated":
