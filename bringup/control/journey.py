@@ -35,7 +35,7 @@ KEPT = 0.07
 # What the guard keeps instead of its own distances, each in m: before an obstacle, until it drives on, and beside.
 CLOSEST, HYSTERESIS, BESIDE = 0.06, 0.02, 0.04
 # Seconds for which there must be no way, with a grid that is fresh, before the goal is given up.
-PATIENCE = 5.0
+PATIENCE = 10.0
 # A robot that has not come this far (m) from where it was has made no progress.
 PROGRESS = 0.3
 # Shares of a tolerance: where the robot stops at first, and how far from the place a way may end.
