@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from orchestra.errors import UsageError
 from orchestra.nearest import nearest
 from orchestra.ros.interfaces.finding import known, make_importable
+from orchestra.ros.interfaces.reading.mistakes import DefinitionError
 from orchestra.ros.interfaces.tf_package import MESSAGE, PACKAGE, tf_message_type
 
 if TYPE_CHECKING:
@@ -33,9 +34,14 @@ def message_type(name: str) -> MessageClass:
         return tf_message_type()
     make_importable(package)
     module = _messages_of(package, name)
-    found = getattr(module, message, None)
+    try:
+        found = getattr(module, message, None)
+    except DefinitionError as error:
+        raise UnknownMessageTypeError(str(error)) from error
     if not _is_message(found):
-        known = [word for word in dir(module) if _is_message(getattr(module, word))]
+        known = getattr(module, "__all__", None) or [
+            word for word, value in vars(module).items() if _is_message(value)
+        ]
         raise UnknownMessageTypeError(
             f"{name}: package {package} has no message {message}{_hint(message, known)}"
         )

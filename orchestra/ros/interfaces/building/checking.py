@@ -106,7 +106,7 @@ def _circles(source: Source, read: Mapping[Path, Interface]) -> list[DefinitionE
     try:
         TopologicalSorter(edges).prepare()
     except CycleError as error:
-        circle = list(reversed(error.args[1]))
+        circle = _from_the_first(list(reversed(error.args[1][1:])))
         path, content = next(
             item for item in read.items() if item[0].parts[0] == "msg" and item[0].stem == circle[0]
         )
@@ -114,6 +114,12 @@ def _circles(source: Source, read: Mapping[Path, Interface]) -> list[DefinitionE
         told = f"a message cannot hold itself: {' holds '.join(circle)}"
         return [DefinitionError(told, content.file, content.types.get((path.stem, field)))]
     return []
+
+
+def _from_the_first(names: list[str]) -> list[str]:
+    """Return a circle as it begins at its first name in the order of letters, and ends."""
+    begin = names.index(min(names))
+    return [*names[begin:], *names[:begin], names[begin]]
 
 
 def messages_in(share: Path) -> frozenset[str] | None:

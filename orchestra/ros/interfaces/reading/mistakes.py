@@ -13,12 +13,15 @@ class Place(NamedTuple):
     end_column: int
 
 
-class DefinitionError(Exception):
-    """A definition is none, or needs what is not here. `file` is as the caller named it."""
+class DefinitionError(ImportError):
+    """A definition is none, or needs what is not here; so nothing of it can be imported.
+
+    `file` is as the caller named it.
+    """
 
     def __init__(self, message: str, file: str, place: Place | None = None) -> None:
         where = f"{file}:{place.line}:{place.column}" if place else file
-        super().__init__(f"{where}: error: {message}")
+        super().__init__(f"{where}: {message}")
         self.message = message
         self.file = file
         self.place = place

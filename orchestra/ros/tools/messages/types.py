@@ -9,6 +9,7 @@ from orchestra.errors import RunError
 from orchestra.nearest import nearest
 from orchestra.ros.interfaces.finding import make_importable
 from orchestra.ros.interfaces.names import UnknownMessageTypeError, message_type
+from orchestra.ros.interfaces.reading.mistakes import DefinitionError
 
 # What a class of this kind has, and no other.
 _PARTS = {"srv": "Request", "action": "Goal"}
@@ -56,9 +57,14 @@ def _of_kind(kind: str, name: str) -> Any:  # noqa: ANN401 - as above
         if error.name not in (package, f"{package}.{kind}"):
             raise
         raise RunError(f"{name}: package {package} is not installed or has no {word}s") from None
-    found = getattr(module, local, None)
+    try:
+        found = getattr(module, local, None)
+    except DefinitionError as error:
+        raise RunError(str(error)) from error
     if not hasattr(found, _PARTS[kind]):
-        known = [key for key in dir(module) if hasattr(getattr(module, key), _PARTS[kind])]
+        known = getattr(module, "__all__", None) or [
+            key for key, value in vars(module).items() if hasattr(value, _PARTS[kind])
+        ]
         near = nearest(local, known)
         raise RunError(
             f"{name}: package {package} has no {word} {local}" + (f"; did you mean {near}?" if near else "")

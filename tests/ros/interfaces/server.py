@@ -1,0 +1,56 @@
+"""A node with a topic, a service and an action of a package of definitions, until standard input ends."""
+
+from __future__ import annotations
+
+import sys
+import threading
+from typing import Any
+
+import rclpy
+from rclpy.action import ActionServer
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.qos import DurabilityPolicy, QoSProfile
+
+from orchestra.ros.interfaces.definitions import install
+
+
+def main(folder: str) -> None:
+    if folder:
+        install("own_interfaces", folder)
+    from own_interfaces.action import Go  # type: ignore[import-not-found]  # noqa: PLC0415 - there is none before
+    from own_interfaces.msg import Part, Whole  # type: ignore[import-not-found]  # noqa: PLC0415 - as above
+    from own_interfaces.srv import Ask  # type: ignore[import-not-found]  # noqa: PLC0415 - as above
+
+    rclpy.init()
+    node = rclpy.create_node("server")
+    latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    publisher = node.create_publisher(Whole, "whole", latched)
+
+    def answer(request: Any, response: Any) -> Any:
+        response.ok, response.back = request.number == 7, request.whole
+        return response
+
+    def go(goal: Any) -> Any:
+        for step in range(3):
+            goal.publish_feedback(Go.Feedback(remaining=float(step)))
+        goal.succeed()
+        return Go.Result(notes=[goal.request.target.name, "é"], distance=2.5)
+
+    node.create_service(Ask, "ask", answer)
+    server = ActionServer(node, Go, "go", go)
+    publisher.publish(Whole(parts=[Part(wide="a😀")] * 2, wides=["x", ""], few=[0.5], bytes=[b"\xff"]))
+    executor = SingleThreadedExecutor()
+    executor.add_node(node)
+    print("ready", flush=True)  # noqa: T201 - the test reads it
+    ended = threading.Event()
+    threading.Thread(target=lambda: (sys.stdin.read(), ended.set()), daemon=True).start()
+    while not ended.is_set():
+        executor.spin_once(timeout_sec=0.05)
+    server.destroy()
+    executor.shutdown()
+    node.destroy_node()
+    rclpy.shutdown()
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
