@@ -10,8 +10,12 @@ from bringup.filter.settings import NANOSECONDS, Sensor
 from bringup.filter.streams import Reading, Stream, Surroundings, streams_of
 
 
+# Messages that are no more out of order than this come from several publishers, not from another time.
+_DISORDER = NANOSECONDS
+
+
 class ClockJumpError(Exception):
-    """A sensor's stamps went back in time while `reset_on_time_jump` is set."""
+    """A sensor's stamps went back in time by more than a second while `reset_on_time_jump` is set."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -90,7 +94,7 @@ class Intake:
         if stamp <= self._ignored_up_to:
             what = f"is not later than the last set pose at {self._ignored_up_to / NANOSECONDS:.9f} s"
         elif stamp < stream.newest:
-            if self._timing.reset_on_time_jump:
+            if self._timing.reset_on_time_jump and stamp < stream.newest - _DISORDER:
                 raise ClockJumpError
             what = f"is earlier than the message before it ({stream.newest / NANOSECONDS:.9f} s)"
         else:

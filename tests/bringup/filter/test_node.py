@@ -6,6 +6,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator, Sequence
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
@@ -29,6 +30,7 @@ from bringup.filter.settings import NANOSECONDS
 from bringup.filter_node.ticks import next_tick
 from bringup.filter_node.visits import VisitedSubscriptions
 from orchestra.ros.interfaces import tf_message_type
+from orchestra.ros.interfaces.definitions import provide
 
 # lark, which the ROS wheels load, still imports a module that Python 3.11 has renamed.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
@@ -141,6 +143,7 @@ class Robot:
         node = bench.node
         self.name = name
         self.now = 100 * NANOSECONDS
+        self.place = (0.0, 0.0)
         self._clock = node.create_publisher(Clock, "/clock", 1)
         self._imu = node.create_publisher(Imu, f"/{name}/imu/data", 10)
         self._odometry = node.create_publisher(Odometry, f"/{name}/wheel/odometry", 10)
@@ -159,6 +162,7 @@ class Robot:
         imu.angular_velocity_covariance[[0, 4, 8]] = 1e-6
         odometry.header.frame_id = f"{self.name}/odom"
         odometry.child_frame_id = f"{self.name}/base"
+        odometry.pose.pose.position.x, odometry.pose.pose.position.y = self.place
         odometry.twist.twist.linear.x = 1.0
         odometry.twist.covariance = (np.eye(6) * 1e-4).reshape(-1)
         self._imu.publish(imu)
@@ -255,6 +259,34 @@ def test_reset_starts_from_zero(bench: Bench, robot: Robot, filtered: list[Any],
     bench.until(lambda: filtered and filtered[-1].pose.pose.position.y > 450.0, robot.step)
     bench.call(Empty, "/robot7/reset", Empty.Request(), robot.step)
     bench.until(lambda: abs(filtered[-1].pose.pose.position.y) < 50.0, robot.step)
+
+
+def test_set_pose_is_a_service_too(bench: Bench, robot: Robot, filtered: list[Any], pose: Make) -> None:
+    provide("robot_localization")
+    kind = import_module("robot_localization.srv").SetPose
+    request = kind.Request(pose=pose(robot.now, (0.0, -500.0, 0.0, 0.0, 0.0, 0.0), frame="robot7/odom"))
+    bench.call(kind, "/robot7/set_pose", request, robot.step)
+    bench.until(lambda: filtered and filtered[-1].pose.pose.position.y < -450.0, robot.step)
+
+
+def test_toggled_off_it_stands_still_and_toggled_on_it_goes_on(
+    bench: Bench, robot: Robot, filtered: list[Any]
+) -> None:
+    provide("robot_localization")
+    kind = import_module("robot_localization.srv").ToggleFilterProcessing
+
+    def toggle(*, on: bool) -> bool:
+        answer = bench.call(kind, "/robot7/toggle", kind.Request(on=on), robot.step)
+        return bool(answer.status)
+
+    assert toggle(on=False)
+    assert not toggle(on=False), "it is off already"
+    del filtered[:]
+    bench.until(lambda: len(filtered) > 5, robot.step)
+    assert len({message.pose.pose.position.x for message in filtered[1:]}) == 1
+    assert toggle(on=True)
+    here = filtered[-1].pose.pose.position.x
+    bench.until(lambda: abs(filtered[-1].pose.pose.position.x - here) > 0.05, robot.step)
 
 
 @pytest.mark.usefixtures("ekf")
@@ -361,6 +393,42 @@ def test_what_is_wrong_but_not_fatal_is_logged(start: Callable[..., Ekf], bench:
     bench.until(lambda: bench.sees("/faulty/ekf"))
     told = ("initial_state has 1 entries", "did you mean frequency?", "the debug file cannot be written")
     bench.until(lambda: all(part in ekf.said for part in told))
+
+
+def test_killed_and_started_again_it_is_right_about_its_velocities(
+    start: Callable[..., Ekf], bench: Bench, pose: Make
+) -> None:
+    """It stands at the origin, unsure of its place by as much as the wheels say; where `set_pose` puts it, it is sure.
+
+    The one that is killed was sure of its place, which tells what it has said from what comes after.
+    """
+    robot = Robot(bench, "restarted")
+    frames = _parameters(odom_frame="restarted/odom", base_link_frame="restarted/base", use_sim_time="true")
+    arguments = ("-r", "__ns:=/restarted", "--params-file", str(PARAMETERS), *frames)
+    filtered = bench.collect(Odometry, "/restarted/odometry/filtered")
+    first = start(*arguments)
+    bench.until(lambda: filtered, robot.step)
+    assert first.end(signal.SIGKILL) == -signal.SIGKILL
+    assert np.sqrt(filtered[-1].pose.covariance[0]) < 1.0
+    robot.place = (6.0, 8.0)
+    start(*arguments)
+
+    def unsure() -> list[Any]:
+        return [message for message in filtered if np.sqrt(message.pose.covariance[0]) > 5.0]
+
+    bench.until(unsure, robot.step)
+    judged = _stamp(unsure()[0]) + NANOSECONDS
+    bench.until(lambda: _stamp(filtered[-1]) > judged, robot.step)
+    late = next(message for message in unsure() if _stamp(message) > judged)
+    assert late.twist.twist.linear.x == pytest.approx(1.0, abs=0.02)
+    assert late.twist.twist.angular.z == pytest.approx(0.2, abs=0.02)
+    assert np.sqrt(late.pose.covariance[0]) == pytest.approx(10.0, rel=0.2)
+    topic = bench.node.create_publisher(type(pose(0, (0.0,) * 6)), "/restarted/set_pose", 10)
+    bench.until(topic.get_subscription_count, robot.step)
+    topic.publish(pose(robot.now, (300.0, 8.0, 0.0, 0.0, 0.0, 0.0), 0.01, frame="restarted/odom"))
+    bench.until(lambda: filtered[-1].pose.pose.position.x > 250.0, robot.step)
+    sure = next(message for message in filtered if message.pose.pose.position.x > 250.0)
+    assert np.sqrt(sure.pose.covariance[0]) < 1.0
 
 
 def test_a_visit_hands_over_all_that_came_between(bench: Bench) -> None:

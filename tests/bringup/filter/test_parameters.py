@@ -175,6 +175,58 @@ def test_what_upstream_goes_on_with_is_a_warning_and_no_error(
     assert complaints.errors == []
 
 
+def test_everything_that_upstreams_example_sets_is_read(complaints: Any) -> None:
+    """Its `params/ekf.yaml`; only the ROS 1 rest in it, which upstream does not read either, has no effect."""
+    sensors: dict[str, object] = {
+        "odom0": "example/odom",
+        "odom0_queue_size": 2,
+        "odom0_pose_rejection_threshold": 5.0,
+        "odom0_twist_rejection_threshold": 1.0,
+        "pose0": "example/pose",
+        "pose0_differential": True,
+        "pose0_rejection_threshold": 2.0,
+        "twist0": "example/twist",
+        "twist0_rejection_threshold": 2.0,
+        "imu0": "example/imu",
+        "imu0_relative": True,
+        "imu0_pose_rejection_threshold": 0.8,
+        "imu0_twist_rejection_threshold": 0.8,
+        "imu0_linear_acceleration_rejection_threshold": 0.8,
+        "imu0_remove_gravitational_acceleration": True,
+        **{f"{name}0_config": [index in {3, 4, 6, 9} for index in range(15)] for name in ("odom", "imu")},
+        **{f"{name}0_config": [index in {0, 1, 6} for index in range(15)] for name in ("pose", "twist")},
+    }
+    control = {
+        "use_control": True,
+        "stamped_control": False,
+        "control_timeout": 0.2,
+        "control_config": [True, False, False, False, False, True],
+        "acceleration_limits": [1.3, 0.0, 0.0, 0.0, 0.0, 3.4],
+        "deceleration_limits": [1.3, 0.0, 0.0, 0.0, 0.0, 4.5],
+        "acceleration_gains": [0.8, 0.0, 0.0, 0.0, 0.0, 0.9],
+        "deceleration_gains": [1.0, 0.0, 0.0, 0.0, 0.0, 1.0],
+    }
+    rest = {
+        "frequency": 30.0,
+        "sensor_timeout": 0.1,
+        "transform_time_offset": 0.0,
+        "transform_timeout": 0.0,
+        "print_diagnostics": True,
+        "debug": False,
+        "debug_out_file": "/path/to/debug/file.txt",
+        "permit_corrected_publication": False,
+        "publish_acceleration": False,
+        "initial_estimate_covariance": list(np.diag([1e-9] * 15).reshape(-1)),
+        "process_noise_covariance": list(np.diag(DEFAULT_PROCESS_NOISE).reshape(-1)),
+    }
+    settings, _ = read_settings({**sensors, **control, **rest, "odom0_nodelay": False}, complaints)
+    assert complaints.errors == []
+    assert [told for told in complaints.warnings if "nodelay" not in told] == []
+    assert [sensor.name for sensor in settings.sensors] == ["odom0", "pose0", "twist0", "imu0"]
+    assert settings.control is not None
+    assert settings.control.axes == (True, False, False, False, False, True)
+
+
 def test_control_parameters_are_nobodys_business_without_control(
     settings_of: Callable[..., Settings],
 ) -> None:

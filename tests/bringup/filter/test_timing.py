@@ -217,6 +217,15 @@ def test_a_sensor_whose_stamps_go_back_resets_on_request(driving: FilterOf, spee
     assert "time_jump" in localization.notices.take()
 
 
+def test_a_little_disorder_is_no_jump(driving: FilterOf, speed: Make) -> None:
+    localization = driving(use_sim_time=True, reset_on_time_jump=True)
+    _at(localization, 100.0, speed(100.0, 2.0))
+    localization.receive("twist0", speed(99.5, 1.0), 100 * SECOND)
+    localization.update(100 * SECOND)
+    assert _state(localization.estimate())[VX] == 2.0
+    assert set(localization.notices.take()) == {"twist0_timestamp"}
+
+
 def test_a_disabled_filter_waits_for_its_enabling(driving: FilterOf, speed: Make) -> None:
     localization = driving(disabled_at_startup=True)
     assert _at(localization, 1.0, speed(1.0, 2.0)) is None
