@@ -34,7 +34,7 @@ def check_plugin(package: str, plugin: Value, run: Resolution) -> Value | Poison
     fault = _fault(package, plugin.text, run)
     if fault is None:
         return plugin
-    slip = fault.meant is not None and is_slip(plugin.text, fault.meant)
+    slip = fault.meant is not None and is_slip(_top(plugin.text), _top(fault.meant))
     if fault.certain or run.inputs.launching or slip:
         return refuse_value(plugin, run.problems, Code.MISSING_EXECUTABLE, fault.told, meant=fault.meant)
     run.problems.warning(Code.MISSING_EXECUTABLE, f"{fault.told} on this machine", plugin.location)
@@ -44,10 +44,13 @@ def check_plugin(package: str, plugin: Value, run: Resolution) -> Value | Poison
 def _fault(package: str, plugin: str, run: Resolution) -> Unrunnable | None:
     known = known_components()
     if target_of(package, plugin, known) is None:
-        own = [point.name for point in known if package in point.owners]
-        meant = nearest(plugin, own)
-        slip = meant is not None and is_slip(plugin, meant)
-        return Unrunnable(f"package {package!r} has no component {plugin!r}", meant) if slip else None
+        # The part that all of a package have in common says nothing of what was meant.
+        own = {point.name.rpartition("::")[2]: point.name for point in known if package in point.owners}
+        name = plugin.rpartition("::")[2]
+        meant = nearest(name, own)
+        if meant is None or not is_slip(name, meant):
+            return None
+        return Unrunnable(f"package {package!r} has no component {plugin!r}", own[meant])
     if not is_named_by_module(plugin) or not run.scope.changes.keys().isdisjoint(PATHS):
         return None
     folder = str(Path.cwd())
@@ -67,6 +70,11 @@ def _fault_in(plugin: str, folder: str) -> Unrunnable | None:
     meant = nearest(first, names)
     whole = None if meant is None else f"{module}:{meant}{rest and '.'}{rest}"
     return Unrunnable(f"module {module!r} has no {first!r}", whole)
+
+
+def _top(plugin: str) -> str:
+    """Return the package or module at the top of a name."""
+    return plugin.partition(":")[0].partition(".")[0]
 
 
 def _names_in(source: Path | None) -> set[str] | None:
