@@ -22,7 +22,12 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 _NUMBERS = itertools.count(1)
-EXECUTABLES = ("component_container", "component_container_mt", "component_container_isolated")
+# What is different with a pool of threads is in `test_ends.py`.
+EXECUTABLES = (
+    "component_container",
+    pytest.param("component_container_mt", marks=pytest.mark.long),
+    "component_container_isolated",
+)
 
 
 class Asking:
