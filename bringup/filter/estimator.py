@@ -18,6 +18,8 @@ Observer: TypeAlias = Callable[[Measurement, Array, Array], None]
 
 _NO_COMMAND = (0.0,) * 6
 _PLACED_VARIANCE = 1e-6
+_LONGEST_STEP = 100_000 * NANOSECONDS
+_STEP_OF_ANOTHER_CLOCK = NANOSECONDS // 100
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -77,6 +79,7 @@ class Estimator:
             return True
         if measurement.stamp > self.stamp:
             self.predict_to(measurement.stamp)
+            self.stamp = measurement.stamp
         if len(indices) == 0:
             return True
         if self.observer is not None:
@@ -88,10 +91,15 @@ class Estimator:
         return True
 
     def predict_to(self, stamp: int) -> None:
-        """Move the estimate on to a time; a time that has passed already changes nothing."""
-        dt = (stamp - self.stamp) / NANOSECONDS
-        if dt <= 0.0:
+        """Move the estimate on to a time; a time that has passed already changes nothing.
+
+        A step of more than a day is another clock's time, not a robot's: the estimate moves on by 10 ms (upstream).
+        """
+        if stamp <= self.stamp:
             return
+        if stamp - self.stamp > _LONGEST_STEP:
+            stamp = self.stamp + _STEP_OF_ANOTHER_CLOCK
+        dt = (stamp - self.stamp) / NANOSECONDS
         noise = self._process_noise()
         state = self._controlled(stamp, dt)
         self.state, self.covariance = kalman.predict(state, self.covariance, noise, dt)
@@ -128,10 +136,13 @@ class Estimator:
         return scaled
 
     def _controlled(self, stamp: int, dt: float) -> Array:
-        if self._control is None or self.command is None:
+        """Give the state that the control acts upon; without a command in time the robot is taken to brake."""
+        if self._control is None:
             return self.state
-        late = stamp - self.commanded_at >= self._control.timeout
-        return controlled(self.state, self._control, _NO_COMMAND if late else self.command, dt)
+        command = self.command
+        if command is None or stamp - self.commanded_at >= self._control.timeout:
+            command = _NO_COMMAND
+        return controlled(self.state, self._control, command, dt)
 
 
 def _finite(measurement: Measurement) -> tuple[Indices, Array, Array]:

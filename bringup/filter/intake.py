@@ -9,7 +9,6 @@ from bringup.filter.readings import Heard
 from bringup.filter.settings import NANOSECONDS, Sensor
 from bringup.filter.streams import Reading, Stream, Surroundings, streams_of
 
-
 # Messages that are no more out of order than this come from several publishers, not from another time.
 _DISORDER = NANOSECONDS
 

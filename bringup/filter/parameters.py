@@ -93,7 +93,7 @@ def _check_frames(frames: Frames, report: Report) -> None:
     if frames.world not in {frames.map, frames.odom}:
         report.warning(
             f"invalid frames: world_frame {frames.world} must be the odom_frame {frames.odom} "
-            f"or the map_frame {frames.map}"
+            f"or the map_frame {frames.map}; no transform is broadcast"
         )
 
 
@@ -138,9 +138,7 @@ def _timing(reader: Reader) -> Timing:
     if history > 0.0 and not smooth:
         reader.report.warning("parameter history_length has no effect without smooth_lagged_data")
     jumps = reader.boolean("reset_on_time_jump")
-    if not reader.boolean("use_sim_time") and jumps:
-        reader.report.warning("reset_on_time_jump has no effect without use_sim_time")
-        jumps = False
+    simulated = reader.boolean("use_sim_time")
     return Timing(
         frequency=frequency,
         sensor_timeout=_nanoseconds(reader.number("sensor_timeout", 1.0 / frequency)),
@@ -148,7 +146,8 @@ def _timing(reader: Reader) -> Timing:
         history_length=_nanoseconds(history),
         predict_to_current_time=reader.boolean("predict_to_current_time"),
         smooth_lagged_data=smooth,
-        reset_on_time_jump=jumps,
+        # A clock that is not simulated is set now and then, which is no other time.
+        reset_on_time_jump=jumps and simulated,
         disabled_at_startup=reader.boolean("disabled_at_startup"),
     )
 

@@ -42,7 +42,11 @@ class Outputs:
         self._acceleration = self._transforms = None
         if settings.publication.acceleration:
             self._acceleration = _publisher(node, AccelWithCovarianceStamped, "accel/filtered", _QUEUE)
-        if settings.publication.transform:
+        # In any other frame there is no transform that would be the filter's to give (told with the parameters).
+        if settings.publication.transform and settings.frames.world in {
+            settings.frames.map,
+            settings.frames.odom,
+        }:
             self._transforms = _publisher(node, tf_message_type(), "/tf", _TRANSFORM_QUEUE)
 
     def publish(self, estimate: Estimate) -> bool:

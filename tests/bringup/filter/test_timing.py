@@ -217,6 +217,24 @@ def test_a_sensor_whose_stamps_go_back_resets_on_request(driving: FilterOf, spee
     assert "time_jump" in localization.notices.take()
 
 
+def test_a_clock_that_is_set_back_is_no_other_time(driving: FilterOf, speed: Make) -> None:
+    localization = driving(reset_on_time_jump=True)
+    _at(localization, 100.0, speed(100.0, 2.0))
+    localization.update(SECOND)
+    assert _stamp(localization.estimate()) == 100.0
+
+
+@pytest.mark.parametrize("waits", [True, False])
+def test_a_step_of_years_hardly_moves_the_estimate(driving: FilterOf, speed: Make, *, waits: bool) -> None:
+    """Recorded stamps on today's clock, or today's stamps after recorded ones."""
+    localization = driving()
+    _at(localization, 1.0, speed(1.0, 2.0))
+    today = 1_700_000_000.0
+    estimate = _at(localization, today) if waits else _at(localization, today, speed(today, 2.0))
+    assert _state(estimate)[X] == pytest.approx(0.02, abs=1e-3)
+    assert _stamp(estimate) == (1.01 if waits else today)
+
+
 def test_a_little_disorder_is_no_jump(driving: FilterOf, speed: Make) -> None:
     localization = driving(use_sim_time=True, reset_on_time_jump=True)
     _at(localization, 100.0, speed(100.0, 2.0))
@@ -249,6 +267,14 @@ def test_a_command_is_driven_towards_within_its_limits(driving: FilterOf, speed:
     assert state[ACCELERATION][0] == pytest.approx(0.5)
     assert state[VX] == pytest.approx(0.05)
     assert state[VYAW] == pytest.approx(0.2)
+
+
+def test_without_any_command_the_robot_is_taken_to_brake(driving: FilterOf, speed: Make) -> None:
+    localization = driving(
+        sensor_timeout=0.01, use_control=True, control_config=[True] + [False] * 5, control_timeout=0.5
+    )
+    _at(localization, 1.0, speed(1.0, 1.0))
+    assert _state(_at(localization, 1.1))[VX] == pytest.approx(0.9)
 
 
 def test_a_command_that_is_too_old_means_braking(driving: FilterOf, speed: Make) -> None:
