@@ -135,10 +135,7 @@ def said_by_imu(robot: str, stamp: int, reading: InertialReading) -> Heard:
     numbers = np.zeros(IMU_NUMBERS)
     numbers[3], numbers[4] = 1.0, -1.0
     numbers[RATES], numbers[FORCES] = reading.values[:3], reading.values[3:]
-    numbers[RATES_COVARIANCE], numbers[FORCES_COVARIANCE] = (
-        reading.gyro_variance,
-        reading.accelerometer_variance,
-    )
+    numbers[RATES_COVARIANCE], numbers[FORCES_COVARIANCE] = reading.variances
     return Heard(stamp, f"{robot}/imu_link", "", numbers)
 
 
