@@ -14,7 +14,6 @@ from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from nav_msgs.msg import Odometry as OdometryMessage
-from rclpy.callback_groups import MutuallyExclusiveCallbackGroup
 from rclpy.duration import Duration
 from rclpy.event_handler import PublisherEventCallbacks, SubscriptionEventCallbacks
 from rclpy.parameter import Parameter
@@ -34,6 +33,7 @@ from bringup.control_node.diagnostics import Diagnostics
 from bringup.control_node.goals import Goals
 from bringup.control_node.health import health, values
 from bringup.control_node.messages import fill_command, pose_of, seconds, twist_type
+from bringup.control_node.taking import TAKEN_WHEN_NEEDED
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -51,14 +51,6 @@ LATCHED = QoSProfile(
 # The two events that rclpy adds to each topic end make every wake-up dearer, and only repeat the peer's warning.
 UNWATCHED = PublisherEventCallbacks(use_default_callbacks=False)
 UNWATCHED_INPUT = SubscriptionEventCallbacks(use_default_callbacks=False)
-
-
-class TakenWhenNeeded(MutuallyExclusiveCallbackGroup):  # type: ignore[misc] # rclpy is untyped
-    """A group that the executor never waits for: its messages stay with the middleware until they are taken."""
-
-    def can_execute(self, entity: object) -> bool:  # noqa: ARG002 - the signature is rclpy's
-        """Never."""
-        return False
 
 
 class VelocityController:
@@ -95,7 +87,7 @@ class VelocityController:
             "odometry/filtered",
             self._locate,
             NEWEST,
-            callback_group=TakenWhenNeeded(),
+            callback_group=TAKEN_WHEN_NEEDED,
             event_callbacks=UNWATCHED_INPUT,
         )
 

@@ -8,13 +8,14 @@ from typing import TYPE_CHECKING, Protocol
 
 import rclpy
 from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
-from rclpy.executors import SingleThreadedExecutor
 from rclpy.logging import get_logger
 from rclpy.signals import SignalHandlerOptions
 
 from bringup.control_node.parameters import UnusableSettingsError
+from bringup.control_node.taking import TAKEN_WHEN_NEEDED
 from bringup.filter.settings import NANOSECONDS
 from bringup.filter_node.ticks import Ticks
+from bringup.filter_node.waiting import Waiting
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -61,38 +62,34 @@ def run(make: Callable[[], Any], name: str, frequency: float = FREQUENCY) -> int
 
 def _spin(node: rclpy.node.Node, driving: Driving, frequency: float) -> None:
     told_to_end = Event()
-    # Its callback does nothing: it makes the executor come back.
-    wake_up = node.create_guard_condition(lambda: None)
-
-    def wait_for_the_end() -> None:
-        signal.sigwait(ENDING)
-        told_to_end.set()
-        wake_up.trigger()
-
-    ending = Thread(target=wait_for_the_end, daemon=True)
-    ending.start()
     ticks = Ticks(node, frequency)
-    executor = SingleThreadedExecutor()
-    executor.add_node(node)
-    try:
+    with Waiting(node, TAKEN_WHEN_NEEDED) as waiting:
+        ending = Thread(target=_wait_for_the_end, args=(told_to_end, waiting.wake_up), daemon=True)
+        ending.start()
         while not told_to_end.is_set():
-            executor.spin_once(longest_wait(ticks.left(), frequency))
+            if waiting.wait(longest_wait(ticks.left(), frequency)):
+                waiting.serve()
             if ticks.take() is not None:
                 driving.tick()
+                # What goals and claims have left with the executor, which does not wake this loop.
+                waiting.serve()
         # A message may have ended the last wait before the trigger could: it must not meet a destroyed node.
         ending.join()
         driving.stand_still("the node ends")
         for _ in range(LAST_TURNS):
-            executor.spin_once(timeout_sec=0.0)
-    finally:
-        executor.remove_node(node)
-        executor.shutdown()
+            waiting.serve()
 
 
-def longest_wait(left: int | None, frequency: float = FREQUENCY) -> float | None:
-    """Seconds to wait for something to happen when the next tick is `left` ns away; None: until it happens.
+def _wait_for_the_end(told_to_end: Event, wake_up: Callable[[], None]) -> None:
+    signal.sigwait(ENDING)
+    told_to_end.set()
+    wake_up()
+
+
+def longest_wait(left: int | None, frequency: float = FREQUENCY) -> int:
+    """Nanoseconds to wait for something to happen when the next tick is `left` ns away; -1: until it happens.
 
     On simulated time a clock message wakes the node. On the machine's clock nothing may, if the sensors are
     silent, and the time left may be any number if that clock is set back: never more than a period.
     """
-    return None if left is None else min(left / NANOSECONDS, 1.0 / frequency)
+    return -1 if left is None else min(left, round(NANOSECONDS / frequency))

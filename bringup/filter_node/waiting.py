@@ -2,8 +2,8 @@
 
 rclpy's executor builds a new wait set in Python for each wait and waits twice for each callback, which costs more
 than everything that the filter does with 150 messages a second. Here one wait set is filled again each time and
-subscriptions are handed over directly; services, which are rare, still go through the executor. The wait set is the
-one that `rclpy.wait_for_message` uses.
+subscriptions are handed over directly; services, answers to calls and actions, which are rare, still go through the
+executor. The wait set is the one that `rclpy.wait_for_message` uses.
 """
 
 from collections.abc import Callable
@@ -17,6 +17,7 @@ from rclpy.node import Node
 
 WaitSet: TypeAlias = Any
 Subscription: TypeAlias = Any
+Waitable: TypeAlias = Any
 
 
 class Waiting:
@@ -28,7 +29,7 @@ class Waiting:
         # Its callback does nothing: triggering it ends a wait.
         self._wake_up = node.create_guard_condition(lambda: None)
         self._wait_set: WaitSet = None
-        self._sizes = (0, 0)
+        self._sizes: tuple[int, ...] = ()
         self._executor = SingleThreadedExecutor()
         self._executor.add_node(node)
 
@@ -48,7 +49,7 @@ class Waiting:
         return trigger
 
     def wait(self, timeout: int) -> bool:
-        """Wait up to `timeout` nanoseconds and hand over what has come; tells whether a service is called."""
+        """Wait up to `timeout` ns (-1: for ever) and hand over what has come; tells whether there is more to serve."""
         subscriptions = [
             subscription
             for subscription in self._node.subscriptions
@@ -60,26 +61,49 @@ class Waiting:
         for subscription in subscriptions:
             if subscription.handle.pointer in ready:
                 _hand_over(subscription)
-        return bool(wait_set.get_ready_entities("service"))
+        called = any(waitable.is_ready(wait_set) for waitable in self._node.waitables)
+        return bool(called or wait_set.get_ready_entities("service") or wait_set.get_ready_entities("client"))
 
     def serve(self) -> None:
         """Let the executor answer one call, or do whatever else rclpy has put on the node."""
         self._executor.spin_once(timeout_sec=0)
 
     def _filled(self, subscriptions: list[Subscription]) -> WaitSet:
-        services = list(self._node.services)
-        sizes = len(subscriptions), len(services)
-        if self._wait_set is None or sizes != self._sizes:
-            self._sizes = sizes
-            context = self._node.context.handle
-            self._wait_set = rclpy_implementation.WaitSet(sizes[0], 1, 0, 0, sizes[1], 0, context)
+        services, clients, waitables = (
+            list(self._node.services),
+            list(self._node.clients),
+            list(self._node.waitables),
+        )
+        # Subscriptions, guard conditions, timers, clients, services, events.
+        sizes = [len(subscriptions), 1, 0, len(clients), len(services), 0]
+        for waitable in waitables:
+            sizes = [one + more for one, more in zip(sizes, _sizes(waitable), strict=True)]
+        if self._wait_set is None or tuple(sizes) != self._sizes:
+            self._sizes = tuple(sizes)
+            self._wait_set = rclpy_implementation.WaitSet(*sizes, self._node.context.handle)
         self._wait_set.clear_entities()
         for subscription in subscriptions:
             self._wait_set.add_subscription(subscription.handle)
         for service in services:
             self._wait_set.add_service(service.handle)
+        for client in clients:
+            self._wait_set.add_client(client.handle)
+        for waitable in waitables:
+            waitable.add_to_wait_set(self._wait_set)
         self._wait_set.add_guard_condition(self._wake_up.handle)
         return self._wait_set
+
+
+def _sizes(waitable: Waitable) -> tuple[int, ...]:
+    needed = waitable.get_num_entities()
+    return (
+        needed.num_subscriptions,
+        needed.num_guard_conditions,
+        needed.num_timers,
+        needed.num_clients,
+        needed.num_services,
+        needed.num_events,
+    )
 
 
 def _hand_over(subscription: Subscription) -> None:

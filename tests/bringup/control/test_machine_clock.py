@@ -147,10 +147,16 @@ def test_a_parameter_that_it_does_not_have_is_warned_of() -> None:
 
 
 @pytest.mark.parametrize(
-    ("left", "seconds"),
-    [(None, None), (0, 0.0), (20_000_000, 0.02), (100_000_000, 0.1), (3_600_000_000_000, 0.1)],
+    ("left", "nanoseconds"),
+    [
+        (None, -1),
+        (0, 0),
+        (20_000_000, 20_000_000),
+        (100_000_000, 100_000_000),
+        (3_600_000_000_000, 100_000_000),
+    ],
 )
 def test_it_waits_for_a_tick_or_for_the_clock_and_never_long_for_a_clock_that_was_set_back(
-    left: int | None, seconds: float | None
+    left: int | None, nanoseconds: int
 ) -> None:
-    assert longest_wait(left) == seconds
+    assert longest_wait(left) == nanoseconds
