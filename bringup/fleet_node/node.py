@@ -49,7 +49,7 @@ class FleetMonitor(Node):  # type: ignore[misc] # rclpy is untyped
 
     def __init__(self, node_name: str = "fleet_monitor", **options: Any) -> None:  # noqa: ANN401 - rclpy's own
         super().__init__(node_name, **options)
-        self._parameters = Parameters(self, self._changed)
+        self._chosen = Parameters(self, self._changed)
         self._frames = Frames()
         self._robots: dict[str, Robot] = {}
         self._ears: dict[str, Ears] = {}
@@ -63,11 +63,11 @@ class FleetMonitor(Node):  # type: ignore[misc] # rclpy is untyped
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.create_timer(_LOOK, self.look, clock=steady)
         self.create_timer(_DECIDE, self.decide, clock=steady)
-        self._telling = self.create_timer(1.0 / self._parameters.settings.rate, self.tell, clock=steady)
+        self._telling = self.create_timer(1.0 / self._chosen.settings.rate, self.tell, clock=steady)
 
     def look(self) -> None:
         """See who is in the graph; who has come or gone is logged."""
-        settings = self._parameters.settings
+        settings = self._chosen.settings
         watched = self._claiming.held.keys() | self._claiming.asking
         self._present = present(self, settings, watched)
         turnout = looked(self._robots, self._present, monotonic_ns(), settings.gone_after)
@@ -88,12 +88,12 @@ class FleetMonitor(Node):  # type: ignore[misc] # rclpy is untyped
         self._hear_frames()
         # Who asks may have come, or started again, since the last look.
         self.look()
-        self._claiming.answer(self._present, self._parameters.settings.claim_distance, monotonic_ns())
+        self._claiming.answer(self._present, self._chosen.settings.claim_distance, monotonic_ns())
 
     def tell(self) -> None:
         """Publish how all robots are."""
         now, steady = int(self.get_clock().now().nanoseconds), monotonic_ns()
-        settings = self._parameters.settings
+        settings = self._chosen.settings
         self._hear_frames()
         self._robots = {name: self._ears[name].heard(robot, now) for name, robot in self._robots.items()}
         self._hear_diagnostics(steady)
@@ -131,7 +131,7 @@ class FleetMonitor(Node):  # type: ignore[misc] # rclpy is untyped
                     self._robots[about[0]] = replace(robot, told={**robot.told, about[1]: complaint})
 
     def _changed(self) -> None:
-        self._telling.timer_period_ns = round(1e9 / self._parameters.settings.rate)
+        self._telling.timer_period_ns = round(1e9 / self._chosen.settings.rate)
 
 
 def _level(value: bytes) -> Health:

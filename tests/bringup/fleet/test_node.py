@@ -17,10 +17,13 @@ import rclpy
 from diagnostic_msgs.msg import DiagnosticArray, DiagnosticStatus
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
+from rcl_interfaces.srv import DescribeParameters, SetParameters
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from std_msgs.msg import String, UInt32
 
+from bringup.fleet.settings import table
 from bringup.fleet_node.interfaces import ClaimGoal, FleetSummary, ReleaseGoal
 from orchestra.ros.interfaces import tf_message_type
 from orchestra.testing.domain import free_domain
@@ -197,3 +200,21 @@ def test_trouble_of_a_robot_is_told(world: _World) -> None:
 
     world.until(in_trouble, "what diagnostics say is told")
     assert world.summary["robot1"].health == 2
+
+
+def test_its_parameters_are_described_and_change_while_it_runs(world: _World) -> None:
+    rate = Parameter("rate", value=20.0).to_parameter_msg()
+    fixed = Parameter("odometry", value="odom").to_parameter_msg()
+    too_much = Parameter("rate", value=1000.0).to_parameter_msg()
+    (answer,) = world.call(
+        SetParameters,
+        "/fleet_monitor/set_parameters",
+        SetParameters.Request(parameters=[rate, fixed, too_much]),
+    )
+    assert [each.successful for each in answer.results] == [True, False, False]
+    (described,) = world.call(
+        DescribeParameters,
+        "/fleet_monitor/describe_parameters",
+        DescribeParameters.Request(names=[each.name for each in table()]),
+    )
+    assert [each.description for each in described.descriptors] == [each.description for each in table()]
