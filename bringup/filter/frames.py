@@ -11,6 +11,8 @@ class FrameResolver:
         self._buffer = buffer
         self._fixed: dict[tuple[str, str], Transform] = {}
         self._asked: set[tuple[str, str]] = set()
+        # What moves by its publisher's account and yet stands still is the same object each time.
+        self._latest: dict[tuple[str, str], Transform] = {}
 
     @property
     def buffer(self) -> TransformBuffer:
@@ -53,15 +55,19 @@ class FrameResolver:
                 found = self._buffer.lookup(target, source, time)
             except TransformUnavailableError:
                 continue
-            self._sort_in(target, source, found)
-            return found
+            return self._sorted_in(target, source, found)
         self._asked.add((target, source))
         return None
 
-    def _sort_in(self, target: str, source: str, found: Transform) -> None:
+    def _sorted_in(self, target: str, source: str, found: Transform) -> Transform:
         pair = (target, source)
+        latest = self._latest.get(pair)
+        if latest is not None and found.is_near(latest):
+            found = latest
+        self._latest[pair] = found
         if self._buffer.is_static(target, source):
             self._fixed[pair] = found
             self._asked.discard(pair)
         else:
             self._asked.add(pair)
+        return found

@@ -7,6 +7,8 @@ import numpy as np
 from bringup.filter.rotation import Quaternion, matrix_from_quaternion
 from bringup.filter.state import Array
 
+_ROUNDING = 1e-12
+
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Transform:
@@ -22,6 +24,13 @@ class Transform:
         """Give the transform from the target frame back into the source frame."""
         back = self.rotation.T
         return Transform(back, -(back @ self.translation))
+
+    def is_near(self, other: "Transform") -> bool:
+        """Whether two transforms differ by no more than rounding."""
+        return bool(
+            np.abs(self.rotation - other.rotation).max() < _ROUNDING
+            and np.abs(self.translation - other.translation).max() < _ROUNDING
+        )
 
 
 # One object, so that "nothing to do" is an identity check.

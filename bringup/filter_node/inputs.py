@@ -71,6 +71,11 @@ class Inputs:
         self._visited_at = now
         self._visited.visit()
 
+    def follow_missing_transforms(self) -> None:
+        """Subscribe /tf as soon as a transform is missing."""
+        if self._moving is None and self._localization.frames.needs_moving_transforms():
+            self.follow_moving_transforms()
+
     def follow_moving_transforms(self) -> None:
         """Subscribe /tf as long as static transforms are not enough: it is the busiest topic of most systems."""
         in_map = self._frames.world == self._frames.map

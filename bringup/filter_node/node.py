@@ -84,6 +84,7 @@ class FilterNode:
     def _update(self, now: int) -> None:
         began = perf_counter()
         self._inputs.visit(now)
+        self._inputs.follow_missing_transforms()
         self._localization.update(now)
         estimate = self._localization.estimate_to_publish()
         if estimate is not None and self._outputs.publish(estimate) and self._diagnostics is not None:

@@ -102,6 +102,19 @@ def test_outside_of_the_samples_the_newest_is_taken(buffer: TransformBuffer) -> 
     assert found.translation == pytest.approx([2.0, 0.0, 0.0])
 
 
+def test_a_mounting_that_is_sent_again_and_again_is_one_transform() -> None:
+    buffer = TransformBuffer()
+    for stamp in range(5):
+        buffer.add("base", "imu", _sample(stamp * SECOND, 0.3, 1.0))
+    frames = FrameResolver(buffer)
+    found = [frames.between("base", "imu", stamp * SECOND // 3) for stamp in range(12)]
+    assert len(set(map(id, found))) == 1
+    buffer.add("base", "imu", _sample(5 * SECOND, 0.4, 1.0))
+    moved = frames.between("base", "imu", 5 * SECOND)
+    assert moved is not None
+    assert moved.translation[0] == 0.4
+
+
 def test_moving_transforms_are_needed_until_static_ones_do() -> None:
     frames = FrameResolver(TransformBuffer())
     assert frames.between("base", "imu", SECOND) is None
