@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import json
 import math
+from pathlib import Path
 
 import pytest
 
 from bringup.fleet.discovery import Presence, inside, part_of_status, robots
 from bringup.fleet.frames import Frames, Place
 from bringup.fleet.robots import Complaint, Health, Limits, Motion, Robot, health, looked
+from bringup.fleet.settings import table
 
+_SCHEMA = Path(__file__).parents[3] / "bringup" / "params" / "fleet_monitor.schema.json"
 _SECOND = 1_000_000_000
 _ENDING, _CONTROLLER = "odometry/filtered", "velocity_controller"
 _LIMITS = Limits(stale_after=1.0)
@@ -96,3 +100,13 @@ def test_frames_that_stand_in_themselves_end_nothing() -> None:
     frames.put("a", Place("b", 1.0, 0.0))
     frames.put("b", Place("a", 1.0, 0.0))
     assert frames.rooted(Place("a", 1.0, 0.0)) == Place("a", 1.0, 0.0)
+
+
+def test_the_schema_says_of_each_parameter_what_the_node_says() -> None:
+    written = json.loads(_SCHEMA.read_text("utf-8"))["properties"]
+    assert set(written) == {each.name for each in table()}
+    for each in table():
+        said = written[each.name]
+        assert (said["description"], said["default"]) == (each.description, each.default)
+        assert (said.get("minimum"), said.get("maximum")) == (each.minimum, each.maximum)
+        assert said.get("readOnly", False) == each.fixed
