@@ -73,6 +73,11 @@ class Everything(LifecycleNode):
         """Hear nobody."""
 
 
+class Unsteady(Everything):
+    def on_activate(self, state: Any) -> Any:
+        raise ValueError(f"no way from {state.label}")
+
+
 class Broken(Everything):
     def __init__(self) -> None:
         super().__init__()
@@ -230,6 +235,8 @@ class Client:
 
 def made(key: str, value: Any) -> Any:
     """Return a field of a request: parameters are given as a mapping from name to type and value."""
+    if key == "transition":
+        return import_module("lifecycle_msgs.msg").Transition(**value)
     if key not in ("parameters", "extra_arguments"):
         return value
     from rclpy.parameter import Parameter  # noqa: PLC0415 - only the client needs it

@@ -13,6 +13,7 @@ from rclpy.node import Node
 
 from orchestra.dataclass import dataclass
 from orchestra.ros.container.given import making
+from orchestra.ros.container.lifecycle_errors import tell_errors
 from orchestra.ros.container.plugins import wanted
 from orchestra.ros.container.refusal import RefusalError
 
@@ -54,6 +55,7 @@ def made(make: Make, name: str, given: Given, say: Say) -> Component:
         else:
             reason = "" if isinstance(node, Node) else f"'{make.__qualname__}' gives no node: {_kind(node)}"
     if not reason:
+        tell_errors(node)
         return Component(node, made_here.nodes or [node])
     node = None
     take_away(made_here.nodes, say)

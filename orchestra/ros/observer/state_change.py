@@ -16,6 +16,7 @@ from lifecycle_msgs.srv import ChangeState, GetState
 
 from orchestra.ros.observer.order import OFTEN
 from orchestra.ros.observer.service import Service
+from orchestra.ros.observer.transitions import consequence
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -89,4 +90,5 @@ class StateChange:
         elif state == before:
             self._say("impossible", reason=f"the node refused it, or failed, and is still {state}")
         else:
-            self._say("impossible", reason=f"it failed; the node was {before} and is {state}")
+            told = f"it failed; the node was {before} and is {state}{consequence(before, state)}"
+            self._say("impossible", reason=told)

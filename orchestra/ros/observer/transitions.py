@@ -45,6 +45,19 @@ def label_of(start: str, goal: str) -> str:
     return "transition_failure" if start in (*_BEGINS, "errorprocessing") else ""
 
 
+def consequence(before: str, after: str) -> str:
+    """Return what is to be said behind the states of a transition that failed: how it came there, and what can follow.
+
+    Only an error leads to `finalized`, or from a later state back to `unconfigured`; where the node stays in its
+    state, nothing tells an error that it has handled from a plain no.
+    """
+    if after == "finalized":
+        return ": it could not handle an error (`on_error`), and only a new start brings it back"
+    if after == "unconfigured" and before != after:
+        return ": it has handled an error (`on_error`), and can be configured again"
+    return ""
+
+
 class Transitions:
     """`node` is the full name of the node."""
 

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions, GetState
 
 from orchestra.errors import RunError
+from orchestra.ros.observer.transitions import consequence
 from orchestra.ros.tools.graph.asking import Deadline, ask
 from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import absolute, nodes, services, unknown
@@ -76,9 +77,8 @@ def set_state(options: Namespace) -> int:
     deadline = Deadline(options.timeout)
     with joined(options) as graph:
         full = _node(graph, options.node)
-        available = [
-            one.transition for one in _transitions(graph, full, "get_available_transitions", deadline)
-        ]
+        there = _transitions(graph, full, "get_available_transitions", deadline)
+        available = [one.transition for one in there]
         wanted = [one for one in available if options.transition in (one.label, str(one.id))]
         if not wanted:
             raise RunError(
@@ -90,7 +90,8 @@ def set_state(options: Namespace) -> int:
         answer = ask(graph, ChangeState, f"{full}/change_state", request, deadline, repeat=False)
         if not answer.success:
             state = _state(graph, full, options)
-            raise RunError(f"Transitioning failed: {full} is {_labelled(state)} now")
+            because = consequence(there[0].start_state.label, state.label)
+            raise RunError(f"Transitioning failed: {full} is {_labelled(state)} now{because}")
     tell(options, "Transitioning successful\n", {"node": full, **_data(wanted[0]), "successful": True})
     return 0
 

@@ -133,6 +133,15 @@ def test_nothing_of_a_component_stays(box: Box) -> None:
     assert "good-bye" in box.written
 
 
+def test_what_a_transition_raises_is_in_the_log(box: Box) -> None:
+    box.loaded("Unsteady")
+    kind = "lifecycle_msgs/srv/ChangeState"
+    assert box.asking.call("/everything/change_state", kind, transition={"id": 1}) == {"success": True}
+    assert box.asking.call("/everything/change_state", kind, transition={"id": 3}) == {"success": False}
+    assert "on_activate has failed:\nTraceback" in box.written
+    assert "ValueError: no way from inactive" in box.written
+
+
 def test_whose_thread_calls_is_as_the_executable_says(box: Box, request: pytest.FixtureRequest) -> None:
     box.loaded("Plain", node_name="first")
     box.loaded("Plain", node_name="second")

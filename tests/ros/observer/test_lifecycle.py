@@ -214,7 +214,7 @@ def test_levels_are_deactivated_one_after_the_other(tmp_path: Path) -> None:
 def test_nodes_that_do_not_deactivate_are_ended_all_the_same(tmp_path: Path) -> None:
     reasons = {
         "fail": "the node refused it, or failed, and is still active",
-        "error": "it failed; the node was active and is ",
+        "error": "it failed; the node was active and is unconfigured: it has handled an error (`on_error`)",
         "die": "it ended before",
         "hang": "it ended before",
     }
