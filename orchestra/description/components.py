@@ -12,7 +12,9 @@ class ComposableNode(Conditional):
     """One component."""
 
     pkg: Text = field(description="Package of the component.")
-    plugin: Text = field(description="Its class, as the package registers it.")
+    plugin: Text = field(
+        description="Its class, as the package registers it; of a component in Python `module:Class` too."
+    )
     name: Text | None = field(default=None, description="Name of its node; that of the class where absent.")
     namespace: Text | None = field(
         default=None, description="Namespace; a relative one is put below the pushed one."
