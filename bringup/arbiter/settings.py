@@ -105,7 +105,7 @@ def _sources(group: str, values: Mapping[str, Any]) -> tuple[Source, ...]:
 
 
 def _source(group: str, name: str, values: Mapping[str, Any]) -> Source:
-    given = [values.get(f"{group}.{name}.{entry.name}") for entry in ENTRIES]
+    given: list[Any] = [values.get(f"{group}.{name}.{entry.name}") for entry in ENTRIES]
     for entry, value in zip(ENTRIES, given, strict=True):
         _check(f"{group}.{name}.{entry.name}", entry, value)
     return Source(name, *given)
@@ -114,7 +114,7 @@ def _source(group: str, name: str, values: Mapping[str, Any]) -> Source:
 def _check(name: str, entry: Entry, value: Any) -> None:  # noqa: ANN401 - a parameter's value
     if value is None or value == "":
         raise SettingsError(f"{name} is missing")
-    if type(value) is not entry.kind:
+    if entry.kind is not type(value):  # a bool is an int as well
         raise SettingsError(f"{name} is {value!r}, must be of type {entry.kind.__name__}")
     if entry.minimum is None or entry.maximum is None:
         return

@@ -35,7 +35,7 @@ class Parameters:
         _tell_unknown(node, given)
         self._values = {name: value for group in GROUPS for name, value in _declared(node, group, given)}
         try:
-            self.settings = settings(self._values)
+            self.settings: Settings = settings(self._values)
         except SettingsError as error:
             raise UnusableSettingsError(str(error)) from error
         node.add_on_set_parameters_callback(self._check)
@@ -50,7 +50,7 @@ class Parameters:
 
     def _take(self, parameters: Sequence[Parameter]) -> None:
         self._values = self._with(parameters)
-        self.settings: Settings = settings(self._values)
+        self.settings = settings(self._values)
 
     def _with(self, parameters: Sequence[Parameter]) -> dict[str, Any]:
         return self._values | {each.name: each.value for each in parameters if each.name in self._values}

@@ -97,6 +97,13 @@ class Base:
 
         return condition
 
+    def is_told(self, text: str, level: bytes) -> Callable[[], bool]:
+        def condition() -> bool:
+            status = self.health.get("robot1/command_arbiter: commands")
+            return status is not None and (status.message, status.level) == (text, level)
+
+        return condition
+
     def in_force(self, name: str) -> Callable[[], bool]:
         return lambda: bool(self.active) and self.active[-1] == name
 
@@ -164,9 +171,7 @@ def test_teleoperation_drives_over_autonomy_and_a_lock_stops_both() -> None:
         here.stop.publish(Bool(data=True))
         here.until(here.in_force("emergency_stop"), "the lock holds")
         here.until(here.drives(0.0), "the robot is stopped")
-        status = lambda: here.health.get("robot1/command_arbiter: commands")  # noqa: E731
-        here.until(lambda: status() is not None and status().level == b"\x01", "the lock is diagnosed")
-        assert status().message == "locked by emergency_stop"
+        here.until(here.is_told("locked by emergency_stop", b"\x01"), "the lock is diagnosed")
         here.stop.publish(Bool(data=False))
         here.until(here.drives(0.5), "teleoperation drives again")
         del here.speeds[here.teleoperation]
@@ -183,11 +188,7 @@ def test_teleoperation_drives_over_autonomy_and_a_lock_stops_both() -> None:
 def test_what_is_no_number_is_not_passed_on_and_time_outs_can_be_changed() -> None:
     with base("-p", "topics.teleoperation.timeout:=1") as here:
         here.speeds[here.autonomy] = math.nan
-        name = "robot1/command_arbiter: commands"
-        here.until(
-            lambda: name in here.health and here.health[name].level == b"\x02", "the fault is diagnosed"
-        )
-        assert here.health[name].message == "no numbers come from autonomy"
+        here.until(here.is_told("no numbers come from autonomy", b"\x02"), "the fault is diagnosed")
         assert here.drives(0.0)()
         here.speeds[here.autonomy] = 0.25
         here.until(here.drives(0.25), "autonomy drives")
