@@ -43,7 +43,7 @@ class Entry:
     """One parameter of a source: its type, its range, its meaning, and whether it can be changed while it runs."""
 
     name: str
-    kind: type
+    kind: type[Any]
     minimum: float | None
     maximum: float | None
     description: str
