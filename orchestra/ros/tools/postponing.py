@@ -3,14 +3,32 @@
 from __future__ import annotations
 
 import sys
-from importlib.util import LazyLoader, find_spec, module_from_spec
-from typing import Final
+from importlib.util import find_spec, module_from_spec
+from types import ModuleType
+from typing import Any, Final
 
 # What rclpy and the messages of its own services import, and use for arrays of a fixed length and parameter files.
 _SELDOM: Final = ("numpy", "yaml")
 # The package of which messages need one small function would import a compiler of templates beside it, and goes on
 # without where that is not to be had.
 _NEVER: Final = "rosidl_generator_py.generate_py_impl"
+_SPEC: Final = "__spec__"
+
+
+class _Postponed(ModuleType):
+    """A module that is executed when somebody asks for what is in it.
+
+    That of `importlib.util.LazyLoader` is executed by `import NAME` already, which looks at the specification.
+    """
+
+    def __getattribute__(self, name: str) -> Any:  # noqa: ANN401 - whatever the module has
+        get = super().__getattribute__
+        if name == _SPEC:
+            return get(name)
+        spec = get(_SPEC)
+        self.__class__ = ModuleType  # type: ignore[assignment]  # it is one from here on
+        spec.loader.exec_module(self)
+        return getattr(self, name)
 
 
 def postpone() -> None:
@@ -19,6 +37,5 @@ def postpone() -> None:
     for name in _SELDOM:
         spec = None if name in sys.modules else find_spec(name)
         if spec is not None and spec.loader is not None:
-            loader = spec.loader = LazyLoader(spec.loader)
             module = sys.modules[name] = module_from_spec(spec)
-            loader.exec_module(module)
+            module.__class__ = _Postponed

@@ -14,6 +14,8 @@ from orchestra.fields import field
 
 FILE: Final = "metadata.yaml"
 STORAGE: Final = "mcap"
+# Looked up here, so that what is put off is imported before there are threads.
+_DUMPER: Final = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 _KEY: Final = "rosbag2_bagfile_information"
 _VERSION: Final = 9
 _NANOSECONDS: Final = 1_000_000_000
@@ -138,7 +140,7 @@ def storage_files(text: str) -> list[str]:
 
 
 def _dumped(data: object) -> str:
-    return yaml.dump(data, Dumper=getattr(yaml, "CSafeDumper", yaml.SafeDumper), sort_keys=False)
+    return yaml.dump(data, Dumper=_DUMPER, sort_keys=False)
 
 
 def _profile(data: dict[str, Any]) -> dict[str, Any]:

@@ -27,8 +27,10 @@ _QUIET_UNCOUNTED: Final = 0.5
 # After this time, a participant that names no node is taken to have none.
 _NAMELESS: Final = 2.0
 _CALL_AGAIN: Final = 0.4  # and then after twice as long each time
-# A machine that has no time for this process has none for the others: so many looks a second are wanted as well.
+# A machine that has no time for this process has none for the others: so many looks a second are wanted as well, and so
+# many that all see the same.
 _LOOKS: Final = 16
+_ALIKE: Final = 12
 _LOOK_AGAIN: Final = 0.03  # a look at 20 nodes takes 2 ms
 _DISCOVERY: Final = "ros_discovery_info"  # each participant of ROS publishes there which nodes it has
 _UNKNOWN: Final = "_NODE_NAME_UNKNOWN_"
@@ -52,6 +54,7 @@ class Attendance:
         self._looked = -_LOOK_AGAIN
         self._nobody_missing = False
         self._since = time.monotonic()
+        self._alike = 0
         self._call: RollCall | None = None
         self._called = -_CALL_AGAIN
         self._patience = _CALL_AGAIN / 2
@@ -63,8 +66,9 @@ class Attendance:
         if seen != self._seen:
             self._news(now)
         if seen != self._seen or not self.complete():
-            self._seen, self._since = seen, now
-        return now - self._since >= self._quiet
+            self._seen, self._since, self._alike = seen, now, 0
+        self._alike += 1
+        return now - self._since >= self._quiet and self._alike > _ALIKE
 
     def silent(self, seconds: float) -> bool:
         """Tell whether nothing new has been seen for this time, though it was looked for."""
