@@ -14,6 +14,7 @@ pytest.importorskip("rclpy", reason="needs ROS")
 pytest.importorskip("mujoco", reason="needs the bringup")
 
 import rclpy
+from nav_msgs.msg import Odometry
 from rclpy.action import ActionClient
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile
@@ -157,3 +158,38 @@ def test_managed_controllers_are_brought_up_in_order(launch: Callable[..., Run])
     _wait_until_all_drive(run)
     assert run.stop() == 130
     assert run.logs("simulation").count("0 contacts") == 2
+
+
+@pytest.mark.long
+@pytest.mark.timeout(180)
+def test_a_real_robot_drives_with_its_own_drivers(launch: Callable[..., Run], tmp_path: Path) -> None:
+    """Drivers that name everything otherwise, and the machine's time."""
+    drivers = tmp_path / "drivers.yaml"
+    base = Path(__file__).with_name("base.py")
+    drivers.write_text(
+        "launch:\n  - arg: {name: namespace}\n"
+        f"  - node: {{script: {base}, name: base, namespace: $(var namespace)}}\n",
+        "utf-8",
+    )
+    names = ("scan:=lidar/scan", "imu:=base/imu", "odometry:=base/odom", "cmd_vel:=base/cmd_vel")
+    run = launch(
+        str(_BRINGUP / "real_robot.yaml"), f"drivers:={drivers}", "namespace:=r", "mode:=linear", *names
+    )
+    run.wait_ready(timeout=60)
+    context = rclpy.Context()
+    rclpy.init(context=context, domain_id=run.domain)
+    node = rclpy.create_node("passer_by", context=context)
+    executor = SingleThreadedExecutor(context=context)
+    executor.add_node(node)
+    far: list[float] = []
+    node.create_subscription(
+        Odometry, "/r/odometry/filtered", lambda message: far.append(message.pose.pose.position.x), 10
+    )
+    end = time.monotonic() + _PATIENCE
+    while not far or far[-1] < 1.0:
+        assert time.monotonic() < end, run.output
+        executor.spin_once(timeout_sec=0.1)
+    executor.shutdown()
+    node.destroy_node()
+    rclpy.shutdown(context=context)
+    assert run.stop() == 130
