@@ -102,6 +102,10 @@ class Code(StrEnum):
     UNUSED_IGNORE = "ORC100"
 
     BAD_DEFINITION = "ORC150"
+    MIDDLEWARE_SETTING = "ORC151"
+    MISSING_MIDDLEWARE = "ORC152"
+    VENDOR_FILE = "ORC153"
+    NO_SECURITY = "ORC154"
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,6 +13,7 @@ from orchestra.fields import replace
 from orchestra.load.files import load
 from orchestra.location import displayed, is_python, point
 from orchestra.plan.build import build
+from orchestra.plan.checks.settings import has_settings
 from orchestra.plan.relocated import relocated
 from orchestra.plan.warm import warmed
 from orchestra.resolve import launch_files
@@ -133,6 +134,11 @@ def opened(
 
                     resolved = with_definitions(resolved, inputs, problems, run_command)
                 _warn_of_remaining(path, isolation, problems)
+                if has_settings(resolved, inputs.environment):
+                    # Here, because few launch files say how nodes talk.
+                    from orchestra.plan.checks.middleware import check_middleware  # noqa: PLC0415
+
+                    check_middleware(resolved, inputs, problems)
                 plan = build(resolved, problems, digests=digests)
                 plan = warmed(plan, inputs.environment) if digests else plan
                 launch = Launch(plan, run, isolation.files)

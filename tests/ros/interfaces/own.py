@@ -9,7 +9,7 @@ if TYPE_CHECKING:
 
 DEFINITIONS = {
     "package.xml": "<package format='3'><name>own_interfaces</name><version>0.1.0</version></package>\n",
-    "msg/Part.msg": "string<=10 name 'ab'\nfloat64[3] point [1, 2, 3]\nwstring wide 'wöd'\nint64 BIG=-5\nstring S='hi'\n",
+    "msg/Part.msg": "string<=10 name 'ab'\nfloat64[3] point [1, 2, 3]\nwstring wide 'wod'\nint64 BIG=-5\nstring S='hi'\n",
     "msg/Whole.msg": (
         "std_msgs/Header header\nPart[] parts\nPart one\nPart[2] two\nbool[] flags [true, false]\nbyte one_byte 5\n"
         "byte[] bytes\nchar letter 65\nwstring[<=3] wides\nstring<=4[2] words ['a', 'b,c']\nfloat32[<=2] few\n"

@@ -208,6 +208,7 @@ def test_sources_are_found_as_colcon_finds_packages(folder: Path, tmp_path: Path
 
 
 @pytest.mark.long
+@pytest.mark.timeout(900)
 @pytest.mark.skipif(not _COMPILES, reason="there is no compiler")
 def test_what_is_compiled_and_what_is_not_talk_to_each_other(
     folder: Path, environment: dict[str, str], tmp_path: Path

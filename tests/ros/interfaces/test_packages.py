@@ -59,7 +59,7 @@ def test_every_way_to_import_and_to_copy(folder: Path) -> None:
         "True",
         "True True Go_Goal ['Ask', 'Ask_Event', 'Ask_Request', 'Ask_Response']",
         "True True True",
-        "-5 hi wöd ab [1. 2. 3.] 65",
+        "-5 hi wod ab [1. 2. 3.] 65",
         "False",
         "False True",
         "Action classes can not be instantiated",

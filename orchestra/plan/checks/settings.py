@@ -1,0 +1,42 @@
+"""Whether a plan has variables that decide with whom nodes talk and how they log. Cheap, as every plan is asked."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Mapping
+
+    from orchestra.resolve.model import Resolved
+
+PREFIXES: Final = ("ROS_", "RMW_", "RCUTILS_", "FASTDDS_", "FASTRTPS_", "CYCLONEDDS_")
+# Those of a caller that are looked at. What it sets for itself only, as ROS_DISTRO and ROS_VERSION, is not.
+CHECKED: Final = (
+    *("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER"),
+    *("RMW_IMPLEMENTATION", "RMW_FASTRTPS_PUBLICATION_MODE", "RCUTILS_CONSOLE_OUTPUT_FORMAT"),
+    *("RCUTILS_LOGGING_USE_STDOUT", "RCUTILS_LOGGING_BUFFERED_STREAM", "RCUTILS_COLORIZED_OUTPUT"),
+    *("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE", "CYCLONEDDS_URI"),
+    *(
+        "ROS_SECURITY_ENABLE",
+        "ROS_SECURITY_STRATEGY",
+        "ROS_SECURITY_KEYSTORE",
+        "ROS_SECURITY_ENCLAVE_OVERRIDE",
+    ),
+)
+
+
+def has_settings(resolved: Resolved, environment: Mapping[str, str]) -> bool:
+    """Tell whether any process that may be a node has such a variable, or says on its command line how it logs."""
+    if any(environment.get(name) for name in CHECKED):
+        return bool(resolved.processes)
+    return any(
+        name.startswith(PREFIXES) for process in resolved.processes for name in process.environment
+    ) or any("--log-level" in words or "--enclave" in words for words in _words(resolved))
+
+
+def _words(resolved: Resolved) -> list[tuple[str, ...]]:
+    return [
+        (*process.arguments, *(process.ros_arguments or ()))
+        for process in resolved.processes
+        if process.kind != "process"
+    ]
