@@ -1,6 +1,7 @@
 """The periodic update: which waiting measurements are fused when, and when time passes without any."""
 
 import heapq
+import math
 from collections.abc import Callable
 from itertools import count
 from typing import TypeAlias
@@ -28,7 +29,8 @@ class Fusion:
         self._history = History()
         self._updated: tuple[int, Array] | None = None
         self.angular_acceleration: Array = np.zeros(3)
-        self.angular_acceleration_covariance: Array = np.zeros((3, 3))
+        # The time in which the angular velocities were compared.
+        self.seconds_between = math.inf
         self._rejected: list[str] = []
         self.trace: Trace | None = None
 
@@ -42,7 +44,7 @@ class Fusion:
         self._history.clear()
         self._updated = None
         self.angular_acceleration = np.zeros(3)
-        self.angular_acceleration_covariance = np.zeros((3, 3))
+        self.seconds_between = math.inf
 
     def skip(self, now: int) -> None:
         """Drop what waits and let the estimate stand as of `now` (ns), as if no time had passed."""
@@ -118,7 +120,5 @@ class Fusion:
         if self._updated is not None and now > self._updated[0]:
             dt = (now - self._updated[0]) / NANOSECONDS
             self.angular_acceleration = (omega - self._updated[1]) / dt
-            self.angular_acceleration_covariance = (
-                self._estimator.covariance[ANGULAR, ANGULAR] * 2.0 / (dt * dt)
-            )
+            self.seconds_between = dt
         self._updated = now, omega

@@ -40,12 +40,9 @@ class Joiner:
             joint = self._joint = _worked_out(parts)
         if joint is None:
             return parts
-        values = np.zeros(len(joint.indices))
-        start = 0
-        for part in parts:
-            count = len(part.values) - part.pinned
-            values[start : start + count] = part.values[:count]
-            start += count
+        values = np.concatenate([part.values[: len(part.values) - part.pinned] for part in parts])
+        if joint.pinned:
+            values = np.concatenate((values, np.zeros(joint.pinned)))
         stamp = parts[0].stamp
         return (
             Measurement(stamp, joint.name, joint.indices, values, joint.noise, NEVER_REJECT, joint.pinned),

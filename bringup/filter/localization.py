@@ -15,7 +15,7 @@ from bringup.filter.rigid import transform
 from bringup.filter.rotation import rpy_from_matrix, six_dimensional
 from bringup.filter.settings import Settings
 from bringup.filter.start import doubt_about_origin
-from bringup.filter.state import POSE, Array
+from bringup.filter.state import ANGULAR, POSE, Array
 from bringup.filter.streams import Surroundings
 from bringup.filter.transforms import TransformBuffer
 from bringup.filter.variances import finite, judged
@@ -23,13 +23,22 @@ from bringup.filter.variances import finite, judged
 
 @dataclass(frozen=True, slots=True, eq=False)
 class Estimate:
-    """What the filter believes at `stamp` (ns): the 15 state variables, their covariance, and how omega changes."""
+    """What the filter believes at `stamp` (ns): the 15 state variables, their covariance, and how omega changes.
+
+    The change of omega is that between two updates, `compared_over` seconds apart.
+    """
 
     stamp: int
     state: Array
     covariance: Array
     angular_acceleration: Array
-    angular_acceleration_covariance: Array
+    compared_over: float
+
+    @property
+    def angular_acceleration_covariance(self) -> Array:
+        """That of the difference between two angular velocities, each with the present covariance."""
+        spread: Array = self.covariance[ANGULAR, ANGULAR] * (2.0 / self.compared_over**2)
+        return spread
 
 
 class UnusablePoseError(Exception):
@@ -120,7 +129,7 @@ class Localization:
             estimator.state,
             estimator.covariance,
             fusion.angular_acceleration,
-            fusion.angular_acceleration_covariance,
+            fusion.seconds_between,
         )
 
     def estimate_to_publish(self) -> Estimate | None:

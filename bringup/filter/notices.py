@@ -45,7 +45,8 @@ class Notices:
 
 def check_orientation(quaternion: Quaternion, name: str, notices: Notices) -> None:
     """Note a quaternion that is not of unit length; it is used normalised, a zero one as no rotation."""
-    square = sum(component * component for component in quaternion)
+    x, y, z, w = quaternion
+    square = x * x + y * y + z * z + w * w
     if square == 0.0:
         notices.warn(
             f"{name}_orientation", f"{name}: the orientation is all zeros; it is taken as no rotation"
