@@ -9,7 +9,8 @@ from contextlib import contextmanager
 from typing import Any
 
 import rclpy
-from geometry_msgs.msg import Twist
+from diagnostic_msgs.msg import DiagnosticArray
+from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
 from rcl_interfaces.srv import GetParameters, SetParameters, SetParametersAtomically
@@ -27,6 +28,8 @@ TICK = 0.02
 class Bench:
     """Everything around the controller: a clock, a lidar, odometry, and ears for what it sends."""
 
+    stamped = False
+
     def __init__(self, domain: int, process: "subprocess.Popen[str]") -> None:
         self.process = process
         self.context = rclpy.Context()
@@ -41,7 +44,10 @@ class Bench:
         self.odometry = self.node.create_publisher(Odometry, "/robot1/odometry/filtered", 1)
         self.commands: list[Twist] = []
         self.modes: list[str] = []
-        self.node.create_subscription(Twist, "/robot1/cmd_vel", self.commands.append, 100)
+        kind = TwistStamped if self.stamped else Twist
+        self.node.create_subscription(kind, "/robot1/cmd_vel", self._hear, 100)
+        self.health: dict[str, Any] = {}
+        self.node.create_subscription(DiagnosticArray, "/diagnostics", self._diagnosed, 10)
         self.node.create_subscription(
             String, f"{NODE}/mode", lambda message: self.modes.append(message.data), latched
         )
@@ -49,6 +55,21 @@ class Bench:
         self.ahead = float("inf")
         self.scanning = True
         self.locating = True
+
+    def _hear(self, message: Any) -> None:
+        self.commands.append(message.twist if self.stamped else message)
+
+    def _diagnosed(self, message: DiagnosticArray) -> None:
+        self.health |= {status.name: status for status in message.status}
+
+    def is_told(self, level: bytes, text: str) -> Callable[[], bool]:
+        """Whether the controller's last diagnosis says this."""
+
+        def condition() -> bool:
+            status = self.health.get("robot1/velocity_controller: driving")
+            return status is not None and (status.level, status.message) == (level, text)
+
+        return condition
 
     @property
     def time(self) -> float:

@@ -38,6 +38,8 @@ LONGEST_WAIT = 0.5
 class Room(Bench):
     """A bench whose robot obeys; time waits for the controller, so that a busy machine changes nothing."""
 
+    stamped = True
+
     def __init__(self, domain: int, process: Any) -> None:
         super().__init__(domain, process)
         self.x = self.y = self.yaw = 0.0
@@ -126,7 +128,7 @@ def _localhost() -> Iterator[None]:
 
 @pytest.fixture(scope="module")
 def shared() -> Iterator[Room]:
-    with on_bench(DOMAIN, "mode:=hold", kind=Room) as (bench, _):
+    with on_bench(DOMAIN, "mode:=hold", "use_stamped:=true", kind=Room) as (bench, _):
         assert isinstance(bench, Room)
         yield bench
 

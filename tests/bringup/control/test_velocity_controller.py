@@ -12,7 +12,7 @@ from rcl_interfaces.srv import DescribeParameters
 from std_srvs.srv import Trigger
 
 from bringup.control.settings import table
-from tests.bringup.control.bench import DEADLINE, NODE, Bench, controller, on_bench
+from tests.bringup.control.bench import DEADLINE, NODE, TICK, Bench, controller, on_bench
 
 # What rclpy imports to find its types still uses the old name of a standard module.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
@@ -141,6 +141,28 @@ def test_it_stops_when_a_sensor_falls_silent_and_drives_on_when_it_is_back(
     bench.until(bench.drives(0.0), "standing")
     setattr(bench, sensor, True)
     bench.until(bench.drives(0.5), "driving again")
+
+
+def test_its_health_is_told(bench: Bench) -> None:
+    bench.set(mode="linear")
+    bench.until(bench.is_told(b"\x00", "driving: mode linear"), "all is well")
+    bench.ahead = 0.45
+    bench.until(bench.is_told(b"\x01", "blocked by an obstacle"), "something is in the way")
+    bench.locating = False
+    bench.until(bench.is_told(b"\x02", "standing still: no odometry for 0.2 s"), "odometry is missed")
+    values = {each.key: each.value for each in bench.health["robot1/velocity_controller: driving"].values}
+    assert values["mode"] == "linear"
+    assert float(values["age of the odometry"]) > 0.2
+
+
+@pytest.mark.parametrize("seconds", [-8.0, 100.0])
+def test_it_drives_on_when_the_clock_has_jumped(bench: Bench, seconds: float) -> None:
+    bench.tick += 500
+    bench.set(mode="linear")
+    bench.until(bench.drives(0.5), "driving")
+    bench.tick += round(seconds / TICK)
+    del bench.commands[:]
+    bench.until(lambda: len(bench.commands) > 10 and bench.drives(0.5)(), "driving on")
 
 
 def test_commands_come_at_10_hz_of_simulated_time(bench: Bench) -> None:
