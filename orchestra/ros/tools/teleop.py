@@ -30,6 +30,7 @@ _TYPES: Final = (_TWIST, _STAMPED)
 # How soon a key is heard, in seconds.
 _HEAR: Final = 0.02
 _ACKNOWLEDGED: Final = 1.0
+_STOPS, _BETWEEN = 3, 0.1
 _NEVER: Final = float("inf")
 
 
@@ -92,10 +93,15 @@ class _Seat:
             self._graph.pause(min(_HEAR, max(due - time.monotonic(), 0.0)))
 
     def stop(self) -> None:
-        """Command a stop, and wait until it has arrived."""
+        """Command a stop, and wait until it has arrived.
+
+        Nobody tells of a subscription with best effort whether it has, so it is said again a few times.
+        """
         self._take(replace(self._driving, direction=STOPPED))
-        self._publish()
-        self._publisher.wait_for_all_acked(Duration(seconds=_ACKNOWLEDGED))
+        for _ in range(_STOPS):
+            self._publish()
+            self._publisher.wait_for_all_acked(Duration(seconds=_ACKNOWLEDGED))
+            time.sleep(_BETWEEN)
 
     def _take(self, driving: Driving) -> None:
         if driving != self._driving:

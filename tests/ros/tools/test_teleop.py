@@ -56,7 +56,9 @@ def test_keys_are_directions_and_speeds() -> None:
 @contextmanager
 def _heard(shell: Graph, topic: str, kind: str) -> Iterator[Callable[[Callable[[Any], bool]], Any]]:
     """Yield what waits for a command for which something holds."""
-    with shell.asking("topic", "echo", topic, kind, "--format", "json") as echo:
+    words = ("topic", "echo", topic, kind, "--format", "json", "--qos-reliability", "reliable")
+    with shell.asking(*words) as echo:
+        _until_there(shell, topic)
 
         def wait(holds: Callable[[Any], bool]) -> Any:
             assert echo.stdout is not None
@@ -66,6 +68,12 @@ def _heard(shell: Graph, topic: str, kind: str) -> Iterator[Callable[[Callable[[
             raise AssertionError("nothing more is heard")
 
         yield wait
+
+
+def _until_there(shell: Graph, topic: str) -> None:
+    """Wait until a command hears a topic; the time limit of the test ends it."""
+    while topic not in shell.told("topic", "list").splitlines():
+        pass
 
 
 def _control(terminal: int) -> Callable[[], None]:
@@ -152,8 +160,7 @@ def test_who_presses_no_key_any_more_stops_where_that_is_asked_for(shell: Graph)
 
 def test_a_topic_of_another_type_is_not_driven_on(shell: Graph) -> None:
     with shell.asking("topic", "echo", "/text", "std_msgs/msg/String"):
-        while "/text" not in shell.told("topic", "list"):
-            pass  # until the limit of the test: it takes as long as it takes to begin
+        _until_there(shell, "/text")
         done = shell.ask("teleop", "--topic", "/text")
     assert (done.status, done.errors) == (
         1,

@@ -73,7 +73,8 @@ def play(options: Namespace) -> int:
             sys.stdout.write(f"playing {bag.path}\n" + (_KEYS if keys else ""))
             sys.stdout.flush()
         player.play(bag, keys)
-    tell(options, f"{player.count} messages played\n", {"path": str(bag.path), "messages": player.count})
+    data = {"path": str(bag.path), "messages": player.count, "late": player.late}
+    tell(options, f"{player.count} messages played, none more than {player.late:.3f} s late\n", data)
     return 0
 
 
@@ -83,6 +84,7 @@ class _Player:
     def __init__(self, graph: Graph, options: Namespace) -> None:
         self.topics: dict[str, Any] = {}
         self.count = 0
+        self.late = 0.0
         self._graph = graph
         self._options = options
         self._keys: Keyboard | None = None
@@ -140,7 +142,7 @@ class _Player:
                 publisher.wait_for_all_acked(Duration(seconds=_ACKNOWLEDGED))
 
     def _wait(self, pace: Pace, recorded: int) -> None:
-        """Wait until a time of the recording has come, and heed the keys."""
+        """Wait until a time of the recording has come, and heed the keys; what comes late is late from then on."""
         while True:
             now = time.monotonic()
             for key in self._keys.pressed() if self._keys else ():
@@ -152,6 +154,7 @@ class _Player:
             left = _LOOK if due is None else min(due - now, _LOOK)
             self._graph.pause(max(left, 0.0))
             if left <= 0:
+                self.late = max(self.late, -left)
                 return
 
     def _heed(self, key: str, pace: Pace, now: float) -> None:
