@@ -29,6 +29,9 @@ class Hosting(Protocol):
     def remove(self, node: Node) -> bool:
         """Let a node go; return whether none of its callbacks is at work any more."""
 
+    def between(self, do: Callable[[], None]) -> None:
+        """Have something done while nothing of the nodes is waited for."""
+
     def spin(self) -> None:
         """Call callbacks until `stop`."""
 
@@ -50,6 +53,10 @@ class Together:
     def remove(self, node: Node) -> bool:
         """Let a node go; return whether none of its callbacks is at work any more."""
         return self._spinner.leave(node)
+
+    def between(self, do: Callable[[], None]) -> None:
+        """Have something done while nothing of the nodes is waited for."""
+        self._spinner.between(do)
 
     def spin(self) -> None:
         """Call callbacks until `stop`."""
@@ -92,6 +99,12 @@ class Apart(Together):
         if not thread.is_alive():
             spinner.shutdown()
         return free and not thread.is_alive()
+
+    def stop(self) -> None:
+        """Have `spin` return, and all other threads end."""
+        for spinner, _ in self._own.copy().values():
+            spinner.stop()
+        super().stop()
 
 
 def _single(manager: Node, failed: Failed, _words: Sequence[str]) -> Hosting:

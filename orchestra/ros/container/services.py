@@ -47,7 +47,7 @@ class Container:
     def close(self) -> None:
         """Let all components go, the latest first."""
         for number in reversed([*self._components]):
-            self._let_go(number)
+            self._let_go(self._components.pop(number))
 
     def _load(self, request: Any, response: Any) -> Any:  # noqa: ANN401 - of an untyped package
         try:
@@ -82,12 +82,17 @@ class Container:
 
     def _unload(self, request: Any, response: Any) -> Any:  # noqa: ANN401 - as above
         number = request.unique_id
-        if number not in self._components:
+        component = self._components.pop(number, None)
+        if component is None:
             response.success = False
             response.error_message = f"No node found with unique_id: {number}"
             self._log.warning(response.error_message)
             return response
-        self._let_go(number)
+        name = component.name
+        self._let_go(component)
+        del component
+        gc.collect()  # nodes refer to themselves
+        self._log.info(f"unloaded {name}")
         response.success = True
         return response
 
@@ -96,16 +101,10 @@ class Container:
         response.full_node_names = [component.name for component in self._components.values()]
         return response
 
-    def _let_go(self, number: int) -> None:
-        component = self._components[number]
-        name = component.name
+    def _let_go(self, component: Component) -> None:
         if not self._hosting.remove(component.node):
-            self._log.warning(f"{name} goes while a callback of it is at work")
-        del self._components[number]
-        take_away(component.nodes, self._log.error)
-        del component
-        gc.collect()  # nodes refer to themselves
-        self._log.info(f"unloaded {name}")
+            self._log.warning(f"{component.name} goes while a callback of it is at work")
+        self._hosting.between(lambda: take_away(component.nodes, self._log.error))
 
 
 def _set_level(component: Component, level: int) -> None:
