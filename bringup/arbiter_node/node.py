@@ -42,7 +42,7 @@ class CommandArbiter(Node):  # type: ignore[misc] # rclpy is untyped
         try:
             self._given = Parameters(self)
         except Exception:
-            self.destroy_node()
+            Node.destroy_node(self)  # not what a component does besides: it is not whole yet
             raise
         self._heard: dict[str, float] = {}
         self._locked: dict[str, tuple[float, bool]] = {}

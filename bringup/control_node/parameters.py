@@ -7,13 +7,13 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult
+from rclpy.node import Node
 
 from bringup.control.settings import Setting, Settings, objection, table
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from rclpy.node import Node
     from rclpy.parameter import Parameter
 
 
@@ -59,7 +59,7 @@ def declared(node: Node) -> Parameters:
     try:
         return Parameters(node)
     except Exception:
-        node.destroy_node()
+        Node.destroy_node(node)  # not what a component does besides: it is not whole yet
         raise
 
 
