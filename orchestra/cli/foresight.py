@@ -12,6 +12,7 @@ import sys
 
 _OF_NODES = (b"node", b"Node", b"include", b"IncludeLaunchDescription", b"rclpy")
 _FILES = (".py", ".yaml", ".yml", ".xml", ".launch")
+_LIKELY = (None, "", "rmw_fastrtps_cpp")
 _ENOUGH = 1 << 18  # bytes of a launch file
 _WARM = rb"\"warm\": true"  # in a plan, which is a text in what is kept
 
@@ -19,6 +20,8 @@ _WARM = rb"\"warm\": true"  # in a plan, which is a text in what is kept
 def nodes_ahead(words: list[str]) -> bool:
     """Tell whether nodes are likely: what a launch file says, for a package's that there is rclpy at all."""
     if "--no-warm" in words or not any(map(_has_rclpy, sys.path)):
+        return False
+    if os.environ.get("RMW_IMPLEMENTATION") not in _LIKELY:  # rclpy ends its process where that is not installed
         return False
     files = [word for word in words[1:] if word.endswith(_FILES) and os.path.isfile(word)]  # noqa: PTH113 - pathlib is slow
     if words[0] == "run":

@@ -1,0 +1,1 @@
+"""The nodes of the tutorials, each a program: `orchestra run lesson NAME`."""
