@@ -50,10 +50,10 @@ def list_components(options: Namespace) -> int:
 
 def load(options: Namespace) -> int:
     """Load a component into a container."""
-    deadline = Deadline(options.timeout)
+    deadline, request = Deadline(options.timeout), asked_for(options)
     with joined(options) as graph:
         name = container(graph, options.container)
-        answer = loaded_into(graph, name, options, deadline)
+        answer = loaded_into(graph, name, request, deadline)
     uid, node = answer.unique_id, answer.full_node_name
     text = (
         f"{uid}  {node}\n"
@@ -86,18 +86,19 @@ def unload(options: Namespace) -> int:
     return 0
 
 
-def loaded_into(graph: Graph, name: str, options: Namespace, deadline: Deadline) -> Any:  # noqa: ANN401 - untyped package
+def loaded_into(graph: Graph, name: str, request: Any, deadline: Deadline) -> Any:  # noqa: ANN401 - untyped package
     """Return what a container answers to a request to load a component. Raises `RunError` where it refuses."""
     kind = _type("LoadNode")
-    answer = _ordered(graph, kind, f"{name}{_LOAD}", asked_for(kind.Request(), options), deadline)
+    answer = _ordered(graph, kind, f"{name}{_LOAD}", request, deadline)
     if not answer.success:
         reason = answer.error_message or "the container gives no reason"
         raise RunError(f"Failed to load component: {reason}")
     return answer
 
 
-def asked_for(request: Any, options: Namespace) -> Any:  # noqa: ANN401 - of an untyped package
+def asked_for(options: Namespace) -> Any:  # noqa: ANN401 - of an untyped package
     """Return a request to load with all that the options say. Raises `UsageError`."""
+    request = _type("LoadNode").Request()
     request.package_name, request.plugin_name = options.package, options.plugin
     request.node_name, request.node_namespace = options.node_name, options.node_namespace
     request.log_level = _LEVELS.get(options.log_level, 0)

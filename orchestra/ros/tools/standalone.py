@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.resolve.packages import InstalledPackages
 from orchestra.resolve.packages.components import declared_components, target_of
-from orchestra.ros.tools.components import containers, loaded_into
+from orchestra.ros.tools.components import asked_for, containers, loaded_into
 from orchestra.ros.tools.graph.asking import Deadline
 from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.telling import tell
@@ -32,12 +32,12 @@ _PATIENCE: Final = 5.0
 def run(options: Namespace) -> int:
     """Load a component into a container that is started for it, and return that one's exit status at its end."""
     name = options.container_node_name or f"standalone_container_{secrets.token_hex(6)}"
-    deadline = Deadline(options.timeout)
+    deadline, request = Deadline(options.timeout), asked_for(options)
     with _started(options, name) as process:
         with joined(options) as graph:
             full = f"/{name.lstrip('/')}"
             graph.wait(lambda: full in containers(graph) or process.poll() is not None, deadline.left)
-            answer = loaded_into(graph, full, options, deadline)
+            answer = loaded_into(graph, full, request, deadline)
         node, uid = answer.full_node_name, answer.unique_id
         text = f"Loaded component {uid} into '{full}' container node as '{node}'\n"
         tell(options, text, {"container": full, "uid": uid, "name": node})

@@ -62,15 +62,16 @@ def test_a_component_comes_and_goes_by_commands(box: Box, domain: dict[str, str]
     names = ["reals", "text"]
     answer = asking.call("/deep/one/get_parameters", "rcl_interfaces/srv/GetParameters", names=names)
     assert answer["values"] == [[1.5, 2.0], "1"]
-    assert _ask(domain, "load", full, "", "components:Plain", "-q")[1] == "2  /plain\n"
+    assert box.loaded("Plain") == "/plain"
     assert _ask(domain, "list")[1] == f"{full}\n  1  /deep/one\n  2  /plain\n"
     status, told, errors = _ask(domain, "unload", full, "1", "7", "2")
     assert (status, told) == (1, f"Unloaded component 1 from '{full}' container node\n")
     assert errors == (
         f"error: Failed to unload component 7 from '{full}' container node: No node found with unique_id: 7\n"
     )
-    status, told, _ = _ask(domain, "list", full, "--format", "json")
-    assert (status, json.loads(told)) == (0, {full: [{"uid": 2, "name": "/plain"}]})
+    assert box.list() == {2: "/plain"}
+    status, told, _ = _ask(domain, "load", full, "", "components:Plain", "-n", "last", "--format", "json")
+    assert (status, json.loads(told)) == (0, {"container": full, "uid": 3, "name": "/last"})
 
 
 def test_what_a_container_refuses_is_an_error(box: Box, domain: dict[str, str]) -> None:

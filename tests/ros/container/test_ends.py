@@ -19,9 +19,21 @@ _TRIGGER = "std_srvs/srv/Trigger"
 
 
 def test_a_signal_ends_it_cleanly(domain: dict[str, str], asking: Asking, tmp_path: Path) -> None:
-    with container("component_container", domain, asking, tmp_path) as box:
+    """Its own arguments have reached only the component that wants them."""
+    words = ("-r", "chatter:=shared", "-p", "text:=everywhere")
+    with container("component_container", domain, asking, tmp_path, *words) as box:
         box.loaded("Everything")
         box.loaded("Stubborn")
+        box.loaded("Plain", node_name="own")
+        given = {"forward_global_arguments": ("BOOL", True)}
+        box.loaded("Plain", node_name="listening", extra_arguments=given)
+        kind = "rcl_interfaces/srv/GetParameters"
+        answers = [
+            asking.call(f"/{name}/get_parameters", kind, names=["text"]) for name in ("own", "listening")
+        ]
+        assert [answer["values"] for answer in answers] == [[""], ["everywhere"]]
+        seen = {"/chatter PUBLISHER own", "/shared PUBLISHER listening"}
+        wait_for(lambda: seen <= {*asking.graph()}, "both topics")
         box.popen.send_signal(signal.SIGINT)
         assert box.popen.wait(PATIENCE) == 0
         wait_for(lambda: not asking.graph(), "an empty graph")
@@ -84,24 +96,3 @@ def test_an_executable_that_is_none_is_refused(
         assert box.written.startswith(
             "there is no container 'component_contanier': there are component_container,"
         )
-
-
-def test_global_arguments_reach_only_the_components_that_want_them(
-    domain: dict[str, str], asking: Asking, tmp_path: Path
-) -> None:
-    words = ("-r", "chatter:=shared", "-p", "text:=everywhere")
-    with container("component_container", domain, asking, tmp_path, *words) as box:
-        box.loaded("Plain", node_name="own")
-        given = {"forward_global_arguments": ("BOOL", True)}
-        box.loaded("Plain", node_name="listening", extra_arguments=given)
-        answers = [
-            asking.call(f"/{name}/get_parameters", "rcl_interfaces/srv/GetParameters", names=["text"])[
-                "values"
-            ]
-            for name in ("own", "listening")
-        ]
-        assert answers == [[""], ["everywhere"]]
-        seen = {"/chatter PUBLISHER own", "/shared PUBLISHER listening"}
-        wait_for(lambda: seen <= {*asking.graph()}, "both topics")
-        box.popen.send_signal(signal.SIGINT)
-        assert box.popen.wait(PATIENCE) == 0
