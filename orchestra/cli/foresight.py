@@ -21,7 +21,8 @@ def nodes_ahead(words: list[str]) -> bool:
     """Tell whether nodes are likely: what a launch file says, for a package's that there is rclpy at all."""
     if "--no-warm" in words or not any(map(_has_rclpy, sys.path)):
         return False
-    if os.environ.get("RMW_IMPLEMENTATION") not in _LIKELY:  # rclpy ends its process where that is not installed
+    # rclpy ends its process where that is not installed.
+    if os.environ.get("RMW_IMPLEMENTATION") not in _LIKELY:
         return False
     files = [word for word in words[1:] if word.endswith(_FILES) and os.path.isfile(word)]  # noqa: PTH113 - pathlib is slow
     if words[0] == "run":

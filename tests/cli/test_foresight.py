@@ -48,7 +48,9 @@ def test_without_rclpy_there_are_none(place: Path) -> None:
     assert nodes_ahead(_WORDS) is False
 
 
-@pytest.mark.parametrize(("name", "likely"), [("", True), ("rmw_fastrtps_cpp", True), ("rmw_none_cpp", False)])
+@pytest.mark.parametrize(
+    ("name", "likely"), [("", True), ("rmw_fastrtps_cpp", True), ("rmw_none_cpp", False)]
+)
 def test_a_middleware_that_may_be_missing_is_waited_for(
     place: Path, monkeypatch: pytest.MonkeyPatch, name: str, likely: bool
 ) -> None:
