@@ -20,7 +20,7 @@ from orchestra.resolve import launch_files
 from orchestra.resolve.command_line import inputs_from
 from orchestra.resolve.commands import run_command
 from orchestra.resolve.packages import InstalledPackages
-from orchestra.resolve.packages.manifests import may_need_definitions
+from orchestra.resolve.packages.manifests import has_manifests
 from orchestra.resolve.python.calling import take_environment
 from orchestra.resolve.python.connection import LoadingConnection
 from orchestra.resolve.python.isolation import isolated
@@ -82,7 +82,8 @@ def plan_of_node(
     """Return the plan of one node whose arguments are passed on unchanged. Raises `DescriptionError`."""
     problems = Problems()
     packages = InstalledPackages(inputs.environment)
-    plan = build(single_node(package, executable, arguments, prefix, problems, packages), problems)
+    resolved = single_node(package, executable, arguments, prefix, problems, packages)
+    plan = build(_provided_for(resolved, inputs, problems), problems)
     if problems.errors:
         raise DescriptionError(problems.ordered)
     return warmed(plan, inputs.environment)
@@ -128,17 +129,8 @@ def opened(
             launch = None
             if description is not None:
                 resolved = _symbolic(carry_through(description, run), isolation.files)
-                if any(map(may_need_definitions, resolved.processes)):
-                    # Here, because few packages say what they need in a file that is looked for.
-                    from orchestra.resolve.interfaces.needed import with_definitions  # noqa: PLC0415
-
-                    resolved = with_definitions(resolved, inputs, problems, run_command)
+                resolved = _provided_for(resolved, inputs, problems)
                 _warn_of_remaining(path, isolation, problems)
-                if has_settings(resolved, inputs.environment):
-                    # Here, because few launch files say how nodes talk.
-                    from orchestra.plan.checks.middleware import check_middleware  # noqa: PLC0415
-
-                    check_middleware(resolved, inputs, problems)
                 plan = build(resolved, problems, digests=digests)
                 plan = warmed(plan, inputs.environment) if digests else plan
                 launch = Launch(plan, run, isolation.files)
@@ -152,6 +144,21 @@ def opened(
             if launch is not None:
                 launch.plan = replace(launch.plan, problems=problems.ordered)
         yield launch
+
+
+def _provided_for(resolved: Resolved, inputs: Inputs, problems: Problems) -> Resolved:
+    """Return what was resolved with what its nodes need around them: definitions; how they talk is looked at."""
+    if has_settings(resolved, inputs.environment):
+        # Here, because few launch files say how nodes talk.
+        from orchestra.plan.checks.middleware import check_middleware  # noqa: PLC0415
+
+        check_middleware(resolved, inputs, problems)
+    if not has_manifests(resolved):
+        return resolved
+    # Here, because few packages say what they need in a file that is looked for.
+    from orchestra.resolve.interfaces.needed import with_definitions  # noqa: PLC0415
+
+    return with_definitions(resolved, inputs, problems, run_command)
 
 
 def _is_bare(path: str) -> bool:

@@ -14,7 +14,7 @@ from orchestra.resolve.interfaces import prefixes, sources
 from orchestra.witness.place import folder as cache_folder
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator, Mapping
+    from collections.abc import Iterable, Mapping
 
     from orchestra.resolve.interfaces.sources import Source
 
@@ -24,7 +24,7 @@ _PROVIDED: Final = Path(__file__).parents[2] / "ros" / "interfaces" / "provided"
 def available(start: Path, environment: Mapping[str, str]) -> dict[str, Source]:
     """Return them by their names; those around a folder win, then those that were built."""
     around = sources.found_in(sources.places(start, environment))
-    return provided() | _brought([*map(Path, sys.path), start]) | dict(_built(environment)) | around
+    return provided() | _brought([*map(Path, sys.path), start]) | built(environment) | around
 
 
 def _brought(folders: Iterable[Path]) -> dict[str, Source]:
@@ -46,13 +46,15 @@ def provided() -> dict[str, Source]:
     return {source.name: source for source in found if source is not None}
 
 
-def _built(environment: Mapping[str, str]) -> Iterator[tuple[str, Source]]:
-    """Yield what was built: as its source is now, or as it was where that has gone."""
+def built(environment: Mapping[str, str]) -> dict[str, Source]:
+    """Return what was built: as its source is now, or as it was where that has gone."""
     where = cache_folder(environment)
+    found: dict[str, Source] = {}
     if where is None:
-        return
+        return found
     for name, prefix in prefixes.latest(Path(where, "interfaces")).items():
         told = str(prefixes.record(prefix)["source"])
-        found = sources.in_folder(Path(told), name) or sources.in_folder(prefix / "share" / name, name)
-        if found is not None:
-            yield name, found
+        source = sources.in_folder(Path(told), name) or sources.in_folder(prefix / "share" / name, name)
+        if source is not None:
+            found[name] = source
+    return found

@@ -19,13 +19,13 @@ from orchestra.errors import Code, Problem, Severity
 from orchestra.fields import replace
 from orchestra.location import Span
 from orchestra.resolve.interfaces import prefixes, sources
-from orchestra.resolve.interfaces.available import provided
+from orchestra.resolve.interfaces.available import built, provided
 from orchestra.resolve.model import EnvironmentChange
 from orchestra.resolve.packages import ament
-from orchestra.resolve.packages.manifests import manifest_of, may_need_definitions
+from orchestra.resolve.packages.manifests import manifest_beside, manifest_of, may_need_definitions
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Mapping
+    from collections.abc import Callable, Iterator, Mapping, Sequence
 
     from orchestra.errors import Problems
     from orchestra.resolve.context import CommandResult
@@ -45,23 +45,37 @@ def with_definitions(
     cache = prefixes.this_cache(inputs.environment)
     if cache is None:
         return resolved
-    packages = {folder for process in resolved.processes if (folder := _package_of(process))}
-    wanted = {folder: _wanted(folder, inputs.environment) for folder in packages}
+    packages = _packages(resolved)
     paths: dict[Path, tuple[Path, ...]] = {}
-    for folder, (needed, known) in wanted.items():
+    for folder in dict.fromkeys(folder for folders in packages.values() for folder in folders):
+        needed, known = _wanted(folder, inputs.environment)
         if needed and _are_built(needed, known, cache, inputs, problems, run_command):
             paths[folder] = tuple(prefixes.prefix_of(source, known, cache) for source in needed)
     if not paths:
         return resolved
-    return replace(
-        resolved,
-        processes=tuple(_finding(process, paths, inputs.environment) for process in resolved.processes),
-    )
+    found = {
+        index: [path for folder in folders for path in paths.get(folder, ())]
+        for index, folders in packages.items()
+    }
+    processes = [
+        _finding(process, found[index], inputs.environment) if found.get(index) else process
+        for index, process in enumerate(resolved.processes)
+    ]
+    return replace(resolved, processes=tuple(processes))
 
 
-def _package_of(process: ResolvedProcess) -> Path | None:
-    manifest = manifest_of(process) if may_need_definitions(process) else None
-    return Path(manifest).parent if manifest else None
+def _packages(resolved: Resolved) -> dict[int, list[Path]]:
+    """Return the folders of the Python packages that each process needs: its own, and those of its components."""
+    found: dict[int, list[Path]] = {}
+    for index, process in enumerate(resolved.processes):
+        manifest = manifest_of(process) if may_need_definitions(process) else None
+        if manifest is not None:
+            found.setdefault(index, []).append(Path(manifest).parent)
+    for component in resolved.components:
+        manifest = manifest_beside(component.share) if component.share else None
+        if manifest is not None and component.container_process is not None:
+            found.setdefault(component.container_process, []).append(Path(manifest).parent)
+    return found
 
 
 def _wanted(folder: Path, environment: Mapping[str, str]) -> tuple[tuple[Source, ...], dict[str, Source]]:
@@ -71,7 +85,7 @@ def _wanted(folder: Path, environment: Mapping[str, str]) -> tuple[tuple[Source,
         return (), {}
     known = provided()
     if any(name not in known for name in missing):
-        known |= sources.found_in(sources.places(folder, environment))
+        known |= built(environment) | sources.found_in(sources.places(folder, environment))
     found: dict[str, Source] = {}
     for name in missing:
         _add(name, known, found, environment)
@@ -145,13 +159,9 @@ def _told(text: str) -> Iterator[Problem]:
 
 
 def _finding(
-    process: ResolvedProcess, paths: Mapping[Path, tuple[Path, ...]], environment: Mapping[str, str]
+    process: ResolvedProcess, found: Sequence[Path], environment: Mapping[str, str]
 ) -> ResolvedProcess:
-    """Return a process whose environment has the prefixes that its package needs."""
-    package = _package_of(process)
-    found = paths.get(package) if package else None
-    if not found:
-        return process
+    """Return a process whose environment has the prefixes that its packages need."""
     python = [str(prefixes.python_folder(prefix)) for prefix in found]
     index = [*map(str, found), *map(str, ament.prefixes(environment))]
     changes = {

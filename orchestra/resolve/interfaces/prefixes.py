@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 _LAYOUT: Final = 1  # to be raised when what is put into a prefix changes
 _LATEST: Final = "latest"
 RECORD: Final = "built.json"
+SWITCH: Final = "ORCHESTRA_COMPILE_INTERFACES"
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,7 +50,9 @@ def this_cache(environment: Mapping[str, str], *, compiles: bool | None = None) 
 
 
 def has_compiler(environment: Mapping[str, str]) -> bool:
-    """Tell whether C and C++ can be compiled here, for this interpreter."""
+    """Tell whether C and C++ can be compiled here, for this interpreter, and nobody has forbidden it."""
+    if environment.get(SWITCH) == "0":
+        return False
     programs = ((environment.get("CC") or "gcc", "cc"), (environment.get("CXX") or "g++", "c++"))
     return (
         all(any(map(shutil.which, names)) for names in programs)

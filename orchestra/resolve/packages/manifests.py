@@ -6,27 +6,38 @@ import os
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
-    from orchestra.resolve.model import ResolvedProcess
+    from orchestra.resolve.model import Resolved, ResolvedProcess
 
 _NAME = "package.xml"
 
 
+def has_manifests(resolved: Resolved) -> bool:
+    """Tell whether a node or component is of a package that says in a file what it needs, and not of ament's."""
+    return any(map(may_need_definitions, resolved.processes)) or any(
+        component.share is not None and manifest_beside(component.share) is not None
+        for component in resolved.components
+    )
+
+
 def may_need_definitions(process: ResolvedProcess) -> bool:
-    """Tell whether a process is a node of a package that says in a file what it needs; with ament all is installed."""
+    """Tell whether a process is a node of such a package."""
     return process.kind != "process" and manifest_of(process) is not None
 
 
 def manifest_of(process: ResolvedProcess) -> str | None:
     """Return the `package.xml` of the Python package or script of a process, None where it has none."""
     if process.share is not None:
-        above = os.path.dirname(process.share)  # noqa: PTH120 - pathlib is slow
-        if os.path.basename(above) == "share":  # noqa: PTH119 - as above
-            return None
-        return _first([process.share, above])
+        return manifest_beside(process.share)
     if process.kind == "process" or process.package is not None:
         return None
     script = next((word for word in process.program if word.endswith(".py")), None)
-    return _first(_above(os.path.abspath(script))) if script else None  # noqa: PTH100 - as above
+    return _first(_above(os.path.abspath(script))) if script else None  # noqa: PTH100 - pathlib is slow
+
+
+def manifest_beside(share: str) -> str | None:
+    """Return the `package.xml` of the package with this share folder, None where ament has installed it."""
+    above = os.path.dirname(share)  # noqa: PTH120 - pathlib is slow
+    return None if os.path.basename(above) == "share" else _first([share, above])  # noqa: PTH119 - as above
 
 
 def _above(path: str) -> list[str]:

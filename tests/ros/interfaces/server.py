@@ -43,7 +43,12 @@ def main(folder: str) -> None:
     executor.add_node(node)
     print("ready", flush=True)  # noqa: T201 - the test reads it
     ended = threading.Event()
-    threading.Thread(target=lambda: (sys.stdin.read(), ended.set()), daemon=True).start()
+
+    def wait() -> None:
+        sys.stdin.read()
+        ended.set()
+
+    threading.Thread(target=wait, daemon=True).start()
     while not ended.is_set():
         executor.spin_once(timeout_sec=0.05)
     server.destroy()

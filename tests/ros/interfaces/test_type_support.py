@@ -13,7 +13,7 @@ import rclpy
 from geometry_msgs.msg import TransformStamped
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.serialization import deserialize_message, serialize_message
-from type_description_interfaces.srv import GetTypeDescription  # type: ignore[import-untyped]  # as every ROS package
+from type_description_interfaces.srv import GetTypeDescription
 
 from orchestra.ros.interfaces import conversion, layouts, typesupport
 from orchestra.ros.interfaces.tf2 import TFMessage
