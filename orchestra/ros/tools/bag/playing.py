@@ -41,7 +41,7 @@ _CLOCK: Final = "/clock"
 _NANOSECONDS: Final = 1_000_000_000
 # Keys are looked at, and signals heard, so often while nothing is due; in seconds.
 _LOOK: Final = 0.05
-_QUIET, _MEET = 0.3, 5.0
+_QUIET, _MEET = 0.3, 10.0
 _ACKNOWLEDGED: Final = 1.0
 _QUICKER: Final = 1.1
 _SWITCH: Final = 0.0005  # so long, in seconds, reading ahead may hold up what is due

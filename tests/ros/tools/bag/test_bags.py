@@ -8,6 +8,7 @@ import resource
 import signal
 import subprocess
 import sys
+import time
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -26,6 +27,7 @@ from orchestra.ros.tools.bag.reading import Bag
 
 _COUNTING = str(Path(__file__).parents[3] / "processes" / "counting.py")
 _COUNT = 300
+_SOME_CHUNKS = 2_000_000
 _HALVES = 0.4  # seconds between both halves of what is published, at least
 
 
@@ -75,8 +77,7 @@ def bag(shell: Graph, tmp_path_factory: pytest.TempPathFactory) -> Path:
         assert _line(publisher) == "done\n"
         recorder.send_signal(signal.SIGINT)
         told = json.loads(_line(recorder))
-        assert recorder.wait() == 0
-    assert told["lost"] == 0
+        assert recorder.wait() == (1 if told["lost"] else 0)  # of /lossy, where the machine has no time
     assert told["topics"]["/fast"] == told["topics"]["/late"] == _COUNT
     assert "/_hidden" not in told["topics"]
     return folder
@@ -166,7 +167,10 @@ def test_a_recorder_that_was_killed_leaves_what_it_has_written(shell: Graph, tmp
         shell.asking("bag", "record", "/fast", "/late", "/lossy", "/latched", "-o", str(folder)) as recorder,
         _counting(shell, "publish", "300", "20000") as publisher,
     ):
-        assert _line(publisher) == "done\n"
+        file = folder / "killed_0.mcap"
+        while not file.exists() or file.stat().st_size < _SOME_CHUNKS:
+            assert publisher.poll() is recorder.poll() is None
+            time.sleep(0.01)
         recorder.kill()
         recorder.wait()
     assert not (folder / "metadata.yaml").exists()
