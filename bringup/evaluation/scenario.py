@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
+from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
 import yaml
 
 from bringup.control.settings import Settings as ControlSettings
-from bringup.world.settings import TABLE, settings
+from bringup.control.settings import objection
+from bringup.world.settings import TABLE, checked, settings
 from bringup.world.settings import Settings as WorldSettings
+from bringup.world.table import BY_NAME
 
 PARAMETERS = Path(__file__).parent.parent / "params"
 
@@ -43,14 +46,37 @@ def scenario(choice: Choice, **changes: object) -> Scenario:
     Raises OSError or KeyError for a folder without the three files, ValueError for what cannot be used.
     """
     folder = choice.folder
-    control: dict[str, Any] = {**given(folder, "velocity_controller"), "mode": "wander", **choice.control}
     defaults = {setting.name: setting.default for setting in TABLE}
+    simulation = {**given(folder, "simulation"), **choice.simulation, **changes}
+    _require_known("simulation", simulation, defaults)
+    for name, value in simulation.items():
+        if isinstance(defaults[name], int | float) and not isinstance(defaults[name], bool):
+            simulation[name] = checked(BY_NAME[name], value)
     return Scenario(
-        world=settings({**defaults, **given(folder, "simulation"), **choice.simulation, **changes}),
+        world=settings({**defaults, **simulation}),
         filter={**given(folder, "ekf"), **choice.filter},
-        control=ControlSettings(**control),
+        control=_control({**given(folder, "velocity_controller"), "mode": "wander", **choice.control}),
         seconds=choice.seconds,
     )
+
+
+def _control(values: Mapping[str, Any]) -> ControlSettings:
+    _require_known(
+        "velocity_controller", values, {each.name: each.default for each in fields(ControlSettings)}
+    )
+    made = ControlSettings(**values)
+    reason = objection(made)
+    if reason is not None:
+        raise ValueError(f"velocity_controller: {reason}")
+    return made
+
+
+def _require_known(node: str, values: Mapping[str, object], known: Mapping[str, object]) -> None:
+    for name in values:
+        if name not in known:
+            near = get_close_matches(name, known, n=1)
+            meant = f"; did you mean {near[0]}?" if near else ""
+            raise ValueError(f"{node}: parameter {name} is unknown{meant}")
 
 
 def given(folder: Path, node: str) -> dict[str, Any]:

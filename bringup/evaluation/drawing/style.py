@@ -45,6 +45,8 @@ def save(drawn: Figure, folder: Path, name: str) -> list[Path]:
     """Write a figure as NAME.svg and NAME.png. Raises OSError."""
     vector, raster = folder / f"{name}.svg", folder / f"{name}.png"
     FigureCanvasSVG(drawn).print_svg(vector, metadata={"Date": None, "Creator": None})
+    # Everything has its place by now; finding it takes longer than drawing.
+    drawn.set_layout_engine("none")
     FigureCanvasAgg(drawn).print_png(raster, metadata={"Software": None})
     return [vector, raster]
 

@@ -22,8 +22,8 @@ def test_a_filter_that_is_too_sure_of_itself_does_not(capsys: pytest.CaptureFixt
         "process_noise_covariance:=[" + ", ".join(["1.0e-12"] * 15) + "]",
         "initial_estimate_covariance:=[" + ", ".join(["1.0e-12"] * 15) + "]",
     ]
-    assert main(["consistency", "--seeds", "1", "--seconds", "3", "--jobs", "1", "--filter", *sure]) == 1
-    assert "not met: at 3 s 0% of the errors lie inside the 95 % ellipse" in capsys.readouterr().out
+    assert main(["consistency", "--seeds", "1", "--seconds", "2", "--jobs", "1", "--filter", *sure]) == 1
+    assert "not met: at 2 s 0% of the errors lie inside the 95 % ellipse" in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(
@@ -43,26 +43,26 @@ def test_what_cannot_be_done_is_said(
     assert told in capsys.readouterr().err
 
 
-def test_a_run_is_written_and_drawn(tmp_path: Path) -> None:
-    folder = tmp_path / "pictures"
+def test_a_run_is_written_and_drawn(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file, folder = tmp_path / "run", tmp_path / "pictures"
     command = [
         sys.executable,
         "-m",
         "bringup.evaluation",
-        "draw",
-        str(folder),
+        "run",
+        str(file),
         "--seconds",
-        "2",
+        "1",
         "--world",
         "maze",
     ]
     done = subprocess.run(command, capture_output=True, text=True, timeout=100, check=False)
-    assert (done.returncode, done.stderr) == (0, "")
-    assert [Path(line) for line in done.stdout.splitlines()] == [
-        folder / f"{name}.{kind}"
-        for name in ("trajectories", "errors", "consistency")
-        for kind in ("svg", "png")
-    ] + [folder / "report.html"]
+    assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
+    assert main(["draw", str(folder), "--recording", str(file)]) == 0
+    names = [
+        f"{name}.{kind}" for name in ("trajectories", "errors", "consistency") for kind in ("svg", "png")
+    ]
+    assert capsys.readouterr().out.splitlines() == [str(folder / name) for name in (*names, "report.html")]
     assert "maze, seed 1" in (folder / "report.html").read_text(encoding="utf-8")
 
 
