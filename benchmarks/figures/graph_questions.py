@@ -67,8 +67,10 @@ def measure(site: Site, size: int) -> Mapping[str, Sample]:
     with ExitStack() as stack:
         domain = stack.enter_context(free_domain({}))
         signs = stack.enter_context(Signs(site.folder / "signs"))
-        variables = {"ROS_DOMAIN_ID": str(domain), "BENCHMARK_SIGNS": signs.path}
-        there = Site(site.folder, launching.with_variables(site.environment, **variables))
+        variables = launching.with_variables(
+            site.environment, ROS_DOMAIN_ID=str(domain), BENCHMARK_SIGNS=signs.path
+        )
+        there = Site(site.folder, variables)
         nodes = [
             stack.enter_context(launching.started([sys.executable, "-c", _NODE, name], there))
             for name in names

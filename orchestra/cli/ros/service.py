@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.cli.ros.asking import answered
 from orchestra.cli.ros.options import flag, graph, positive, timeout, values, word
+from orchestra.cli.ros.topic_options import showing
 from orchestra.cli.ros.verbs import Verb, VerbParser
 
 if TYPE_CHECKING:
@@ -38,6 +39,16 @@ _VERBS: Final = {
         "list the services of a type",
         "services:find",
         (graph, word("type", "as std_srvs/srv/SetBool"), _COUNT, _HIDDEN),
+    ),
+    "echo": Verb(
+        "show the requests and responses of a service",
+        "service_events:echo",
+        (
+            graph,
+            word("service", "its name"),
+            word("type", "(default: the one that it has)", optional=True),
+            showing,
+        ),
     ),
     "call": Verb(
         "call a service",

@@ -33,8 +33,19 @@ class _Length(Action):
 def echoing(parser: CommandParser) -> None:
     """Add the options of `topic echo`."""
     qos(parser)
-    parser.add_argument("--csv", action="store_true", help="the values of each message in one line")
+    showing(parser)
     parser.add_argument("--field", metavar="PATH", help="only this part of each message, as pose.position.x")
+    for name, tell in (
+        ("no-lost-messages", "do not tell of messages that were lost"),
+        ("raw", "the bytes of each message"),
+    ):
+        parser.add_argument(f"--{name}", action="store_true", help=tell)
+    parser.add_argument("--filter", metavar="EXPR", help="only messages m for which this holds, in Python")
+
+
+def showing(parser: CommandParser) -> None:
+    """Add how many messages are shown, and how."""
+    parser.add_argument("--csv", action="store_true", help="the values of each message in one line")
     parser.add_argument("-f", "--full-length", action="store_true", help="all of long arrays and texts")
     parser.add_argument(
         "-l",
@@ -50,11 +61,8 @@ def echoing(parser: CommandParser) -> None:
         ("no-arr", "leave arrays out"),
         ("no-str", "leave texts out"),
         ("flow-style", "arrays and mappings in one line"),
-        ("no-lost-messages", "do not tell of messages that were lost"),
-        ("raw", "the bytes of each message"),
     ):
         parser.add_argument(f"--{name}", action="store_true", help=tell)
-    parser.add_argument("--filter", metavar="EXPR", help="only messages m for which this holds, in Python")
     how_many = parser.add_mutually_exclusive_group()
     how_many.add_argument("--once", action="store_true", help="end after the first one")
     how_many.add_argument("-n", "--count", type=counting, metavar="N", help="end after so many")
