@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 
 # Messages have no types.
 Message = Any
-# Bytes that no message of ours holds by chance, as many as the number has.
-MARKS = {size: bytes(range(0x21, 0x21 + size)) for size in (4, 8)}
+# Two numbers, of which the first bytes make a small one as well.
+MARKS = (bytes(range(0x21, 0x29)), bytes(range(0x31, 0x39)))
 
 
 class Wire:
@@ -56,14 +56,21 @@ def offset(message: Message, path: str, kind: str) -> int:
     owner = message
     for name in way:
         owner = getattr(owner, name)
-    mark = MARKS[struct.calcsize(kind)]
     old = owner[int(last)] if last.isdigit() else getattr(owner, last)
-    _put(owner, last, struct.unpack(f"<{kind}", mark)[0])
-    data = bytes(serialize_message(message))
+    places = []
+    for mark in MARKS:
+        number = mark[: struct.calcsize(kind)]
+        _put(owner, last, struct.unpack(f"<{kind}", number)[0])
+        places.append(_places(bytes(serialize_message(message)), number))
     _put(owner, last, old)
-    if data.count(mark) != 1:
-        raise ValueError(f"'{path}' of {type(message).__name__} cannot be found in its bytes")
-    return data.index(mark)
+    # A mark may lie in the padding between two fields, which is whatever the memory held before; both do not.
+    (place,) = set.intersection(*places)
+    return place
+
+
+def _places(data: bytes, part: bytes) -> set[int]:
+    """Where a part begins in some bytes."""
+    return {at for at in range(len(data)) if data.startswith(part, at)}
 
 
 def _put(owner: Message, name: str, value: float) -> None:

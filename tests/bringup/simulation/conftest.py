@@ -95,8 +95,22 @@ class Ears:
     node: Node
     heard: dict[str, list[Any]] = field(default_factory=lambda: defaultdict(list))
 
+    fresh: threading.Condition = field(default_factory=threading.Condition)
+
     def listen(self, message: type, topic: str, qos: QoSProfile | None = None) -> None:
-        self.node.create_subscription(message, topic, self.heard[topic].append, qos or QoSProfile(depth=1000))
+        def hear(message: Any) -> None:
+            with self.fresh:
+                self.heard[topic].append(message)
+                self.fresh.notify_all()
+
+        self.node.create_subscription(message, topic, hear, qos or QoSProfile(depth=1000))
+
+    def wait(self, topic: str, looked_for: Callable[[list[Any]], Any], deadline: float = 60.0) -> Any:
+        """What is looked for among the messages of a topic, as soon as it is there: the last one of a list."""
+        with self.fresh:
+            assert self.fresh.wait_for(lambda: looked_for(self.heard[topic]), deadline), f"nothing of {topic}"
+            found = looked_for(self.heard[topic])
+        return found[-1] if isinstance(found, list) else found
 
 
 @contextmanager

@@ -1,6 +1,9 @@
 """The small pure parts: inertial noise, pace, tracks, settings and the lines of the report."""
 
+import json
 import math
+import threading
+from concurrent.futures import CancelledError, Future, ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
@@ -13,9 +16,10 @@ from bringup.world import report
 from bringup.world.drive import STILL
 from bringup.world.geometry import Pose
 from bringup.world.inertial import Inertial, InertialNoise, variance
-from bringup.world.layout import lay_out
+from bringup.world.layout import WORLDS, lay_out
 from bringup.world.model import load
-from bringup.world.pace import LARGEST_LAG, Pace, kept, wait
+from bringup.world.orders import Orders
+from bringup.world.pace import CATCH_UP, LARGEST_LAG, TICK, Metronome, Pace, kept, wait
 from bringup.world.settings import TABLE, RobotSettings, SettingsError, settings
 from bringup.world.simulation import Simulation
 from bringup.world.track import MOST_POINTS, Recent, Trail
@@ -64,6 +68,95 @@ def test_a_small_lag_is_made_up_for_and_a_large_one_is_not() -> None:
 def test_a_new_speed_holds_from_now_on() -> None:
     pace = kept(Pace(100.0, 0.0, 1.0), 110.0, 10.0, 4.0)
     assert wait(pace, 110.0, 14.0) == pytest.approx(1.0)
+
+
+def ticked(metronome: Metronome, now: float, time: float, until: float) -> tuple[float, float]:
+    """Real and simulated time after all ticks that are due until then."""
+    while True:
+        rest = metronome.wait(now, time, 1.0)
+        if now + max(rest, 0.0) > until:
+            return now, time
+        now += max(rest, 0.0)
+        metronome.ticked(now)
+        time += TICK
+
+
+def test_a_late_tick_loses_no_simulated_time_and_makes_no_burst() -> None:
+    metronome = Metronome(100.0, 1.0)
+    _, time = ticked(metronome, 100.0, 0.0, 101.0)
+    assert time == pytest.approx(1.0, abs=0.02)
+    # Nothing has happened for 3 s: after one more it has not caught up, after as long again it has.
+    _, behind = ticked(metronome, 104.0, time, 105.0)
+    assert behind - time == pytest.approx(CATCH_UP, abs=0.05)
+    assert metronome.lag == pytest.approx(2.0, abs=0.05)
+    _, caught = ticked(metronome, 105.0, behind, 110.0)
+    assert caught == pytest.approx(10.0, abs=0.02)
+    assert metronome.lost == 0.0
+
+
+def test_what_is_given_up_is_told() -> None:
+    metronome = Metronome(100.0, 1.0)
+    metronome.wait(100.0 + 3 * LARGEST_LAG, 0.0, 1.0)
+    assert metronome.lost == pytest.approx(3 * LARGEST_LAG, abs=0.02)
+    assert metronome.lag == pytest.approx(0.0, abs=0.02)
+    assert report.behind(0.5, 1.0, 2.25, 30.0) == (
+        "behind real time: factor 0.500 instead of 1, 2.2 s late, 30.0 s given up before"
+    )
+
+
+def test_time_that_stands_still_or_begins_anew_is_not_made_up_for() -> None:
+    metronome = Metronome(100.0, 1.0)
+    metronome.hold(105.0, 2.0)
+    assert metronome.wait(105.0, 2.0, 1.0) == pytest.approx(TICK)
+    # After a reset.
+    assert metronome.wait(106.0, 0.0, 1.0) == pytest.approx(TICK)
+
+
+def test_orders_are_carried_out_in_turn_and_answered() -> None:
+    orders, done = Orders(), []
+
+    def order(future: Future[int]) -> None:
+        done.append(1)
+        future.set_result(len(done))
+
+    with ThreadPoolExecutor(1) as other:
+        result = other.submit(orders.ask, order)
+        orders.leave(lambda: done.append(0))
+        while not result.done():
+            orders.carry_out()
+        assert result.result() == done.index(1) + 1
+    assert sorted(done) == [0, 1]
+
+
+def test_nobody_waits_for_a_run_that_is_over() -> None:
+    orders = Orders()
+    asked = threading.Event()
+    with ThreadPoolExecutor(1) as other:
+        result = other.submit(orders.ask, lambda _future: asked.set())
+        while not asked.is_set():
+            orders.carry_out()
+        orders.close()
+        with pytest.raises(CancelledError):
+            result.result(60.0)
+    with pytest.raises(CancelledError):
+        orders.ask(lambda _future: None)
+
+
+def test_the_schema_says_what_the_table_says() -> None:
+    path = Path(bringup.__file__).parent / "params" / "simulation.schema.json"
+    told = json.loads(path.read_text())["properties"]
+    assert list(told) == sorted(DEFAULTS)
+    for setting in TABLE:
+        one = told[setting.name]
+        assert one["description"] == setting.description
+        assert one.get("readOnly", False) is not setting.changeable
+        if isinstance(setting.default, tuple):
+            assert one.get("default", []) == list(setting.default)
+        else:
+            assert one["default"] == setting.default
+        if isinstance(setting.default, int | float) and not isinstance(setting.default, bool):
+            assert (one["minimum"], one["maximum"]) == (setting.low, setting.high)
+    assert told["world"]["enum"] == list(WORLDS)
 
 
 def test_recent_poses_are_found_by_tick_and_between_ticks() -> None:
