@@ -110,13 +110,17 @@ class Box:
 def domain(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]:
     """An environment with a domain in which nobody else is, and the components on the path."""
     pytest.importorskip("rclpy", reason="needs ROS")
+    declared = tmp_path_factory.mktemp("declared")
+    points = declared / "parts-1.0.dist-info" / "entry_points.txt"
+    points.parent.mkdir()
+    points.write_text("[rclpy_components]\nparts::Plain = components:Plain\n", "utf-8")
     with free_domain({}) as number:
         yield {
             **os.environ,
             **quick_discovery(os.environ, tmp_path_factory.mktemp("profiles")),
             "ROS_DOMAIN_ID": str(number),
             "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST",
-            "PYTHONPATH": os.pathsep.join([str(PROCESSES), os.environ.get("PYTHONPATH", "")]),
+            "PYTHONPATH": os.pathsep.join([str(PROCESSES), str(declared), os.environ.get("PYTHONPATH", "")]),
             "NO_COLOR": "1",
         }
 

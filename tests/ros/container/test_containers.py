@@ -37,7 +37,8 @@ def _nothing_is_left(request: pytest.FixtureRequest) -> Iterator[None]:
 
 def test_a_component_gets_its_names_remaps_and_parameters(box: Box) -> None:
     name = box.loaded(
-        "Plain",
+        "parts::Plain",  # as its package declares it
+        package_name="parts",
         node_name="other",
         node_namespace="/deep/ns",
         remap_rules=["chatter:=/loud"],
@@ -82,6 +83,11 @@ def test_a_constructor_that_fails_is_told_and_leaves_nothing(box: Box) -> None:
         ("TYPES", {}, "'components:TYPES' is no class: it is of type 'dict'"),
         ("no_node", {}, "'no_node' gives no node: it is of type 'int'"),
         ("Demanding", {}, "'Demanding' cannot be made without 'robot', which no container gives"),
+        (
+            "parts::Plane",
+            {},
+            "there is no component 'parts::Plane' of package 'demo' in Python here; did you mean 'parts::Plain'?",
+        ),
         ("demo::Talker", {}, "there is no component 'demo::Talker' of package 'demo' in Python here"),
         ("nowhere:Talker", {}, "ModuleNotFoundError: No module named 'nowhere'"),
         (
