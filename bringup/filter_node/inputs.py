@@ -16,12 +16,11 @@ from rclpy.qos import (
 from bringup.filter.localization import Localization
 from bringup.filter.readings import Heard, stamp_of, velocity_command
 from bringup.filter.settings import Control, Settings
-from bringup.filter.transforms import Sample
 from bringup.filter_node import quiet
 from bringup.filter_node.messages import Message
 from bringup.filter_node.throttle import Throttle
 from bringup.filter_node.visits import Subscription, VisitedSubscriptions
-from bringup.filter_node.wire import MESSAGE_TYPES, reader
+from bringup.filter_node.wire import MESSAGE_TYPES, edges, reader, transforms
 from orchestra.ros.interfaces import tf_message_type
 
 _QUEUE = 10
@@ -82,7 +81,7 @@ class Inputs:
         needed = in_map or self._localization.frames.needs_moving_transforms()
         if needed and self._moving is None:
             qos = QoSProfile(depth=_TRANSFORM_QUEUE)
-            self._moving = self._visited.add(tf_message_type(), "/tf", self._add_moving, qos)
+            self._moving = self._visited.add(tf_message_type(), "/tf", self._add_moving, qos, raw=True)
         elif not needed and self._moving is not None:
             self._visited.remove(self._moving)
             self._moving = None
@@ -102,12 +101,12 @@ class Inputs:
         self._localization.hear(sensor, read(data), self._visited_at)
 
     def _add_static(self, message: Message) -> None:
-        for stamped in message.transforms:
-            self._localization.frames.add_static(*_edge(stamped))
+        for edge in edges(message):
+            self._localization.frames.add_static(*edge)
 
-    def _add_moving(self, message: Message) -> None:
-        for stamped in message.transforms:
-            self._localization.frames.buffer.add(*_edge(stamped))
+    def _add_moving(self, data: bytes) -> None:
+        for edge in transforms(data):
+            self._localization.frames.buffer.add(*edge)
 
     def _command(self, message: Message) -> None:
         self._localization.command(velocity_command(message), self._now())
@@ -121,12 +120,6 @@ class Inputs:
                 )
             return
         self._localization.command(velocity_command(message.twist), stamp_of(message))
-
-
-def _edge(stamped: Message) -> tuple[str, str, Sample]:
-    place, turn = stamped.transform.translation, stamped.transform.rotation
-    sample = Sample(stamp_of(stamped), (place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
-    return stamped.header.frame_id.lstrip("/"), stamped.child_frame_id.lstrip("/"), sample
 
 
 def _sensor_qos(depth: int) -> QoSProfile:

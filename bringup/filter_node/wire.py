@@ -15,8 +15,10 @@ from nav_msgs.msg import Odometry
 from rclpy.serialization import deserialize_message
 from sensor_msgs.msg import Imu
 
-from bringup.filter.readings import Heard, heard
+from bringup.filter.readings import Heard, Message, heard, stamp_of
 from bringup.filter.settings import NANOSECONDS, Kind
+from bringup.filter.transforms import Sample
+from orchestra.ros.interfaces import tf_message_type
 
 MESSAGE_TYPES: dict[Kind, type] = {
     "odom": Odometry,
@@ -32,6 +34,7 @@ _ENCAPSULATION = 4
 _DOUBLE = 8
 _HEADER = Struct("<iII")
 _LENGTH = Struct("<I")
+_TRANSFORM = Struct("<7d")
 
 
 def reader(kind: Kind) -> Callable[[bytes], Heard]:
@@ -51,6 +54,37 @@ def reader(kind: Kind) -> Callable[[bytes], Heard]:
         return Heard(seconds * NANOSECONDS + nanoseconds, frame, child, numbers)
 
     return read
+
+
+def transforms(data: bytes) -> list[tuple[str, str, Sample]]:
+    """Read a serialised tf2_msgs/TFMessage: parent, child, and where the child stands in the parent."""
+    if not data.startswith(_CDR_LITTLE_ENDIAN):
+        return edges(deserialize_message(data, tf_message_type()))
+    (count,) = _LENGTH.unpack_from(data, _ENCAPSULATION)
+    found, end = [], _ENCAPSULATION + _LENGTH.size
+    for _ in range(count):
+        start = _aligned(end, _LENGTH.size)
+        seconds, nanoseconds, length = _HEADER.unpack_from(data, start)
+        parent, end = _text(data, start + _HEADER.size, length)
+        start = _aligned(end, _LENGTH.size)
+        child, end = _text(data, start + _LENGTH.size, _LENGTH.unpack_from(data, start)[0])
+        start = _aligned(end, _DOUBLE)
+        x, y, z, qx, qy, qz, qw = _TRANSFORM.unpack_from(data, start)
+        end = start + _TRANSFORM.size
+        sample = Sample(seconds * NANOSECONDS + nanoseconds, (x, y, z), (qx, qy, qz, qw))
+        found.append((parent, child, sample))
+    return found
+
+
+def edges(message: Message) -> list[tuple[str, str, Sample]]:
+    """Read a tf2_msgs/TFMessage."""
+    return [_edge(stamped) for stamped in message.transforms]
+
+
+def _edge(stamped: Message) -> tuple[str, str, Sample]:
+    place, turn = stamped.transform.translation, stamped.transform.rotation
+    sample = Sample(stamp_of(stamped), (place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
+    return stamped.header.frame_id.lstrip("/"), stamped.child_frame_id.lstrip("/"), sample
 
 
 def _text(data: bytes, start: int, length: int) -> tuple[str, int]:

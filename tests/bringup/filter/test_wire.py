@@ -4,13 +4,15 @@ from typing import Any
 
 import numpy as np
 import pytest
+from geometry_msgs.msg import TransformStamped
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from rclpy.serialization import serialize_message
 
 from bringup.filter.readings import heard
 from bringup.filter.settings import Kind
-from bringup.filter_node.wire import MESSAGE_TYPES, reader
+from bringup.filter_node.wire import MESSAGE_TYPES, edges, reader, transforms
+from orchestra.ros.interfaces import tf_message_type
 
 # lark, which the ROS wheels load, still imports a module that Python 3.11 has renamed.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
@@ -44,6 +46,16 @@ def test_bytes_say_what_the_message_says(kind: Kind, data: st.DataObject) -> Non
     read, told = reader(kind)(serialize_message(message)), heard(kind, message)
     assert (read.stamp, read.frame, read.child) == (told.stamp, told.frame, told.child)
     assert np.array_equal(read.numbers, told.numbers)
+
+
+@given(st.data(), st.integers(0, 4))
+@settings(max_examples=20)
+def test_transforms_are_read_from_their_bytes(data: st.DataObject, count: int) -> None:
+    message = tf_message_type()()
+    message.transforms = [TransformStamped() for _ in range(count)]
+    for stamped in message.transforms:
+        _fill(stamped, data)
+    assert transforms(serialize_message(message)) == edges(message)
 
 
 @pytest.mark.parametrize("kind", MESSAGE_TYPES)
