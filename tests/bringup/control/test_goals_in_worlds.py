@@ -1,5 +1,6 @@
 """Robots go to goals in the bringup's own worlds, with its wheels, lidar, IMU and filters, as fast as it goes."""
 
+import math
 import random
 from collections.abc import Iterator
 from dataclasses import dataclass, field, replace
@@ -11,14 +12,14 @@ from bringup.control.journey import Goal, Journey
 from bringup.control.outcome import Outcome
 from bringup.evaluation.crew import Member
 from bringup.evaluation.lockstep import laid_out
-from bringup.evaluation.scenario import Choice, Scenario, scenario
+from bringup.evaluation.scenario import Choice, scenario
 from bringup.world.geometry import Pose, relative
-from bringup.world.layout import WORLDS, room
+from bringup.world.layout import WORLDS, Layout, room
 from bringup.world.model import TICKS_PER_SECOND, load
 from bringup.world.simulation import Simulation
 
-# Room about the middle of a goal (m): a robot's radius of 0.25 and some more.
-ROOM = 0.45
+# Room about the middle of a goal, and from one goal to another (m): a robot has a radius of 0.25.
+ROOM, APART = 0.45, 1.0
 LONGEST = 600.0
 
 
@@ -50,14 +51,20 @@ class Traveller:
             self.member._state = replace(self.state, journey=Journey(goal, now))
 
 
-def places(made: Scenario, start: Pose, chance: random.Random, count: int) -> Iterator[Goal]:
-    """Places with room for a robot, as the robot's own odometry frame has them; every second one with a heading."""
-    layout = laid_out(made)
-    for number in range(count):
-        x = y = 2 * layout.half
-        while room(layout, x, y) < ROOM:
-            x, y = (chance.uniform(-layout.half, layout.half) for _ in range(2))
-        goal = relative(start, Pose(x, y, chance.uniform(-3.0, 3.0)))
+def places(layout: Layout, chance: random.Random, count: int) -> list[Pose]:
+    """Places with room for a robot, none so near to another one that a robot there would keep it from one."""
+    found: list[Pose] = []
+    while len(found) < count:
+        x, y = (chance.uniform(-layout.half, layout.half) for _ in range(2))
+        if room(layout, x, y) >= ROOM and all(math.hypot(x - each.x, y - each.y) >= APART for each in found):
+            found.append(Pose(x, y, chance.uniform(-3.0, 3.0)))
+    return found
+
+
+def goals_from(start: Pose, among: list[Pose]) -> Iterator[Goal]:
+    """The places as the robot's own odometry frame has them; every second one with a heading."""
+    for number, place in enumerate(among):
+        goal = relative(start, place)
         yield Goal(goal.x, goal.y, goal.yaw, yaw_tolerance=0.15 * (number % 2))
 
 
@@ -67,11 +74,12 @@ def travel(world: str, seed: int, robots: int, goals: int) -> tuple[list[Travell
     choice = Choice(LONGEST, filter={"use_sim_time": True}, control={"mode": "go_to_goal"})
     made = scenario(choice, world=world, seed=seed, robots=names)
     simulation = Simulation(load(laid_out(made)), [each.limits for each in made.world.each])
+    chance = random.Random(f"{world} {seed}")  # noqa: S311 - places, no secrets
+    found = places(laid_out(made), chance, robots * goals)
     crew = []
     for number in range(robots):
         member = Member(simulation, number, made)
-        chance = random.Random(f"{world} {seed} {number}")  # noqa: S311 - places, no secrets
-        crew.append(Traveller(member, places(made, member.robot.start, chance, goals)))
+        crew.append(Traveller(member, goals_from(member.robot.start, found[number::robots])))
     while any(each.on_the_way for each in crew):
         assert simulation.time < LONGEST, [each.ends for each in crew]
         simulation.tick([each.member.command() for each in crew])
