@@ -8,10 +8,13 @@ from typing import Any
 
 import rclpy
 from rclpy.action import ActionServer
-from rclpy.executors import SingleThreadedExecutor
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from orchestra.ros.interfaces.definitions import install
+
+ENOUGH = 8  # the number with which the client says that it has feedback
 
 
 def main(folder: str) -> None:
@@ -21,6 +24,7 @@ def main(folder: str) -> None:
     from own_interfaces.msg import Part, Whole  # type: ignore[import-not-found]  # noqa: PLC0415 - as above
     from own_interfaces.srv import Ask  # type: ignore[import-not-found]  # noqa: PLC0415 - as above
 
+    heard = threading.Event()
     rclpy.init()
     node = rclpy.create_node("server")
     latched = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
@@ -28,18 +32,21 @@ def main(folder: str) -> None:
 
     def answer(request: Any, response: Any) -> Any:
         response.ok, response.back = request.number == 7, request.whole
+        if request.number == ENOUGH:
+            heard.set()
         return response
 
     def go(goal: Any) -> Any:
-        for step in range(3):
-            goal.publish_feedback(Go.Feedback(remaining=float(step)))
+        # What is sent before the client's reader is matched is lost, so it goes on until the client has some.
+        while not heard.wait(0.05):
+            goal.publish_feedback(Go.Feedback(remaining=1.5))
         goal.succeed()
         return Go.Result(notes=[goal.request.target.name, "é"], distance=2.5)
 
     node.create_service(Ask, "ask", answer)
-    server = ActionServer(node, Go, "go", go)
+    server = ActionServer(node, Go, "go", go, callback_group=ReentrantCallbackGroup())
     publisher.publish(Whole(parts=[Part(wide="a😀")] * 2, wides=["x", ""], few=[0.5], bytes=[b"\xff"]))
-    executor = SingleThreadedExecutor()
+    executor = MultiThreadedExecutor(num_threads=3)
     executor.add_node(node)
     print("ready", flush=True)  # noqa: T201 - the test reads it
     ended = threading.Event()
@@ -51,8 +58,8 @@ def main(folder: str) -> None:
     threading.Thread(target=wait, daemon=True).start()
     while not ended.is_set():
         executor.spin_once(timeout_sec=0.05)
-    server.destroy()
     executor.shutdown()
+    server.destroy()
     node.destroy_node()
     rclpy.shutdown()
 
