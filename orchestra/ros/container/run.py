@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import sys
 import traceback
 from typing import TYPE_CHECKING, Final
@@ -39,6 +40,7 @@ def run(words: Sequence[str], ending: Ending) -> int:
         manager = Node(_NAME)
         given.install()
         type_descriptions.install(manager)
+        gc.freeze()  # what is here from the start is no garbage: looking through it takes 20 ms
         return _served(manager, executable, words, ending)
     finally:
         rclpy.try_shutdown()

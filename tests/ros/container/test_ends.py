@@ -75,15 +75,16 @@ def test_a_callback_that_fails_ends_the_container_as_it_ends_a_process(
 ) -> None:
     with container(executable, domain, asking, tmp_path) as box:
         box.loaded("Stubborn")
-        box.loaded("Failing", node_name="weak")
-        asking.begin(f"/weak/{service}", _TRIGGER)
+        # A name of its own: the client keeps what has no answer.
+        box.loaded("Failing", node_name=f"weak_{executable}")
+        asking.begin(f"/weak_{executable}/{service}", _TRIGGER)
         assert box.popen.wait(PATIENCE) == status
         wait_for(lambda: not asking.graph(), "an empty graph")
         assert "good-bye" in box.written
         failed = (
             "[FATAL]" in box.written
             and "RuntimeError: out of order" in box.written
-            and "[weak]" in box.written
+            and f"[weak_{executable}]" in box.written
         )
         assert failed == (service == "fail")
 
