@@ -39,30 +39,31 @@ class Costs:
 
 def costs(grid: Grid, radius: float) -> Costs:
     """What a robot of this radius (m) pays for each cell."""
-    occupied = grid.occupied
-    values = np.full(occupied.shape, FREE, dtype=np.int32)
-    for width, price in NARROW:
-        values[widened(occupied, (radius + width) / grid.resolution)] = price
-    values[widened(occupied, radius / grid.resolution)] = CLOSED
+    widths = [(radius + width, price) for width, price in NARROW] + [(radius, CLOSED)]
+    most = max(width for width, _ in widths) / grid.resolution
+    squares = squared_distances(grid.occupied, math.ceil(most))
+    values = np.full(squares.shape, FREE, dtype=np.int32)
+    for width, price in widths:
+        values[squares <= (width / grid.resolution) ** 2] = price
     return Costs(grid, values)
 
 
-def widened(cells: NDArray[np.bool_], radius: float) -> NDArray[np.bool_]:
-    """All cells that have a marked one within so many cells."""
-    result = np.zeros_like(cells)
-    for row in range(-math.floor(radius), math.floor(radius) + 1):
-        half = math.floor(math.sqrt(radius * radius - row * row))
-        line = _spread(cells, half)
-        if row >= 0:
-            result[row:] |= line[: len(line) - row]
-        else:
-            result[:row] |= line[-row:]
+def squared_distances(cells: NDArray[np.bool_], most: int) -> NDArray[np.int16]:
+    """From each cell to the nearest marked one, in cells, squared; right up to `most` cells, and more than that beyond.
+
+    Along the rows first, then the least over all rows that are near enough (P. Felzenszwalb and D. Huttenlocher,
+    "Distance transforms of sampled functions", 2012, which finds that least in another way).
+    """
+    along = np.minimum(_steps(cells, most), _steps(cells[:, ::-1], most)[:, ::-1]) ** 2
+    result = along.copy()
+    for rows in range(1, min(most, len(cells) - 1) + 1):
+        np.minimum(result[rows:], along[:-rows] + rows * rows, out=result[rows:])
+        np.minimum(result[:-rows], along[rows:] + rows * rows, out=result[:-rows])
     return result
 
 
-def _spread(cells: NDArray[np.bool_], half: int) -> NDArray[np.bool_]:
-    """Each row's marks widened to both sides."""
-    wide = np.pad(cells, ((0, 0), (half + 1, half)))
-    sums = np.cumsum(wide, axis=1, dtype=np.int32)
-    result: NDArray[np.bool_] = sums[:, 2 * half + 1 :] > sums[:, : -2 * half - 1]
-    return result
+def _steps(cells: NDArray[np.bool_], most: int) -> NDArray[np.int16]:
+    """From each cell back along its row to a marked one, but no farther than to the first one out of reach."""
+    columns = np.arange(cells.shape[1], dtype=np.int32)
+    last = np.maximum.accumulate(np.where(cells, columns, -most - 1), axis=1)
+    return np.minimum(columns - last, most + 1).astype(np.int16)

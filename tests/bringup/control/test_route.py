@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from bringup.control.command import Pose
-from bringup.control.costs import CLOSED, costs, widened
+from bringup.control.costs import CLOSED, costs, squared_distances
 from bringup.control.grid import MARGIN, REACH, Grid, about, covering, marked, world
 from bringup.control.route import distances, found
 from bringup.control.way import advanced, is_free, remaining
@@ -98,17 +98,20 @@ def test_a_grid_grows_with_a_margin_and_keeps_what_it_has(
 
 
 @settings(max_examples=20)
-@given(st.integers(0, 2**32 - 1), st.floats(0.0, 0.2), st.floats(0.0, 4.0))
-def test_cells_are_widened_to_all_within_a_radius(seed: int, share: float, radius: float) -> None:
+@given(st.integers(0, 2**32 - 1), st.floats(0.0, 0.2), st.integers(1, 14))
+def test_distances_to_the_nearest_obstacle_are_right_as_far_as_they_are_asked_for(
+    seed: int, share: float, most: int
+) -> None:
     cells = np.random.default_rng(seed).random((10, 12)) < share
     rows, columns = np.nonzero(cells)
-    expected = np.zeros_like(cells)
+    squares = squared_distances(cells, most)
     for row in range(10):
         for column in range(12):
-            expected[row, column] = bool(
-                len(rows) and ((rows - row) ** 2 + (columns - column) ** 2).min() <= radius * radius
-            )
-    assert (widened(cells, radius) == expected).all()
+            expected = ((rows - row) ** 2 + (columns - column) ** 2).min(initial=10_000)
+            if expected <= most * most:
+                assert squares[row, column] == expected
+            else:
+                assert squares[row, column] > most * most
 
 
 def dijkstra(price: NDArray[np.int32], end: tuple[int, int]) -> NDArray[np.int64]:
