@@ -9,7 +9,7 @@ from __future__ import annotations
 import threading
 import time
 from contextlib import closing, contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import rclpy
 from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
@@ -56,10 +56,16 @@ CLOCK_PERIOD = 0.2
 LOCKSTEP_PATIENCE = 0.001
 
 
+class Ending(Protocol):
+    """The wish to end."""
+
+    requested: bool
+
+
 class Run:
     """One run of the simulation, from its node to its end."""
 
-    def __init__(self, node: Node, stop: Stop) -> None:
+    def __init__(self, node: Node, stop: Ending) -> None:
         self._stop = stop
         self._orders = Orders()
         parameters = Parameters(node)

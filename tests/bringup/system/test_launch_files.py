@@ -154,9 +154,10 @@ def test_managed_controllers_wait_for_the_filter_of_their_robot() -> None:
         ]
 
 
-def test_one_container_has_all_nodes_of_the_robots() -> None:
+def test_one_container_has_all_nodes() -> None:
     plan, _ = _planned("container.yaml")
-    assert [process.id for process in plan.processes] == ["/simulation", "/robots"]
+    assert [process.id for process in plan.processes] == ["/everything"]
     assert [component.id for component in plan.components] == [
-        f"/{robot}/{node}" for robot in ("robot1", "robot2") for node in ("ekf", "velocity_controller")
+        "/simulation",
+        *(f"/{robot}/{node}" for robot in ("robot1", "robot2") for node in ("ekf", "velocity_controller")),
     ]
