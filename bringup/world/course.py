@@ -118,7 +118,8 @@ class Course:
         ticks, stretch = self.simulation.ticks, self.settings.lockstep_ticks
         if stretch is None:
             return [self._script.command(robot.robot.name, ticks) or robot.command() for robot in self.robots]
-        if ticks % stretch == 0 and not self._all_told():
+        # The first stretch is free: a node that follows the clock says nothing before time has begun.
+        if ticks and ticks % stretch == 0 and not self._all_told():
             return None
         return [self._script.command(robot.robot.name, ticks) or robot.last_command for robot in self.robots]
 

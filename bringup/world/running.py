@@ -109,20 +109,24 @@ class Run:
             self._next_show = now + SHOW_PERIOD
             self._sights.show()
         if not course.moving:
-            metronome.hold(now, reached)
-            if now >= self._next_clock:
-                self._next_clock = now + CLOCK_PERIOD
-                course.tell_time()
+            self._stand(metronome, now)
             return PATIENCE
         due = 0.0 if course.stepping else metronome.wait(now, reached, speed)
         if due > 0.0:
             return min(due, PATIENCE)
         if not course.tick():
-            metronome.hold(now, reached)
+            self._stand(metronome, now)
             return LOCKSTEP_PATIENCE
         self._sights.tick()
         metronome.ticked(now)
         return 0.0
+
+    def _stand(self, metronome: pace.Metronome, now: float) -> None:
+        """Let time stand still, and say so now and then to those who have come meanwhile."""
+        metronome.hold(now, self.course.simulation.time)
+        if now >= self._next_clock:
+            self._next_clock = now + CLOCK_PERIOD
+            self.course.tell_time()
 
 
 @contextmanager
