@@ -1,5 +1,6 @@
 """The filter as a component: a timer of its container gives it its turns."""
 
+from contextlib import ExitStack
 from typing import Any
 
 from rclpy.node import Node
@@ -18,7 +19,14 @@ class Ekf(Node):  # type: ignore[misc] # rclpy is untyped
     def __init__(self, node_name: str = "ekf", **options: Any) -> None:  # noqa: ANN401 - rclpy's own
         super().__init__(node_name, automatically_declare_parameters_from_overrides=True, **options)
         self._filter = FilterNode(self)
+        self._closing = ExitStack()
+        self._closing.enter_context(self._filter.traced())
         self._turns = self.create_timer(_TURN / NANOSECONDS, self._work)
+
+    def destroy_node(self) -> None:
+        """Leave the graph, and close what the filter writes."""
+        self._closing.close()
+        super().destroy_node()
 
     def _work(self) -> None:
         self._filter.work()

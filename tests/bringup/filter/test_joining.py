@@ -13,8 +13,8 @@ from bringup.filter.joining import Joiner
 from bringup.filter.localization import Localization
 from bringup.filter.measurement import Measurement
 from bringup.filter.settings import NANOSECONDS, NEVER_REJECT
-from bringup.filter.state import Array
-from bringup.filter.variances import judged
+from bringup.filter.state import Array, Indices
+from bringup.filter.variances import Noise, judged
 
 Make = Callable[..., Any]
 SECOND = NANOSECONDS
@@ -106,6 +106,28 @@ def test_joined_parts_give_the_estimate_that_single_ones_do(
         estimates.append(estimate)
     assert estimates[0].state == pytest.approx(estimates[1].state, abs=1e-10)
     assert estimates[0].covariance == pytest.approx(estimates[1].covariance, abs=1e-10)
+
+
+def test_a_message_of_three_parts_costs_one_correction_and_its_covariance_is_judged_once(
+    filter_of: Callable[..., Localization], config: Make, imu: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    judgements: list[Array] = []
+
+    def judging(covariance: Array, indices: Indices) -> Noise:
+        judgements.append(covariance)
+        return judged(covariance, indices)
+
+    monkeypatch.setattr("bringup.filter.mounting.judged", judging)
+    localization = filter_of(imu0="i", imu0_config=config("roll", "yaw", "vyaw", "ax", "ay"))
+    corrections: list[Measurement] = []
+    localization.observe(lambda measurement, _state, _covariance: corrections.append(measurement))
+    for number in range(1, 12):
+        stamp = number * SECOND // 10
+        message = imu(stamp, rpy=(0.0, 0.0, 0.1), omega=(0.0, 0.0, 0.1), force=(0.1, 0.0, 0.0))
+        localization.receive("imu0", message, stamp)
+        localization.update(stamp)
+    assert len(corrections) == 10, "the first message is taken over"
+    assert len(judgements) == 3, "one for each part"
 
 
 @given(st.integers(0, 2**32 - 1), st.integers(1, 6), st.sampled_from([0.0, -1.0, 1e-12, 1.0, 1e6]))
