@@ -2,7 +2,8 @@
 
 The client reads lines of JSON. `{"call": SERVICE, "type": "package/srv/Name", "fields": {...}}` is answered with the
 fields of the response, `{"graph": [NODE, ...]}` with all that is in the graph but for those nodes and the client.
-`{"begin": ...}` is a call that is answered at once, `{"end": SERVICE}` with its response.
+`{"begin": ...}` is a call that is answered at once, `{"end": SERVICE}` with its response; `{"meet": SERVICE}` only makes
+the client that later calls use.
 """
 
 import json
@@ -178,18 +179,21 @@ class Client:
         return self.end(service)
 
     def begin(self, service: str, kind: str, fields: dict[str, Any]) -> None:
-        package, _, name = kind.split("/")
-        of_type = getattr(import_module(f"{package}.srv"), name)
-        client = self.clients.get(service)
-        if client is None:
-            client = self.node.create_client(of_type, service)
-            assert client.wait_for_service(30)
-            self.greet(service.partition("/_container/")[0].removesuffix(f"/{service.rpartition('/')[2]}"))
-        request = of_type.Request()
+        self.meet(service, kind)
+        client = self.clients[service]
+        request = client.srv_type.Request()
         for key, value in fields.items():
             setattr(request, key, made(key, value))
-        self.clients[service] = client
         self.futures[service] = client.call_async(request)
+
+    def meet(self, service: str, kind: str) -> None:
+        if service in self.clients:
+            return
+        package, _, name = kind.split("/")
+        client = self.node.create_client(getattr(import_module(f"{package}.srv"), name), service)
+        assert client.wait_for_service(30)
+        self.greet(service.partition("/_container/")[0].removesuffix(f"/{service.rpartition('/')[2]}"))
+        self.clients[service] = client
 
     def end(self, service: str) -> dict[str, Any]:
         future = self.futures.pop(service)
@@ -272,6 +276,9 @@ def main() -> None:
         elif "begin" in order:
             client.begin(order["begin"], order["type"], order["fields"])
             answer = order["begin"]
+        elif "meet" in order:
+            client.meet(order["meet"], order["type"])
+            answer = order["meet"]
         elif "end" in order:
             answer = client.end(order["end"])
         else:

@@ -41,6 +41,10 @@ class Asking:
         found: dict[str, Any] = self._asked({"call": service, "type": kind, "fields": fields})
         return found
 
+    def meet(self, service: str, kind: str) -> None:
+        """Make sure that a call of a service takes no longer than the service does."""
+        assert self._asked({"meet": service, "type": kind}) == service
+
     def begin(self, service: str, kind: str, /, **fields: Any) -> None:
         """Call a service and go on at once."""
         assert self._asked({"begin": service, "type": kind, "fields": fields}) == service

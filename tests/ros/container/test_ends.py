@@ -51,6 +51,7 @@ def test_a_callback_that_waits_holds_up_no_other_component(
         box.loaded("Meeting")
         asking.begin("/waiting/wait", _TRIGGER)
         wait_for(lambda: "waits" in box.written, "the callback")
+        asking.meet("/meeting/meet", _TRIGGER)  # the order to go waits for a callback, but not without end
         unload = f"/{box.name}/_container/unload_node"
         asking.begin(unload, "composition_interfaces/srv/UnloadNode", unique_id=1)
         assert asking.call("/meeting/meet", _TRIGGER)["success"]
