@@ -12,7 +12,7 @@ from bringup.control.settings import Settings
 from bringup.control.sight import obstacle_points
 from bringup.world import odometry
 from bringup.world.drive import Twist
-from bringup.world.layout import lay_out
+from bringup.world.layout import WORLDS, lay_out
 from bringup.world.lidar import ANGLE_INCREMENT, ANGLE_MIN, RANGE_MAX, RANGE_MIN, RAYS, Lidar, noisy
 from bringup.world.model import TICKS_PER_SECOND, load, pose, wheel_angles
 from bringup.world.odometry import WheelErrors
@@ -120,7 +120,7 @@ def test_robots_that_see_nothing_do_touch(monkeypatch: pytest.MonkeyPatch) -> No
 @pytest.mark.long
 @pytest.mark.timeout(900)
 @pytest.mark.parametrize("seed", range(10))
-@pytest.mark.parametrize("world", ["arena", "maze"])
+@pytest.mark.parametrize("world", WORLDS)
 def test_no_seed_leads_to_a_touch_in_five_minutes(world: str, seed: int) -> None:
     simulation, crew = wander(world, seed, seconds=300.0, world_seed=seed)
     assert touches(simulation) == [0, 0]
