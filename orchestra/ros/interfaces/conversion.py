@@ -27,7 +27,7 @@ _HEADER = 4  # bytes of the encapsulation, which the middleware writes itself
 _Result = TypeVar("_Result")
 
 
-def _body(message: bytes) -> Bytes:
+def body(message: bytes) -> Bytes:
     """Return where the body of a serialized message is; the message lives as long as the result."""
     found = Bytes(layouts.address(c_char_p(message)) + _HEADER, len(message) - _HEADER)
     vars(found)["message"] = message
@@ -46,7 +46,7 @@ class MessageInTransit(Structure):
     _fields_ = (("incoming", String),)
 
     type_name = ""
-    outgoing = _body(bytes(_HEADER + 4))
+    outgoing = body(bytes(_HEADER + 4))
 
     def __call__(self) -> object:
         """Return what came in as a message."""
@@ -118,4 +118,4 @@ def _from_py(source: Any, message: MessageInTransit) -> bool:  # noqa: ANN401  #
 
 
 def _prepare(source: Any, message: MessageInTransit) -> None:  # noqa: ANN401  # as above
-    message.outgoing = _body(message.encode(source))
+    message.outgoing = body(message.encode(source))

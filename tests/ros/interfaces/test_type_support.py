@@ -151,7 +151,7 @@ def test_nothing_but_the_conversion_runs_bytecode_while_sending(node: Node) -> N
         name for file, name in entered if file in ("conversion.py", "typesupport.py", "wire.py", "tf2.py")
     ]
     assert ours[0] == "_from_py"
-    after = entered[max(index for index, (_, name) in enumerate(entered) if name == "_body") + 1 :]
+    after = entered[max(index for index, (_, name) in enumerate(entered) if name == "body") + 1 :]
     assert {file for file, _ in after} <= {
         "layouts.py",
         "__init__.py",

@@ -20,6 +20,7 @@ from orchestra.ros.interfaces.layouts import (
     sequence,
     text,
 )
+from orchestra.ros.interfaces.made import events
 from orchestra.ros.interfaces.made.transit import transit_of
 from orchestra.ros.interfaces.slots import class_of
 from orchestra.ros.interfaces.typesupport import FASTRTPS, INTROSPECTION, Libraries, Message
@@ -30,6 +31,10 @@ if TYPE_CHECKING:
 Class = Any  # a class of a message, service or action, untyped
 
 _IMPLICIT = "implicit"
+
+
+# The class of the objects that stand for the messages of a class on their way.
+_TRANSITS: dict[Class, type[conversion.MessageInTransit]] = {}
 
 
 class Origin(NamedTuple):
@@ -96,6 +101,7 @@ def give_message(kind: Class, own: Own) -> None:
             own.c_namespace, own.name.name.encode(), of_type, sources, members, _without_bounds()
         )
         transit = transit_of(kind)
+        _TRANSITS[kind] = transit
         support = typesupport.message_support(message, transit, libraries())
     metaclass = type(kind)
     for name, function in conversion.capsules(transit).items():
@@ -116,7 +122,9 @@ def give_service(kind: Class, own: Own) -> None:
             INTROSPECTION: layouts.immortal(layouts.ServiceMembers(own.c_namespace, names[1], *members)),
         }
         functions = typesupport.description_functions(*_described(own, [pair[0] for pair in pairs]))
-        table = typesupport.handles(layouts.ServiceHandle, data, functions, *sending, *_events(kind))
+        table = typesupport.handles(
+            layouts.ServiceHandle, data, functions, *sending, *events.functions(kind, _TRANSITS[kind.Event])
+        )
     type(kind)._TYPE_SUPPORT = conversion.capsule(table[FASTRTPS])  # noqa: SLF001  # as above
 
 
@@ -135,12 +143,6 @@ def give_action(kind: Class, own: Own) -> None:
         functions = typesupport.description_functions(*_described(own, [*handles, *described]))
         handle = layouts.immortal(layouts.ActionHandle(*addresses, *functions))
     type(kind)._TYPE_SUPPORT = conversion.capsule(ctypes.addressof(handle))  # noqa: SLF001  # as above
-
-
-def _events(kind: Class) -> tuple[int, int]:
-    """Return the functions that make and end the message about an event of a service."""
-    del kind
-    return (0, 0)
 
 
 def _nested(own: Own) -> dict[str, int]:
