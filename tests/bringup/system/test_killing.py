@@ -158,9 +158,16 @@ def _check_estimate(witness: _Witness, robot: str, killed: float) -> None:
     assert math.dist(_place(pairs[0][1]), _seen_from(stood, pairs[0][2])) < 0.1
     right = [(message, truly) for stamp, message, truly in pairs if stamp > began + _RIGHT]
     assert len(right) > 10
-    for message, truly in right:
-        assert message.twist.twist.linear.x == pytest.approx(truly.twist.twist.linear.x, abs=0.1)
-        assert message.twist.twist.angular.z == pytest.approx(truly.twist.twist.angular.z, abs=0.1)
+    # Where a machine is busy, single estimates are late: a robot that brakes with 4 m/s² is slower by then.
+    for which in (0, 1):
+        assert (
+            median(abs(_velocity(message)[which] - _velocity(truly)[which]) for message, truly in right)
+            < 0.05
+        )
+
+
+def _velocity(message: Any) -> tuple[float, float]:
+    return message.twist.twist.linear.x, message.twist.twist.angular.z
 
 
 def _place(message: Any) -> tuple[float, float]:
