@@ -33,6 +33,8 @@ Message: TypeAlias = Any
 EXECUTE = rclpy_implementation.GoalEvent.EXECUTE
 # A goal farther away than this (m) is refused: the grid holds the robot and its goal, and planning takes its time.
 FARTHEST = 40.0
+# Nearer (m, rad) than this to a goal a robot cannot be steered at 10 Hz.
+FINEST = 0.02
 REPLACED = Result(Outcome.PREEMPTED, "a newer goal has taken its place")
 CANCELED = Result(Outcome.CANCELED, "canceled by its client")
 
@@ -200,6 +202,10 @@ def _objection(request: Message, odometry: Odometry | None, frame: str) -> Resul
         value = getattr(request, name)
         if not (math.isfinite(value) and value >= 0.0):
             return Result(Outcome.REFUSED, f"{name} is {value:g}, must be a number of 0 or more")
+    for name in ("xy_tolerance", "yaw_tolerance"):
+        value = getattr(request, name)
+        if 0.0 < value < FINEST:
+            return Result(Outcome.REFUSED, f"{name} is {value:g}, must be 0 or at least {FINEST:g}")
     if odometry.pose.distance(pose.x, pose.y) > FARTHEST:
         return Result(Outcome.REFUSED, f"the goal is more than {FARTHEST:g} m away")
     return None

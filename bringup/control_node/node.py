@@ -29,7 +29,7 @@ from bringup.control.journey import Journey
 from bringup.control.modes import SIMPLE, Mode, following
 from bringup.control.outcome import Outcome
 from bringup.control.sight import clear_points, obstacle_points
-from bringup.control_node.diagnostics import Diagnostics
+from bringup.control_node.diagnostics import OK, Diagnostics
 from bringup.control_node.goals import Goals
 from bringup.control_node.health import health, values
 from bringup.control_node.messages import fill_command, pose_of, seconds, twist_type
@@ -120,6 +120,9 @@ class VelocityController:
         """Order to stand still, and take no goals."""
         self._goals.end("the controller is not active")
         self._send(STANDSTILL)
+        now = self._now()
+        if self._diagnostics.is_due(now, OK):
+            self._diagnostics.tell(now, OK, "not active", {"mode": self._settings.mode})
 
     def close(self) -> None:
         """Leave the graph."""

@@ -209,6 +209,8 @@ def test_a_goal_may_have_its_own_time(room: Room) -> None:
         ({"x": math.nan}, "the goal's pose is no numbers"),
         ({"x": 1000.0}, "the goal is more than 40 m away"),
         ({"xy_tolerance": -0.1}, "xy_tolerance is -0.1, must be a number of 0 or more"),
+        ({"xy_tolerance": 0.001}, "xy_tolerance is 0.001, must be 0 or at least 0.02"),
+        ({"yaw_tolerance": 0.01}, "yaw_tolerance is 0.01, must be 0 or at least 0.02"),
         ({"timeout": math.inf}, "timeout is inf, must be a number of 0 or more"),
     ],
 )

@@ -74,6 +74,7 @@ def test_it_drives_while_it_is_active_and_leaves_the_graph_when_it_is_cleaned_up
             assert publishers(bench) == 0
             assert change(bench, Transition.TRANSITION_CONFIGURE)
             ordered(bench, 0.0)
+            bench.until(bench.is_told(b"\x00", "not active"), "its health is told")
             result = refused(bench)
             assert (result.outcome, result.text) == (result.OVERRULED, "the controller is not active")
             assert change(bench, Transition.TRANSITION_ACTIVATE)
