@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-import array
 import math
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
-import numpy as np
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, LaserScan
@@ -22,15 +20,10 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from builtin_interfaces.msg import Time
-    from numpy.typing import NDArray
 
-    from bringup.world.drive import Twist
 
 NANOSECONDS = 10**9
 NANOSECONDS_PER_TICK = NANOSECONDS // TICKS_PER_SECOND
-# Rows and columns of (x, y, yaw) and (vx, vyaw) within a message's 6 x 6 covariance.
-PLANAR = np.ix_((0, 1, 5), (0, 1, 5))
-DRIVEN = np.ix_((0, 5), (0, 5))
 # What a wheel cannot know at all, and how well it knows that it does not go sideways (m/s).
 UNKNOWN = 1e6
 SIDEWAYS = 0.01**2
@@ -70,21 +63,6 @@ def new_wheel_odometry(robot: str) -> Odometry:
     return message
 
 
-def fill_motion(message: Odometry, pose: Pose, twist: Twist, sideways: float = 0.0) -> None:
-    """Put pose and velocity into an odometry message."""
-    message.pose.pose.position.x, message.pose.pose.position.y = pose.x, pose.y
-    message.pose.pose.orientation.z = math.sin(pose.yaw / 2)
-    message.pose.pose.orientation.w = math.cos(pose.yaw / 2)
-    message.twist.twist.linear.x, message.twist.twist.linear.y = twist.linear, sideways
-    message.twist.twist.angular.z = twist.angular
-
-
-def fill_covariances(message: Odometry, pose: NDArray[np.float64], twist: NDArray[np.float64]) -> None:
-    """Put covariances over (x, y, yaw) and (vx, vyaw) into an odometry message."""
-    message.pose.covariance.reshape(6, 6)[PLANAR] = pose
-    message.twist.covariance.reshape(6, 6)[DRIVEN] = twist
-
-
 def pose_of(message: Odometry) -> Pose:
     """The pose in an odometry message."""
     position, turn = message.pose.pose.position, message.pose.pose.orientation
@@ -103,12 +81,6 @@ def new_imu(robot: str, noise: InertialNoise) -> Imu:
     return message
 
 
-def fill_imu(message: Imu, values: list[float]) -> None:
-    """Put what the IMU has measured into its message: three turning rates, three accelerations."""
-    rate, force = message.angular_velocity, message.linear_acceleration
-    rate.x, rate.y, rate.z, force.x, force.y, force.z = values
-
-
 def new_scan(robot: str) -> LaserScan:
     """A robot's laser scan; all its beams are of one moment."""
     message = LaserScan(
@@ -122,11 +94,6 @@ def new_scan(robot: str) -> LaserScan:
     )
     message.header.frame_id = f"{robot}/laser"
     return message
-
-
-def fill_scan(message: LaserScan, ranges: NDArray[np.float64]) -> None:
-    """Put measured distances into a scan."""
-    message.ranges = array.array("f", ranges.astype(np.float32).tobytes())
 
 
 def mounts(robot: str, mounted: Sequence[Mount] = MOUNTS) -> list[TransformStamped]:

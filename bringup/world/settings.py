@@ -74,26 +74,6 @@ class Settings:
     camera_size: tuple[int, int]
     each: tuple[RobotSettings, ...]
 
-    @property
-    def limits(self) -> Limits:
-        """What the base of the first robot can do."""
-        return self.each[0].limits
-
-    @property
-    def wheels(self) -> WheelErrors:
-        """What is wrong with the wheels of the first robot."""
-        return self.each[0].wheels
-
-    @property
-    def inertial(self) -> InertialNoise:
-        """What is wrong with the IMU of the first robot."""
-        return self.each[0].inertial
-
-    @property
-    def lidar_noise(self) -> float:
-        """Standard deviation of the first robot's ranges, in metres."""
-        return self.each[0].lidar.noise
-
 
 def settings(values: Mapping[str, Any], described: Sequence[Robot] = ()) -> Settings:
     """What these parameter values mean, with the robots of a file, if there is one, and what is their own.
