@@ -6,6 +6,7 @@ import math
 from functools import lru_cache
 from typing import TYPE_CHECKING
 
+import numpy as np
 from geometry_msgs.msg import TransformStamped
 from nav_msgs.msg import Odometry
 from sensor_msgs.msg import Imu, LaserScan
@@ -21,9 +22,11 @@ if TYPE_CHECKING:
 
     from builtin_interfaces.msg import Time
 
-
 NANOSECONDS = 10**9
 NANOSECONDS_PER_TICK = NANOSECONDS // TICKS_PER_SECOND
+# Rows and columns of (x, y, yaw) and (vx, vyaw) within a message's 6 x 6 covariance.
+PLANAR = np.ix_((0, 1, 5), (0, 1, 5))
+DRIVEN = np.ix_((0, 5), (0, 5))
 # What a wheel cannot know at all, and how well it knows that it does not go sideways (m/s).
 UNKNOWN = 1e6
 SIDEWAYS = 0.01**2
