@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ctypes
+import importlib
 import math
 import sys
 from pathlib import Path
@@ -17,9 +18,12 @@ from rcl_interfaces.msg import ParameterValue, SetParametersResult
 from rcl_interfaces.srv import SetParametersAtomically
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.parameter import Parameter
+from rclpy.qos import DurabilityPolicy, QoSProfile
 from rclpy.serialization import deserialize_message, serialize_message
+from rclpy.service_introspection import ServiceIntrospectionState
 
 from orchestra.ros.interfaces import cdr, conversion, layouts, load_node_type
+from orchestra.ros.interfaces.definitions import install
 from orchestra.ros.interfaces.made.classes import classes_of
 from orchestra.ros.interfaces.reading import interface
 from orchestra.ros.interfaces.wire import MalformedMessageError
@@ -106,6 +110,33 @@ def test_it_talks_to_the_compiled_service_either_way(node: Node, serving: Any, a
     spin(node, future.done)
     assert future.result().result == SetParametersResult(successful=True, reason="why nöt")
     assert received == sent
+
+
+def test_the_events_of_a_service_are_told_where_introspection_is_on(node: Node, tmp_path: Path) -> None:
+    (tmp_path / "srv").mkdir()
+    (tmp_path / "srv" / "Ask.srv").write_text("rcl_interfaces/Parameter[] asked\n---\nbool ok\n")
+    install("introspected_interfaces", tmp_path)
+    ask = importlib.import_module("introspected_interfaces.srv").Ask
+    heard: list[Any] = []
+    kept = QoSProfile(depth=10, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    node.create_subscription(ask.Event, "/x/_service_event", heard.append, kept)
+
+    def serve(_: Any, response: Any) -> Any:
+        response.ok = True
+        return response
+
+    service = node.create_service(ask, "/x", serve)
+    client = node.create_client(ask, "/x")
+    for end in (service, client):
+        end.configure_introspection(node.get_clock(), kept, ServiceIntrospectionState.CONTENTS)
+    sent = [Parameter("p", value="é").to_parameter_msg()]
+    spin(node, client.service_is_ready)
+    spin(node, client.call_async(ask.Request(asked=sent)).done)
+    spin(node, lambda: len(heard) == 4)
+    assert sorted(event.info.event_type for event in heard) == [0, 1, 2, 3]
+    assert [event.request[0].asked for event in heard if event.request] == [sent, sent]
+    assert [event.response[0].ok for event in heard if event.response] == [True, True]
+    assert len({event.info.sequence_number for event in heard}) == 1
 
 
 def test_load_node_has_the_name_and_fields_of_the_package() -> None:

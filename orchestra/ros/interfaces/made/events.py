@@ -44,21 +44,30 @@ def functions(service: Class, transit: type[MessageInTransit]) -> tuple[int, int
     """Return the functions that make and end the event messages of a service; `transit` stands for those."""
 
     def create(info: Any, _allocator: object, request: int | None, response: int | None) -> Any:  # noqa: ANN401 - of ctypes
-        event = service.Event()
-        told = info.contents
-        event.info.event_type = told.event_type
-        event.info.stamp.sec, event.info.stamp.nanosec = told.stamp_sec, told.stamp_nanosec
-        event.info.client_gid = list(told.client_gid)
-        event.info.sequence_number = told.sequence_number
-        event.request = [_message(request, service.Request)] if request else []
-        event.response = [_message(response, service.Response)] if response else []
         made = transit()
-        made.outgoing = conversion.body(cdr.encode(event))
+        event = _about(service, info.contents)
+        try:
+            event.request = [_message(request, service.Request)] if request else []
+            event.response = [_message(response, service.Response)] if response else []
+            made.outgoing = conversion.body(cdr.encode(event))
+        except Exception:  # a message may hold anything, and rcl does not live without the event
+            conversion.log.exception("an event of %s is told without what was sent", service.__name__)
+            made.outgoing = conversion.body(cdr.encode(_about(service, info.contents)))
         return made
 
     made_by = CFUNCTYPE(py_object, POINTER(Info), c_void_p, c_void_p, c_void_p)(create)
     ended_by = CFUNCTYPE(c_bool, c_void_p, c_void_p)(_end)
     return layouts.address(layouts.immortal(made_by)), layouts.address(layouts.immortal(ended_by))
+
+
+def _about(service: Class, told: Info) -> Any:  # noqa: ANN401 - a message
+    """Return the message about an event, without what was sent."""
+    event = service.Event()
+    event.info.event_type = told.event_type
+    event.info.stamp.sec, event.info.stamp.nanosec = told.stamp_sec, told.stamp_nanosec
+    event.info.client_gid = list(told.client_gid)
+    event.info.sequence_number = told.sequence_number
+    return event
 
 
 def _message(address: int, kind: Class) -> Any:  # noqa: ANN401 - a message
