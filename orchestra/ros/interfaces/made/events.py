@@ -50,7 +50,7 @@ def functions(service: Class, transit: type[MessageInTransit]) -> tuple[int, int
             event.request = [_message(request, service.Request)] if request else []
             event.response = [_message(response, service.Response)] if response else []
             made.outgoing = conversion.body(cdr.encode(event))
-        except Exception:  # a message may hold anything, and rcl does not live without the event
+        except Exception:  # noqa: BLE001  # a message may hold anything, and rcl does not live without the event
             conversion.log.exception("an event of %s is told without what was sent", service.__name__)
             made.outgoing = conversion.body(cdr.encode(_about(service, info.contents)))
         return made
