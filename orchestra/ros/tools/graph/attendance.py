@@ -31,6 +31,8 @@ _CALL_AGAIN: Final = 0.4  # and then after twice as long each time
 # many that all see the same.
 _LOOKS: Final = 16
 _ALIKE: Final = 12
+# Where meeting all others took longer than usual, so does learning their endpoints; in seconds.
+_USUAL, _LONGEST = 0.4, 1.0
 _LOOK_AGAIN: Final = 0.03  # a look at 20 nodes takes 2 ms
 _DISCOVERY: Final = "ros_discovery_info"  # each participant of ROS publishes there which nodes it has
 _UNKNOWN: Final = "_NODE_NAME_UNKNOWN_"
@@ -55,6 +57,9 @@ class Attendance:
         self._nobody_missing = False
         self._since = time.monotonic()
         self._alike = 0
+        self._began = time.monotonic()
+        self._met = False
+        self._slowness = 1.0
         self._call: RollCall | None = None
         self._called = -_CALL_AGAIN
         self._patience = _CALL_AGAIN / 2
@@ -68,7 +73,8 @@ class Attendance:
         if seen != self._seen or not self.complete():
             self._seen, self._since, self._alike = seen, now, 0
         self._alike += 1
-        return now - self._since >= self._quiet and self._alike > _ALIKE
+        quiet = min(self._quiet * self._slowness, _LONGEST)
+        return now - self._since >= quiet and self._alike > _ALIKE
 
     def silent(self, seconds: float) -> bool:
         """Tell whether nothing new has been seen for this time, though it was looked for."""
@@ -87,6 +93,9 @@ class Attendance:
             self._looked = now
             self._looks += 1
             self._nobody_missing = self._look(now)
+            if self._nobody_missing and not self._met:
+                self._met = True
+                self._slowness = max((now - self._began) / _USUAL, 1.0)
         return self._nobody_missing
 
     def _look(self, now: float) -> bool:
