@@ -94,7 +94,7 @@ def test_a_plan_fulfils_its_schema(orchestra: Command, everything: str) -> None:
 _GOOD = [
     *(("launch", path) for path in sorted(_ROOT.glob("bringup/*.yaml"))),
     *(("launch", path) for path in sorted(_ROOT.glob("tests/data/ordinary/*.yaml"))),
-    *(("params", path) for path in sorted(_ROOT.glob("bringup/params/*.yaml"))),
+    *(("params", path) for path in sorted(_ROOT.glob("bringup/params/**/*.yaml"))),
     *(("params", path) for path in sorted(_ROOT.glob("tests/data/**/config/*.yaml"))),
 ]
 
@@ -104,12 +104,16 @@ def test_files_that_work_fulfil_their_schema(name: str, path: Path) -> None:
     assert _faults(name, core(path.read_text("utf-8"))) == []
 
 
-@pytest.mark.parametrize("path", sorted(_ROOT.glob("bringup/**/*.yaml")), ids=lambda path: path.name)
+# Lists of robots are neither launch nor parameter files.
+_DESCRIBED = [path for path in sorted(_ROOT.glob("bringup/**/*.yaml")) if path.parent.name != "robots"]
+
+
+@pytest.mark.parametrize("path", _DESCRIBED, ids=lambda path: path.name)
 def test_a_file_of_the_bringup_names_its_schema(path: Path) -> None:
     """An editor takes the path as one from the folder of the file, and so does whoever clones the repository."""
     modeline = path.read_text("utf-8").partition("\n")[0]
     named = modeline.removeprefix("# yaml-language-server: $schema=")
-    name = "params" if path.parent.name == "params" else "launch"
+    name = "params" if "params" in path.parts else "launch"
     assert (path.parent / named).resolve() == _ROOT / "schemas" / f"{name}.schema.json"
 
 
