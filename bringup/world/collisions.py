@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import mujoco
 import numpy as np
 from geometry_msgs.msg import Point
 
 from bringup.world import messages
 from bringup.world.interfaces import Contact, Contacts
+from bringup.world.physics import mujoco
 from bringup.world.topics import LATCHED
 
 if TYPE_CHECKING:

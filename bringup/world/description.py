@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-import mujoco
 import numpy as np
 
 from bringup.world.body import CAMERAS, FOOTPRINT_RADIUS, MOUNTS, WHEEL_RADIUS
 from bringup.world.model import COLOURS, templates
+from bringup.world.physics import mujoco
 
 if TYPE_CHECKING:
     from typing import Any

@@ -6,8 +6,9 @@ import math
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-import mujoco
 import numpy as np
+
+from bringup.world.physics import mujoco
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import mujoco
 import numpy as np
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from numpy.typing import NDArray
@@ -16,6 +15,7 @@ from bringup.world.body import CAMERA, CAMERA_FOVY, FOOTPRINT_RADIUS, MOUNTS, WH
 from bringup.world.drive import Twist
 from bringup.world.geometry import Pose, yaw_of
 from bringup.world.layout import Layout
+from bringup.world.physics import mujoco
 
 WORLDS = Path(__file__).parent.parent / "worlds"
 TEMPLATE = "world.xml.j2"

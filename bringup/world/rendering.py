@@ -11,8 +11,9 @@ import importlib
 import os
 from typing import TYPE_CHECKING, Any
 
-import mujoco
 import numpy as np
+
+from bringup.world.physics import mujoco
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray

@@ -16,11 +16,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-import mujoco
-
 from bringup.world.contacts import ContactCount, Touch, touches
 from bringup.world.drive import STILL, Limits, Twist, limited, ramped, wheel_speeds
 from bringup.world.model import STEPS_PER_TICK, TICKS_PER_SECOND, Model, place
+from bringup.world.physics import mujoco
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
