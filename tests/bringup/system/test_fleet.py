@@ -143,6 +143,7 @@ def _wait_until_all_drive(run: Run) -> None:
         time.sleep(0.1)
 
 
+@pytest.mark.long
 @pytest.mark.timeout(180)
 def test_all_nodes_run_in_one_process(launch: Callable[..., Run]) -> None:
     """The end of the world, which is one of them, ends the run."""
