@@ -24,14 +24,28 @@ CHECKED: Final = (
     ),
 )
 
+_COMMON: Final = {
+    "ROS_AUTOMATIC_DISCOVERY_RANGE": ("SUBNET", "LOCALHOST"),
+    "RMW_IMPLEMENTATION": ("rmw_fastrtps_cpp",),
+    "RCUTILS_COLORIZED_OUTPUT": ("0", "1"),
+    "ROS_SECURITY_ENABLE": ("false",),
+}
+
 
 def has_settings(resolved: Resolved, environment: Mapping[str, str]) -> bool:
     """Tell whether any process that may be a node has such a variable, or says on its command line how it logs."""
-    if any(environment.get(name) for name in CHECKED):
+    if any((value := environment.get(name)) and not _is_common(name, value) for name in CHECKED):
         return bool(resolved.processes)
     return any(
         name.startswith(PREFIXES) for process in resolved.processes for name in process.environment
     ) or any("--log-level" in words or "--enclave" in words for words in _words(resolved))
+
+
+def _is_common(name: str, value: str) -> bool:
+    """Tell whether a value of the caller's is one that many have, and certainly right."""
+    if name == "ROS_DOMAIN_ID":
+        return value.isdecimal() and (value == "0" or (value[0] != "0" and len(value) <= 2))  # noqa: PLR2004 - digits
+    return value in _COMMON.get(name, ())
 
 
 def _words(resolved: Resolved) -> list[tuple[str, ...]]:
