@@ -13,14 +13,13 @@ from orchestra.fields import replace
 from orchestra.load.files import load
 from orchestra.location import displayed, is_python, point
 from orchestra.plan.build import build
-from orchestra.plan.checks.settings import has_settings
+from orchestra.plan.checks.table import has_settings
 from orchestra.plan.relocated import relocated
 from orchestra.plan.warm import warmed
 from orchestra.resolve import launch_files
 from orchestra.resolve.command_line import inputs_from
 from orchestra.resolve.commands import run_command
-from orchestra.resolve.packages import InstalledPackages
-from orchestra.resolve.packages.manifests import has_manifests
+from orchestra.resolve.packages import InstalledPackages, has_manifests
 from orchestra.resolve.python.calling import take_environment
 from orchestra.resolve.python.connection import LoadingConnection
 from orchestra.resolve.python.isolation import isolated

@@ -14,6 +14,8 @@ from orchestra.plan.checks.topics import check_topics
 from orchestra.plan.checks.waits import check_waits
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from orchestra.errors import Problems
     from orchestra.plan.model import Plan
     from orchestra.resolve.model import Resolved
@@ -42,3 +44,50 @@ def check_all(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Let every check look at a plan."""
     for check in CHECKS:
         check(resolved, plan, problems)
+
+
+# Of the caller's variables those that decide with whom nodes talk and how they log (`middleware`).
+PREFIXES: Final = ("ROS_", "RMW_", "RCUTILS_", "FASTDDS_", "FASTRTPS_", "CYCLONEDDS_")
+CHECKED: Final = (
+    *("ROS_DOMAIN_ID", "ROS_AUTOMATIC_DISCOVERY_RANGE", "ROS_STATIC_PEERS", "ROS_DISCOVERY_SERVER"),
+    *("RMW_IMPLEMENTATION", "RMW_FASTRTPS_PUBLICATION_MODE", "RCUTILS_CONSOLE_OUTPUT_FORMAT"),
+    *("RCUTILS_LOGGING_USE_STDOUT", "RCUTILS_LOGGING_BUFFERED_STREAM", "RCUTILS_COLORIZED_OUTPUT"),
+    *("FASTDDS_DEFAULT_PROFILES_FILE", "FASTRTPS_DEFAULT_PROFILES_FILE", "CYCLONEDDS_URI"),
+    *(
+        "ROS_SECURITY_ENABLE",
+        "ROS_SECURITY_STRATEGY",
+        "ROS_SECURITY_KEYSTORE",
+        "ROS_SECURITY_ENCLAVE_OVERRIDE",
+    ),
+)
+
+_COMMON: Final = {
+    "ROS_AUTOMATIC_DISCOVERY_RANGE": ("SUBNET", "LOCALHOST"),
+    "RMW_IMPLEMENTATION": ("rmw_fastrtps_cpp",),
+    "RCUTILS_COLORIZED_OUTPUT": ("0", "1"),
+    "ROS_SECURITY_ENABLE": ("false",),
+}
+
+
+def has_settings(resolved: Resolved, environment: Mapping[str, str]) -> bool:
+    """Tell whether any process that may be a node has such a variable, or says on its command line how it logs."""
+    if any((value := environment.get(name)) and not _is_common(name, value) for name in CHECKED):
+        return bool(resolved.processes)
+    return any(
+        name.startswith(PREFIXES) for process in resolved.processes for name in process.environment
+    ) or any("--log-level" in words or "--enclave" in words for words in _words(resolved))
+
+
+def _is_common(name: str, value: str) -> bool:
+    """Tell whether a value of the caller's is one that many have, and certainly right."""
+    if name == "ROS_DOMAIN_ID":
+        return value.isdecimal() and (value == "0" or (value[0] != "0" and len(value) <= 2))  # noqa: PLR2004 - digits
+    return value in _COMMON.get(name, ())
+
+
+def _words(resolved: Resolved) -> list[tuple[str, ...]]:
+    return [
+        (*process.arguments, *(process.ros_arguments or ()))
+        for process in resolved.processes
+        if process.kind != "process"
+    ]

@@ -21,8 +21,7 @@ from orchestra.location import Span
 from orchestra.resolve.interfaces import prefixes, sources
 from orchestra.resolve.interfaces.available import built, provided
 from orchestra.resolve.model import EnvironmentChange
-from orchestra.resolve.packages import ament
-from orchestra.resolve.packages.manifests import manifest_beside, manifest_of, may_need_definitions
+from orchestra.resolve.packages import ament, manifest_beside, manifest_of, may_need_definitions
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Mapping, Sequence

@@ -8,6 +8,7 @@ of that name, the module `PKG.nodes.EXE`. Nothing is imported to find it.
 
 from __future__ import annotations
 
+import os
 import sys
 from functools import cache
 from typing import TYPE_CHECKING
@@ -18,7 +19,11 @@ if TYPE_CHECKING:
     from collections.abc import Mapping
     from pathlib import Path
 
-__all__ = ["InstalledPackages"]
+    from orchestra.resolve.model import Resolved, ResolvedProcess
+
+__all__ = ["InstalledPackages", "has_manifests", "manifest_beside", "manifest_of", "may_need_definitions"]
+
+_MANIFEST = "package.xml"
 
 
 class InstalledPackages:
@@ -101,3 +106,45 @@ class InstalledPackages:
 
     def _look_in_ament(self, package: str) -> Path | None:
         return next((prefix for prefix in self._prefixes if ament.has(prefix, package)), None)
+
+
+def has_manifests(resolved: Resolved) -> bool:
+    """Tell whether a node or component is of a package that says in a file what it needs, and not of ament's."""
+    return any(map(may_need_definitions, resolved.processes)) or any(
+        component.share is not None and manifest_beside(component.share) is not None
+        for component in resolved.components
+    )
+
+
+def may_need_definitions(process: ResolvedProcess) -> bool:
+    """Tell whether a process is a node of such a package."""
+    return process.kind != "process" and manifest_of(process) is not None
+
+
+def manifest_of(process: ResolvedProcess) -> str | None:
+    """Return the `package.xml` of the Python package or script of a process, None where it has none."""
+    if process.share is not None:
+        return manifest_beside(process.share)
+    if process.kind == "process" or process.package is not None:
+        return None
+    script = next((word for word in process.program if word.endswith(".py")), None)
+    return _first(_above(os.path.abspath(script))) if script else None  # noqa: PTH100 - pathlib is slow
+
+
+def manifest_beside(share: str) -> str | None:
+    """Return the `package.xml` of the package with this share folder, None where ament has installed it."""
+    above = os.path.dirname(share)  # noqa: PTH120 - pathlib is slow
+    return None if os.path.basename(above) == "share" else _first([share, above])  # noqa: PTH119 - as above
+
+
+def _above(path: str) -> list[str]:
+    found = []
+    while (above := os.path.dirname(path)) != path:  # noqa: PTH120 - as above
+        found.append(above)
+        path = above
+    return found
+
+
+def _first(folders: list[str]) -> str | None:
+    paths = (os.path.join(folder, _MANIFEST) for folder in folders)  # noqa: PTH118 - as above
+    return next((path for path in paths if os.path.isfile(path)), None)  # noqa: PTH113 - as above
