@@ -15,7 +15,6 @@ from orchestra.description.text import Template
 from orchestra.fields import replace
 from orchestra.resolve.context import Context, Value
 from orchestra.resolve.names import full_name
-from orchestra.resolve.packages.components import declared_components, is_named_by_module, target_of
 from orchestra.resolve.refusals import report_missing_package
 from orchestra.witness.once import once
 
@@ -68,6 +67,9 @@ def container_words(package: str, executable: str, packages: Packages) -> tuple[
 
 def known_components() -> tuple[EntryPoint, ...]:
     """Return the components that distributions declare."""
+    # Here and below, because few plans have components.
+    from orchestra.resolve.packages.components import declared_components  # noqa: PLC0415
+
     return once(("components", *sys.path), declared_components)
 
 
@@ -82,6 +84,8 @@ def settle_containers(run: Resolution) -> None:
             _put_back(stand_in, index, run)
         elif run.context.packages.prefix(_CPP) is not None:
             components = [*_loaded_into(index, process, run)]
+            from orchestra.resolve.packages.components import is_named_by_module  # noqa: PLC0415 - as above
+
             if components and all(is_named_by_module(one.plugin) for one in components):
                 run.found.processes[index] = replace(process, program=_words(process.executable))
 
@@ -110,6 +114,8 @@ def _put_back(stand_in: StandIn, index: int, run: Resolution) -> None:
 
 
 def _is_ours(component: ResolvedComponent) -> bool:
+    from orchestra.resolve.packages.components import target_of  # noqa: PLC0415 - as above
+
     return component.faulty or target_of(component.package, component.plugin, known_components()) is not None
 
 
