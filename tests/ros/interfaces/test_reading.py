@@ -71,7 +71,7 @@ def _definitions(draw: st.DrawFn) -> str:
     return "\n".join(["# what it is", "", *draw(st.permutations(lines)), ""])
 
 
-@settings(max_examples=12)
+@settings(max_examples=6)
 @given(_definitions())
 def test_a_definition_is_read_as_by_rosidl(tmp_path_factory: pytest.TempPathFactory, text: str) -> None:
     folder = tmp_path_factory.mktemp("package")
