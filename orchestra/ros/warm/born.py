@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from types import TracebackType
 
     from orchestra.ros.warm.request import Request
+    from orchestra.ros.warm.tracing import Tracing
 
 _GO = 3  # the descriptor on which the supervisor says that the program may begin
 _ABOVE = 64  # descriptors are moved out of the way of the first ones
@@ -73,7 +74,7 @@ class Born:
         sys.excepthook = showing
 
 
-def born(request: Request, path: Sequence[str], loaded: Collection[str]) -> Born:
+def born(request: Request, path: Sequence[str], loaded: Collection[str], tracing: Tracing) -> Born:
     """Wait until the program may begin, and put everything in its place; ends the process where that cannot be done.
 
     `path` is that of the interpreter when it had started, `loaded` are the modules that the server has imported since.
@@ -82,13 +83,16 @@ def born(request: Request, path: Sequence[str], loaded: Collection[str]) -> Born
     if not os.read(_GO, 1):
         os._exit(0)  # nobody waits for it any more
     try:
-        return _become(request.facts, path, loaded)
+        made = _become(request.facts, path, loaded)
     except OSError as error:
         _tell([error.errno, error.strerror or str(error), error.filename])
     except ColdError as error:
         _tell({"cold": str(error)})
     except Exception as error:  # noqa: BLE001 - nothing of this may come up in a node
         _tell({"cold": f"{type(error).__name__}: {error}"})
+    tracing.in_child()  # only now: its threads read the environment and open sockets
+    os.close(_GO)
+    return made
 
 
 def _tell(message: Any) -> NoReturn:  # noqa: ANN401 - JSON
@@ -137,7 +141,6 @@ def _become(facts: dict[str, Any], path: Sequence[str], loaded: Collection[str])
     made = Born(module, script, source)
     kernel.set_name(facts["comm"])
     shown.show(words, dict(os.environ))
-    os.close(_GO)
     return made
 
 

@@ -23,6 +23,7 @@ from orchestra.ros.warm.forking import FAILED, fork
 from orchestra.ros.warm.preloading import preload, preload_common
 from orchestra.ros.warm.request import Request
 from orchestra.ros.warm.shadows import loaded_since
+from orchestra.ros.warm.tracing import Tracing
 from orchestra.supervise.keeping import kernel
 
 if TYPE_CHECKING:
@@ -49,6 +50,7 @@ def serve(path: Sequence[str], modules: Collection[str]) -> Born:
     try:
         with _quietly_interrupted():
             _make_ready(connection)
+            tracing = Tracing()
             loaded, request = loaded_since(modules), None
             while request is None:
                 starts, targets = _received(connection)
@@ -56,10 +58,10 @@ def serve(path: Sequence[str], modules: Collection[str]) -> Born:
                     with _frozen(connection):
                         preload(targets)
                     loaded = loaded_since(modules)
-                request = _fork_all(connection, starts)
+                request = _fork_all(connection, starts, tracing)
     except ConnectionError:
         _leave()
-    return born(request, path, loaded)
+    return born(request, path, loaded, tracing)
 
 
 class _quietly_interrupted:  # noqa: N801 - a context manager that reads like a word
@@ -103,10 +105,10 @@ def _leave() -> NoReturn:
     os._exit(0)
 
 
-def _fork_all(connection: _socket.socket, starts: list[Request]) -> Request | None:
+def _fork_all(connection: _socket.socket, starts: list[Request], tracing: Tracing) -> Request | None:
     """Fork for all; return one of them in the process that is to become its node."""
     for index in range(0, len(starts), _AT_ONCE):
-        mine = _fork_some(connection, starts[index : index + _AT_ONCE])
+        mine = _fork_some(connection, starts[index : index + _AT_ONCE], tracing)
         if mine:
             return mine
     return None
@@ -142,9 +144,10 @@ def _message(connection: _socket.socket, flags: int) -> tuple[dict[str, Any], li
     return json.loads(content), list(descriptors)
 
 
-def _fork_some(connection: _socket.socket, requests: list[Request]) -> Request | None:
+def _fork_some(connection: _socket.socket, requests: list[Request], tracing: Tracing) -> Request | None:
     """Fork for some requests; return one of them in the process that is to become its node."""
     readable, writable = os.pipe()
+    tracing.before_fork()
     between = fork()
     if between == 0:
         for request in requests:
@@ -153,6 +156,7 @@ def _fork_some(connection: _socket.socket, requests: list[Request]) -> Request |
                 return request
             os.write(writable, f"{pid}\n".encode())
         os._exit(0)
+    tracing.in_parent()
     os.close(writable)
     if between > 0:
         os.waitpid(between, 0)
