@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.values import Limits
 from tests.processes.endings import WAYS
 from tests.supervise.plans import PROCESSES, finished
-from tests.supervise.warm.warming import both_ways, node, script
+from tests.supervise.warm.warming import both_ways, node, script, warm
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -80,9 +80,9 @@ def test_ends(tmp_path: Path) -> None:
         ),
     )
     ended = {event.process: event for event in run.of_kind("process_ended")}
-    warm = [name for name in ended if name and not name.endswith("_cold")]
-    assert len(warm) == len(names) + len(modular) + 2
-    for name in warm:
+    forked = [name for name in ended if name and not name.endswith("_cold")]
+    assert len(forked) == len(names) + len(modular) + 2
+    for name in forked:
         facts, cold = ended[name].data, ended[f"{name}_cold"].data
         assert [facts[key] for key in ("code", "signal")] == [cold[key] for key in ("code", "signal")], name
         if name == "aborts":
@@ -92,6 +92,19 @@ def test_ends(tmp_path: Path) -> None:
             assert more == [line for line in _written(run, f"{name}_cold") if line.startswith("  File")]
         else:
             assert _written(run, name) == _written(run, f"{name}_cold"), name
+    assert not run.of_kind("started_cold")
+
+
+def test_the_end_of_a_program_that_has_had_threads(tmp_path: Path) -> None:
+    """Of threads that a fork has left behind the C library gives back the memory with that of others."""
+    program = (
+        "import threading\nthreading.stack_size(8 << 20)\ngo = threading.Event()\n"
+        "threads = [threading.Thread(target=go.wait) for _ in range(16)]\n"
+        "[thread.start() for thread in threads]\ngo.set()\n[thread.join() for thread in threads]\n"
+    )
+    run = finished(tmp_path, warm(node("threads", script(tmp_path, "threads", program))))
+    (ended,) = run.of_kind("process_ended")
+    assert (ended.data["code"], ended.data["signal"]) == (0, None)
     assert not run.of_kind("started_cold")
 
 
