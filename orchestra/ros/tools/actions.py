@@ -122,9 +122,14 @@ class _Pursuit:
             known = {other for other, _ in actions(self._graph)} - {name}  # which our client has made known
             raise unknown("action", name, known)
         self._say(f"Sending goal:\n     {yaml_text(plain(goal))}\n", {"goal": plain(goal)})
-        handle = self._done(
-            self._client.send_goal_async(goal, self._heard), "the server did not answer the goal"
-        )
+        sent = self._client.send_goal_async(goal, self._heard)
+        try:
+            handle = self._done(sent, "the server did not answer the goal")
+        except BaseException:
+            # It may be on its way to the server, which would go after it.
+            if self._graph.wait(sent.done, _CANCEL_WITHIN) and sent.result().accepted:
+                self._cancel(sent.result())
+            raise
         if not handle.accepted:
             raise RunError("Goal was rejected.")
         number = bytes(handle.goal_id.uuid).hex()
