@@ -22,6 +22,8 @@ _BITS: Final = {
 _HEADER: Final = "std_msgs/msg/Header"
 _TIME: Final = "builtin_interfaces/msg/Time"
 _TRUTH: Final = {"true": True, "false": False}
+# What YAML 1.1 takes for a truth value is a name of a field as well (robot_localization's ToggleFilterProcessing).
+_NAMES: Final = {True: ("on", "yes", "true"), False: ("off", "no", "false")}
 
 
 def mapping_of(text: str) -> dict[str, Any]:
@@ -51,7 +53,8 @@ def fill(message: Any, values: Any, path: str = "") -> list[tuple[Any, str, Any]
         raise RunError(f"{path or 'the message'} has fields: a mapping is expected, not {_shown(values)}")
     kinds = dict(fields_of(type(message)))
     timed: list[tuple[Any, str, Any]] = []
-    for name, value in values.items():
+    for key, value in values.items():
+        name = next((word for word in _NAMES[key] if word in kinds), key) if isinstance(key, bool) else key
         where = f"{path}.{name}" if path else str(name)
         if name not in kinds:
             raise RunError(f"{type(message).__name__} has no field {where}{_hint(str(name), kinds)}")
