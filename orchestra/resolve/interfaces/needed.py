@@ -107,7 +107,8 @@ def _is_installed(name: str, environment: Mapping[str, str]) -> bool:
     if any(ament.has(prefix, name) for prefix in ament.prefixes(environment)):
         return True
     spec = find_spec(name) if name.isidentifier() else None
-    return spec is not None and spec.origin is not None  # a folder without code is no package
+    # A folder without code is no package, and what this process has made of definitions is in no other one.
+    return spec is not None and spec.has_location
 
 
 def _are_built(

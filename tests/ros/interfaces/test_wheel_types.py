@@ -67,7 +67,8 @@ def test_the_classes_have_the_same_members() -> None:
         assert pair.made.get_fields_and_field_types() == pair.compiled.get_fields_and_field_types(), pair.name
         assert pair.made.SLOT_TYPES == pair.compiled.SLOT_TYPES, pair.name
         assert pair.made.__slots__ == pair.compiled.__slots__, pair.name
-        assert set(dir(pair.made)) == set(dir(pair.compiled)), pair.name
+        kept_by_copy = {"__slotnames__"}  # of a class whose messages have been copied
+        assert set(dir(pair.made)) ^ set(dir(pair.compiled)) <= kept_by_copy, pair.name
         constants = [name for name in dir(pair.compiled) if name.isupper() and name != "SLOT_TYPES"]
         for name in constants:
             assert repr(getattr(pair.made, name)) == repr(getattr(pair.compiled, name)), pair.name
