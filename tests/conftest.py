@@ -32,8 +32,8 @@ _HELD = pytest.StashKey[ExitStack]()
 # How long an example takes says more of what else the machine does.
 _UNTIMED = hypothesis.settings(deadline=None, suppress_health_check=[hypothesis.HealthCheck.too_slow])
 hypothesis.settings.register_profile("untimed", _UNTIMED)
-# The long checks try twice as many, and others each time.
-hypothesis.settings.register_profile("steady", _UNTIMED, derandomize=True, max_examples=50)
+# The long checks try three times as many, and others each time.
+hypothesis.settings.register_profile("steady", _UNTIMED, derandomize=True, max_examples=33)
 
 
 def pytest_configure(config: pytest.Config) -> None:

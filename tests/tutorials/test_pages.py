@@ -16,11 +16,15 @@ from tests.tutorials.learner import Learner
 from tests.tutorials.pages import Command, File, steps
 
 _PAGES = Path(__file__).parents[2] / "docs" / "tutorials"
+# It has all of the bringup run, as other tests do.
+_LONG = {"robots.md"}
 PAGES = sorted(path.name for path in _PAGES.glob("*.md") if path.name != "README.md")
 
 
 @pytest.mark.timeout(600)
-@pytest.mark.parametrize("name", PAGES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=pytest.mark.long) if name in _LONG else name for name in PAGES]
+)
 def test_a_page_can_be_followed(name: str, tmp_path: Path) -> None:
     pytest.importorskip("rclpy", reason="needs ROS")
     folder = tmp_path / "tutorials"

@@ -158,8 +158,8 @@ def _localhost() -> Iterator[None]:
 
 def test_teleoperation_drives_over_autonomy_and_a_lock_stops_both() -> None:
     with base() as here:
-        assert here.in_force("none")()
-        assert here.drives(0.0)()
+        here.until(here.in_force("none"), "nobody is in force")
+        here.until(here.drives(0.0), "nobody drives")
         here.speeds[here.autonomy] = 0.25
         here.until(here.drives(0.25), "autonomy drives")
         here.speeds[here.teleoperation] = 0.5
@@ -179,7 +179,7 @@ def test_teleoperation_drives_over_autonomy_and_a_lock_stops_both() -> None:
         here.until(here.drives(0.25), "autonomy drives again")
         del here.speeds[here.autonomy]
         here.until(here.drives(0.0), "nobody drives")
-        assert here.in_force("none")()
+        here.until(here.in_force("none"), "nobody is in force")
         told = {each.key: each.value for each in here.health["robot1/command_arbiter: commands"].values}
         assert told["lock emergency_stop"] == "priority 255, free"
         _end(here)
