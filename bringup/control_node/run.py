@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import signal
 from threading import Event, Thread
 from typing import TYPE_CHECKING, Protocol
 
@@ -13,6 +12,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from bringup.control_node.parameters import UnusableSettingsError
 from bringup.control_node.taking import TAKEN_WHEN_NEEDED
+from bringup.ending import wait_for_the_end
 from bringup.filter.settings import NANOSECONDS
 from bringup.filter_node.ticks import Ticks
 from bringup.filter_node.waiting import Waiting
@@ -21,7 +21,6 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
 
-ENDING = (signal.SIGINT, signal.SIGTERM)
 REFUSALS = (InvalidParameterTypeException, InvalidParameterValueException, UnusableSettingsError)
 FREQUENCY = 10.0
 # Turns of the executor at the end, in which clients of goals are told.
@@ -64,7 +63,7 @@ def _spin(node: rclpy.node.Node, driving: Driving, frequency: float) -> None:
     told_to_end = Event()
     ticks = Ticks(node, frequency)
     with Waiting(node, TAKEN_WHEN_NEEDED) as waiting:
-        ending = Thread(target=_wait_for_the_end, args=(told_to_end, waiting.wake_up), daemon=True)
+        ending = Thread(target=wait_for_the_end, args=(told_to_end, waiting.wake_up), daemon=True)
         ending.start()
         while not told_to_end.is_set():
             if waiting.wait(longest_wait(ticks.left(), frequency)):
@@ -78,12 +77,6 @@ def _spin(node: rclpy.node.Node, driving: Driving, frequency: float) -> None:
         driving.stand_still("the node ends")
         for _ in range(LAST_TURNS):
             waiting.serve()
-
-
-def _wait_for_the_end(told_to_end: Event, wake_up: Callable[[], None]) -> None:
-    signal.sigwait(ENDING)
-    told_to_end.set()
-    wake_up()
 
 
 def longest_wait(left: int | None, frequency: float = FREQUENCY) -> int:

@@ -1,7 +1,6 @@
 """Runs the filter's node until it is told to end."""
 
-import signal
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 from threading import Event, Thread
 from time import monotonic
@@ -10,11 +9,11 @@ import rclpy
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
+from bringup.ending import wait_for_the_end
 from bringup.filter.parameter_reader import ParameterError
 from bringup.filter_node.node import FilterNode
 from bringup.filter_node.waiting import Waiting
 
-ENDING = (signal.SIGINT, signal.SIGTERM)
 # Seconds after which the executor gets its turn without a service being called: rclpy's own warnings come this way.
 _LONGEST_UNSERVED = 1.0
 
@@ -50,7 +49,7 @@ def _spin(node: Node) -> int:
         return 1
     told_to_end = Event()
     with Waiting(node, running.visited_group) as waiting, running.traced():
-        Thread(target=_wait_for_the_end, args=(told_to_end, waiting.wake_up), daemon=True).start()
+        Thread(target=wait_for_the_end, args=(told_to_end, waiting.wake_up), daemon=True).start()
         served = monotonic()
         while not told_to_end.is_set():
             called = waiting.wait(running.time_left())
@@ -59,9 +58,3 @@ def _spin(node: Node) -> int:
                 served = monotonic()
             running.work()
     return 0
-
-
-def _wait_for_the_end(told_to_end: Event, wake_up: Callable[[], None]) -> None:
-    signal.sigwait(ENDING)
-    told_to_end.set()
-    wake_up()

@@ -274,8 +274,10 @@ def test_the_schemas_of_the_bringup_are_those_of_its_nodes(name: str) -> None:
         said = written["properties"][key]
         types = said["x-ros-type"]
         assert found["x-ros-type"] in (types if isinstance(types, list) else [types]), key
-        if isinstance(types, list):  # it takes several types, and has one of them at a time
-            continue
+        kinds = said.get("type")
+        if isinstance(kinds, list):  # it takes several types, and has one of them at a time
+            assert found["type"] in kinds, key
+            said = {**said, "type": found["type"]}
         assert {word: value for word, value in said.items() if word not in _BEYOND} == {
             word: value for word, value in found.items() if word not in _BEYOND
         }, key
