@@ -33,9 +33,13 @@ class Claims:
         self._goal: Message = None
         self._since = 0.0
         self._answer: Future | None = None
+        self._driven_to: Message = None
+        # Whether a question was dropped: the monitor may have granted a place that nobody drives to.
+        self._dropped = False
 
     def ask(self, goal: Message) -> None:
-        """Ask for the place of a goal; a question before this one is forgotten."""
+        """Ask for the place of a goal; a question before this one is dropped."""
+        self._dropped |= self._answer is not None
         self._goal, self._since, self._answer = goal, monotonic(), None
 
     def refusal(self) -> str | None:
@@ -44,16 +48,43 @@ class Claims:
             self._answer = self._claim.call_async(ClaimGoal.Request(robot=self._robot, goal=self._goal))
         if self._answer is not None and self._answer.done():
             answer = self._answer.result()
-            return "" if answer.granted else answer.message or f"{answer.holder} has claimed the place"
+            self._answer = None
+            if answer.granted:
+                return self._free()
+            if self._dropped:
+                self._restore()
+            return answer.message or f"{answer.holder} has claimed the place"
         if monotonic() - self._since < PATIENCE:
             return None
         self._node.get_logger().warning(f"{self.service} does not answer: the goal is not claimed")
-        return ""
+        return self._free()
+
+    def withdraw(self) -> None:
+        """The goal asked for is not driven to after all: its place is given back once it is known to be granted."""
+        if self._answer is not None:
+            self._dropped = True
+            self._answer.add_done_callback(
+                lambda answer: self._restore() if answer.result().granted else None
+            )
+            self._answer = None
 
     def release(self) -> None:
         """Give the place back; nobody waits for the answer."""
+        self._driven_to = None
         if self._release.service_is_ready():
             self._release.call_async(ReleaseGoal.Request(robot=self._robot))
+
+    def _free(self) -> str:
+        self._driven_to, self._dropped = self._goal, False
+        return ""
+
+    def _restore(self) -> None:
+        """Have the monitor hold the place that is driven to, or none. Its answer would change nothing."""
+        self._dropped = False
+        if self._driven_to is None:
+            self.release()
+        else:
+            self._claim.call_async(ClaimGoal.Request(robot=self._robot, goal=self._driven_to))
 
     def close(self) -> None:
         """Leave the graph."""

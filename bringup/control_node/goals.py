@@ -77,6 +77,7 @@ class Goals:
             refusal = Result(Outcome.OVERRULED, text)
         self._waiting = None
         if refusal is not None:
+            self._withdraw()
             self._finish(handle, refusal, 0.0, math.nan)
             return None
         self._end_driving(REPLACED)
@@ -99,6 +100,7 @@ class Goals:
         """End what waits and what is driven to: the robot is not driven any more."""
         result = Result(Outcome.OVERRULED, text)
         if self._waiting is not None:
+            self._withdraw()
             self._finish(self._waiting, result, 0.0, math.nan)
             self._waiting = None
         if self._driving is not None:
@@ -132,6 +134,10 @@ class Goals:
             self._asked = True
             self._claims.ask(request.pose)
         return self._claims.refusal()
+
+    def _withdraw(self) -> None:
+        if self._claims is not None:
+            self._claims.withdraw()
 
     def _release(self) -> None:
         if self._claims is not None:

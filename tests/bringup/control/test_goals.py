@@ -19,6 +19,7 @@ from rclpy.action import ActionClient
 from sensor_msgs.msg import LaserScan
 from std_srvs.srv import Trigger
 
+from bringup.fleet_node import visited
 from tests.bringup.control.bench import DEADLINE, NODE, TICK, Bench, on_bench
 
 # What rclpy imports to find its types still uses the old name of a standard module.
@@ -282,6 +283,48 @@ def test_the_fleet_is_asked_for_the_place_and_told_when_it_is_free_again(room: R
     finally:
         for service in services:
             room.node.destroy_service(service)
+
+
+def test_a_place_that_is_granted_after_the_goal_was_canceled_is_given_back(room: Room) -> None:
+    """To nobody, or to the goal that is driven to all the while."""
+    service = visited.serve(room.node, ClaimGoal, "/slow_monitor/claim_goal")
+    released: list[str] = []
+
+    def release(request: Any, response: Any) -> Any:
+        released.append(request.robot)
+        return response
+
+    releasing = room.node.create_service(ReleaseGoal, "/slow_monitor/release_goal", release)
+    asked: list[tuple[Any, Any]] = []
+
+    def question() -> tuple[Any, Any]:
+        room.until(lambda: bool(asked.extend(visited.requests(service)) or asked), "the place is asked for")
+        return asked.pop(0)
+
+    def canceled_while_asking(goal: Any) -> None:
+        handle = room.send(goal)
+        _, header = question()
+        room.until(handle.cancel_goal_async().done, "the goal is to be canceled")
+        assert room.result(handle).result.outcome == CANCELED
+        service.send_response(ClaimGoal.Response(granted=True), header)
+
+    try:
+        assert room.set(claim_service="/slow_monitor/claim_goal")[0][0]
+        canceled_while_asking(room.goal(*elsewhere(room)))
+        room.until(lambda: released == ["robot1"], "the place is given back")
+        driven = room.send(room.goal(*elsewhere(room)))
+        first, header = question()
+        service.send_response(ClaimGoal.Response(granted=True), header)
+        room.until(lambda: not room.stands(), "driving")
+        canceled_while_asking(room.goal(0.0, 0.0))
+        again, header = question()
+        assert again == first
+        service.send_response(ClaimGoal.Response(granted=True), header)
+        room.until(driven.cancel_goal_async().done, "it is canceled")
+        room.until(lambda: released == ["robot1", "robot1"], "the place is given back")
+    finally:
+        room.node.destroy_service(service)
+        room.node.destroy_service(releasing)
 
 
 def test_with_nobody_to_ask_a_goal_is_driven_to_all_the_same(room: Room) -> None:
