@@ -295,11 +295,17 @@ def test_a_place_that_is_granted_after_the_goal_was_canceled_is_given_back(room:
         return response
 
     releasing = room.node.create_service(ReleaseGoal, "/slow_monitor/release_goal", release)
-    asked: list[tuple[Any, Any]] = []
 
     def question() -> tuple[Any, Any]:
-        room.until(lambda: bool(asked.extend(visited.requests(service)) or asked), "the place is asked for")
-        return asked.pop(0)
+        asked: list[tuple[Any, Any]] = []
+
+        def heard() -> bool:
+            asked.extend(visited.requests(service))
+            return bool(asked)
+
+        room.until(heard, "the place is asked for")
+        (only,) = asked
+        return only
 
     def canceled_while_asking(goal: Any) -> None:
         handle = room.send(goal)
