@@ -179,3 +179,20 @@ def test_a_pending_trigger_keeps_the_run(tmp_path: Path) -> None:
     run = finished(tmp_path, plan(triggers=(at_start(log("at last"), delay=0.3),)))
     assert run.popen.returncode == 0
     assert "[orchestra] at last\n" in run.stderr
+
+
+@pytest.mark.parametrize(
+    ("restart", "code", "told"),
+    [
+        (Restart("on-failure", delay=0.01, max_delay=0.01, growth=1.0, budget=1), 4, "last 2 runs were each"),
+        (Restart("always", budget=0), 0, "last run was"),
+        (Restart("on-failure", budget=0), 0, ""),
+        (Restart("no", budget=0), 4, ""),
+    ],
+)
+def test_it_is_told_why_a_process_is_not_started_again(
+    tmp_path: Path, restart: Restart, code: int, told: str
+) -> None:
+    run = finished(tmp_path, plan(process("a", f"exit={code}", restart=restart)))
+    said = [line for line in run.stderr.splitlines() if "not started again" in line]
+    assert [f"its {told} shorter than 10 s" in line for line in said] == [True] * bool(told)

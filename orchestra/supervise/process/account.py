@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from orchestra.supervise.process.life import Event, Rules, State
     from orchestra.supervise.surroundings import Surroundings
 
+# The policies under which a process starts again after a run that succeeded, and after one that did not.
+_AGAIN_AFTER = {True: ("always",), False: ("always", "on-failure")}
+
 
 class Account:
     """Keeps the account of a process, by its id in the plan."""
@@ -44,13 +47,20 @@ class Account:
             cause=type(event).__name__,
             **data,
         )
-        restart = self._rules.restart
-        if phase is Phase.FAILED and not state.asked and restart and restart.budget is not None:
-            self.say("is not started again: too many short runs in a row")
+        if phase in (Phase.EXITED, Phase.FAILED) and not state.asked:
+            self._over(success=phase is Phase.EXITED)
         if isinstance(event, Hung):
             self.say(f"hangs ({event.reason}) and is ended")
         if phase is Phase.READY:
             self.say(f"is ready after {self._around.loop.clock() - state.started_at:.1f} s")
+
+    def _over(self, *, success: bool) -> None:
+        """Tell why it is not started again where that is for its budget alone."""
+        restart = self._rules.restart
+        if restart is None or restart.budget is None or restart.policy not in _AGAIN_AFTER[success]:
+            return
+        runs = "last run was" if restart.budget == 0 else f"last {restart.budget + 1} runs were each"
+        self.say(f"is not started again: its {runs} shorter than {restart.min_uptime:g} s")
 
     def cold(self, reason: str) -> None:
         """Record that it is started by itself although the fork server was to start it."""
