@@ -11,10 +11,11 @@ from orchestra.ros.tools.graph.hearing import publishers, subscribe, type_of
 from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import absolute
 from orchestra.ros.tools.graph.qos import chosen, matched
+from orchestra.ros.tools.messages.commas import csv_text
 from orchestra.ros.tools.messages.expressions import field_of, passes
 from orchestra.ros.tools.messages.fields import is_message
 from orchestra.ros.tools.messages.plain import WHOLE, Shortening, plain, value_of
-from orchestra.ros.tools.messages.text import csv_text, yaml_text
+from orchestra.ros.tools.messages.text import yaml_text
 from orchestra.ros.tools.messages.types import message_class
 from orchestra.ros.tools.telling import as_json, json_line, warn
 
@@ -90,7 +91,7 @@ def _json(options: Namespace, short: Shortening) -> Callable[[Any, dict[str, Any
 def _csv(options: Namespace, short: Shortening) -> Callable[[Any, dict[str, Any]], str]:
     def text(part: Any, about: dict[str, Any]) -> str:  # noqa: ANN401 - as above
         info = ",".join(map(str, about.values())) + "," if options.include_message_info else ""
-        return info + csv_text(value_of(part, short))
+        return info + csv_text(part, short)
 
     return text
 

@@ -19,10 +19,11 @@ from std_msgs.msg import Byte, ByteMultiArray, Float64MultiArray, Header, Int8, 
 
 from orchestra.errors import RunError
 from orchestra.ros.interfaces import tf_message_type
+from orchestra.ros.tools.messages.commas import csv_text
 from orchestra.ros.tools.messages.expressions import field_of, passes
 from orchestra.ros.tools.messages.plain import Shortening, plain
 from orchestra.ros.tools.messages.reading import fill, mapping_of
-from orchestra.ros.tools.messages.text import csv_text, yaml_text
+from orchestra.ros.tools.messages.text import yaml_text
 
 _TEXTS = st.text(st.characters(exclude_categories=["Cs"]), max_size=20) | st.sampled_from(
     [
@@ -144,7 +145,7 @@ def test_long_values_are_shortened() -> None:
 
 
 def test_values_are_written_in_one_line() -> None:
-    assert csv_text(plain(Header(frame_id="a"))) == "0,0,a\n"
+    assert csv_text(Header(frame_id="a")) == "0,0,a\n"
 
 
 def test_parts_of_messages_are_taken_by_their_paths() -> None:
