@@ -52,6 +52,11 @@ class Guard:
             for descriptor in watched:
                 os.close(descriptor)
 
+    @property
+    def pids(self) -> tuple[int, ...]:
+        """Its pid, nothing where there is none."""
+        return (self._pid,) if self._pid else ()
+
     def dismiss(self) -> None:
         """End it: there is nothing to guard any more."""
         if self._pid:

@@ -63,12 +63,15 @@ def keep(supervise: Callable[[], int], patience: Patience, stacks: Stacks, bury:
     guard = Guard(supervisor, bury)
     watch = _Watch(supervisor, guard, patience, stacks, modes)
     status = watch.until_it_ends()
-    guard.dismiss()
     if status is None or not os.WIFEXITED(status):
         terminal_modes.give_back(modes)
     if status is not None and os.WIFEXITED(status) and os.WEXITSTATUS(status) == UNSTOPPABLE:
+        guard.dismiss()
         return UNSTOPPABLE  # the supervisor has tried everything, and has named what is left
-    left = sweep(_pause)
+    # Whoever kills the supervisor may kill us before this is done.
+    left = sweep(_pause, guard.pids)
+    guard.dismiss()
+    left = left or sweep(_pause)
     if status is None or not os.WIFEXITED(status) or os.WEXITSTATUS(status) == _BUG:
         _clear_caps()
         _clear_shared_memory(began)

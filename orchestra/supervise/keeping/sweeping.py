@@ -16,7 +16,7 @@ from orchestra.supervise.keeping import proc
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable, Collection, Iterable
 
 # The supervisor is dead: what it started gets these, each for the time given, 5 s together.
 _POLITE = ((signal.SIGINT, 2.0), (signal.SIGTERM, 1.5))
@@ -26,34 +26,39 @@ _LOOK_AGAIN = 0.05
 _CHASE = 0.3
 
 
-def sweep(pause: Callable[[float], bool]) -> list[int]:
+def sweep(pause: Callable[[float], bool], spared: Collection[int] = ()) -> list[int]:
     """End every descendant of this process, a subreaper, politely first; return those that are left.
 
-    `pause` waits so many seconds at most, collects those of our children that have ended, and tells whether somebody
+    Children that are `spared` stay. `pause` waits so many seconds at most, collects those of our children that have ended, and tells whether somebody
     is in a hurry: then everything is killed now. Whoever receives a signal decides nothing: after the last one only
     what the kernel itself cannot end is left.
     """
     for number, seconds in _POLITE:
-        if _asked(number, seconds, pause):
+        if _asked(number, seconds, pause, spared):
             break
     deadline = time.monotonic() + _KILL
-    while not proc.childless():
+    while not _alone(spared):
         if time.monotonic() >= deadline:
-            return proc.descendants(os.getpid())
-        kill_below(os.getpid(), lambda: pause(0.0))
+            return [pid for pid in proc.descendants(os.getpid()) if pid not in spared]
+        kill_below(os.getpid(), lambda: pause(0.0), spared)
         pause(_LOOK_AGAIN)
     return []
 
 
-def _asked(number: int, seconds: float, pause: Callable[[float], bool]) -> bool:
+def _alone(spared: Collection[int]) -> bool:
+    """Tell whether nothing is below this process, or as far as can be seen nothing but who is spared."""
+    return proc.childless() or (bool(spared) and set(proc.children(os.getpid())) <= {*spared})
+
+
+def _asked(number: int, seconds: float, pause: Callable[[float], bool], spared: Collection[int]) -> bool:
     """Ask each descendant once, and wait for their end; tell whether there is nothing more to wait for.
 
     That is when all have ended, or somebody is in a hurry.
     """
     deadline = time.monotonic() + seconds
-    told: set[int] = set()
+    told: set[int] = {*spared}
     hurry = pause(0.0)
-    while not proc.childless():
+    while not _alone(spared):
         if hurry or time.monotonic() >= deadline:
             return hurry
         left = set(proc.descendants(os.getpid()))
@@ -63,11 +68,11 @@ def _asked(number: int, seconds: float, pause: Callable[[float], bool]) -> bool:
     return True
 
 
-def kill_below(root: int, collect: Callable[[], object]) -> None:
+def kill_below(root: int, collect: Callable[[], object], spared: Collection[int] = ()) -> None:
     """Stop, then kill, every descendant of a process; `collect` reaps those of our children that have ended."""
     deadline = time.monotonic() + _CHASE
     stopped: set[int] = set()
-    while (new := set(proc.branch(root)) - stopped) and time.monotonic() < deadline:
+    while (new := set(proc.branch(root)) - stopped - {*spared}) and time.monotonic() < deadline:
         for pid in new:
             _send(pid, signal.SIGSTOP)
         stopped |= new
