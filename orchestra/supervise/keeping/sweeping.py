@@ -29,9 +29,9 @@ _CHASE = 0.3
 def sweep(pause: Callable[[float], bool], spared: Collection[int] = ()) -> list[int]:
     """End every descendant of this process, a subreaper, politely first; return those that are left.
 
-    Children that are `spared` stay. `pause` waits so many seconds at most, collects those of our children that have ended, and tells whether somebody
-    is in a hurry: then everything is killed now. Whoever receives a signal decides nothing: after the last one only
-    what the kernel itself cannot end is left.
+    Children that are `spared` stay. `pause` waits so many seconds at most, collects those of our children that have
+    ended, and tells whether somebody is in a hurry: then everything is killed now. Whoever receives a signal decides
+    nothing: after the last one only what the kernel itself cannot end is left.
     """
     for number, seconds in _POLITE:
         if _asked(number, seconds, pause, spared):
