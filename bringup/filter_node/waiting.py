@@ -1,16 +1,19 @@
 """Waits for what wakes a node, without the executor's detour.
 
 rclpy's executor builds a new wait set in Python for each wait and waits twice for each callback, which costs more
-than everything that the filter does with 150 messages a second. Here one wait set is filled again each time and
-subscriptions are handed over directly; services, answers to calls and actions, which are rare, still go through the
-executor. The wait set is the one that `rclpy.wait_for_message` uses.
+than everything that the filter does with 150 messages a second. Here one wait set is filled again each time, from
+lists that are made anew only when the node has something else to wait for, and subscriptions are handed over
+directly; services, answers to calls and actions, which are rare, still go through the executor. The wait set is the
+one that `rclpy.wait_for_message` uses.
 """
 
 from collections.abc import Callable
+from dataclasses import dataclass
 from types import TracebackType
 from typing import Any, Self, TypeAlias
 
 from rclpy.callback_groups import CallbackGroup
+from rclpy.event_handler import EventHandler
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
@@ -18,6 +21,35 @@ from rclpy.node import Node
 WaitSet: TypeAlias = Any
 Subscription: TypeAlias = Any
 Waitable: TypeAlias = Any
+# What a node has at the moment: subscriptions, clients, services and waitables.
+Entities: TypeAlias = tuple[tuple[Any, ...], ...]
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class _Waited:
+    """What is waited for, as long as the node has the same `entities`."""
+
+    entities: Entities
+    subscriptions: tuple[Subscription, ...]
+    handles: tuple[Any, ...]
+    clients: tuple[Any, ...]
+    services: tuple[Any, ...]
+    waitables: tuple[Waitable, ...]
+    wait_set: WaitSet
+
+    def fill(self) -> WaitSet:
+        """Fill the wait set, which a wait leaves with what was ready alone."""
+        wait_set = self.wait_set
+        wait_set.clear_entities()
+        for handle in self.handles:
+            wait_set.add_subscription(handle)
+        for handle in self.clients:
+            wait_set.add_client(handle)
+        for handle in self.services:
+            wait_set.add_service(handle)
+        for waitable in self.waitables:
+            waitable.add_to_wait_set(wait_set)
+        return wait_set
 
 
 class Waiting:
@@ -28,8 +60,7 @@ class Waiting:
         self._left_out = left_out
         # Its callback does nothing: triggering it ends a wait.
         self._wake_up = node.create_guard_condition(lambda: None)
-        self._wait_set: WaitSet = None
-        self._sizes: tuple[int, ...] = ()
+        self._waited: _Waited | None = None
         self._executor = SingleThreadedExecutor()
         self._executor.add_node(node)
 
@@ -50,48 +81,47 @@ class Waiting:
 
     def wait(self, timeout: int) -> bool:
         """Wait up to `timeout` ns (-1: for ever) and hand over what has come; tells whether there is more to serve."""
-        subscriptions = [
-            subscription
-            for subscription in self._node.subscriptions
-            if subscription.callback_group is not self._left_out
-        ]
-        wait_set = self._filled(subscriptions)
+        waited = self._present()
+        wait_set = waited.fill()
+        wait_set.add_guard_condition(self._wake_up.handle)
         wait_set.wait(timeout)
         ready = wait_set.get_ready_entities("subscription")
-        for subscription in subscriptions:
-            if subscription.handle.pointer in ready:
-                _hand_over(subscription)
-        called = any(waitable.is_ready(wait_set) for waitable in self._node.waitables)
+        if ready:
+            for subscription in waited.subscriptions:
+                if subscription.handle.pointer in ready:
+                    _hand_over(subscription)
+        called = any(waitable.is_ready(wait_set) for waitable in waited.waitables)
         return bool(called or wait_set.get_ready_entities("service") or wait_set.get_ready_entities("client"))
 
     def serve(self) -> None:
         """Let the executor answer one call, or do whatever else rclpy has put on the node."""
         self._executor.spin_once(timeout_sec=0)
 
-    def _filled(self, subscriptions: list[Subscription]) -> WaitSet:
-        services, clients, waitables = (
-            list(self._node.services),
-            list(self._node.clients),
-            list(self._node.waitables),
-        )
+    def _present(self) -> _Waited:
+        node = self._node
+        entities = tuple(node.subscriptions), tuple(node.clients), tuple(node.services), tuple(node.waitables)
+        if self._waited is None or self._waited.entities != entities:
+            self._waited = self._listed(entities)
+        return self._waited
+
+    def _listed(self, entities: Entities) -> _Waited:
+        every, clients, services, waitables = entities
+        subscriptions = tuple(each for each in every if each.callback_group is not self._left_out)
+        # What rclpy warns of has time until the next turn of the executor.
+        waitables = tuple(each for each in waitables if not isinstance(each, EventHandler))
         # Subscriptions, guard conditions, timers, clients, services, events.
         sizes = [len(subscriptions), 1, 0, len(clients), len(services), 0]
         for waitable in waitables:
             sizes = [one + more for one, more in zip(sizes, _sizes(waitable), strict=True)]
-        if self._wait_set is None or tuple(sizes) != self._sizes:
-            self._sizes = tuple(sizes)
-            self._wait_set = rclpy_implementation.WaitSet(*sizes, self._node.context.handle)
-        self._wait_set.clear_entities()
-        for subscription in subscriptions:
-            self._wait_set.add_subscription(subscription.handle)
-        for service in services:
-            self._wait_set.add_service(service.handle)
-        for client in clients:
-            self._wait_set.add_client(client.handle)
-        for waitable in waitables:
-            waitable.add_to_wait_set(self._wait_set)
-        self._wait_set.add_guard_condition(self._wake_up.handle)
-        return self._wait_set
+        return _Waited(
+            entities,
+            subscriptions,
+            tuple(each.handle for each in subscriptions),
+            tuple(each.handle for each in clients),
+            tuple(each.handle for each in services),
+            waitables,
+            rclpy_implementation.WaitSet(*sizes, self._node.context.handle),
+        )
 
 
 def _sizes(waitable: Waitable) -> tuple[int, ...]:
