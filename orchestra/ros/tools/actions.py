@@ -131,7 +131,8 @@ class _Pursuit:
                 self._cancel(sent.result())
             raise
         if not handle.accepted:
-            raise RunError("Goal was rejected.")
+            self._say("Goal was rejected.\n", {"status": "REJECTED"})
+            return 1
         number = bytes(handle.goal_id.uuid).hex()
         self._say(f"Goal accepted with ID: {number}\n\n", {"accepted": number})
         try:

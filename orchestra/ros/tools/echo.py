@@ -17,7 +17,7 @@ from orchestra.ros.tools.messages.fields import is_message
 from orchestra.ros.tools.messages.plain import WHOLE, Shortening, plain, value_of
 from orchestra.ros.tools.messages.text import yaml_text
 from orchestra.ros.tools.messages.types import message_class
-from orchestra.ros.tools.telling import as_json, json_line, warn
+from orchestra.ros.tools.telling import as_json, json_line, remark, warn
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -49,7 +49,7 @@ def echo(options: Namespace) -> int:
         if not said:
             profile, notes = matched(publishers(graph, topic), profile)
             for note in notes:
-                warn(f"{topic}: {note}")
+                remark(options, note)
         lost = None if options.no_lost_messages else _lost
         subscribe(graph.node, kind, topic, profile, heard, raw=options.raw, lost=lost)
         left = None if until is None else max(0.0, until - time.monotonic())
@@ -59,8 +59,10 @@ def echo(options: Namespace) -> int:
     return 0
 
 
-def renderer(options: Namespace) -> Callable[[Any, dict[str, Any]], str]:
-    """Return what writes a message, or a part of one, as the options say."""
+def renderer(
+    options: Namespace, worded: Callable[[dict[str, Any]], dict[str, Any]] = lambda told: told
+) -> Callable[[Any, dict[str, Any]], str]:
+    """Return what writes a message, or a part of one, as the options say; `worded` has words for numbers in YAML."""
     short = Shortening(
         None if options.full_length else options.truncate_length, options.no_arr, options.no_str
     )
@@ -70,12 +72,18 @@ def renderer(options: Namespace) -> Callable[[Any, dict[str, Any]], str]:
         return _csv(options, short)
 
     def text(part: Any, about: dict[str, Any]) -> str:  # noqa: ANN401 - of any class
-        info = yaml_text(dict(sorted(about.items()))) + _END if options.include_message_info else ""
         if not is_message(part):
-            return f"{info}{part}\n{_END}"
-        return f"{info}{yaml_text(plain(part, short), flow=options.flow_style)}{_END}"
+            return _bare(part, about if options.include_message_info else None)
+        info = yaml_text(dict(sorted(about.items()))) + _END if options.include_message_info else ""
+        return f"{info}{yaml_text(worded(plain(part, short)), flow=options.flow_style)}{_END}"
 
     return text
+
+
+def _bare(part: Any, about: dict[str, Any] | None) -> str:  # noqa: ANN401 - as above
+    """Return what is no message, a single value, as the ROS 2 tools write it."""
+    info = "" if about is None else f"---Got new message, message info:---\n{about}\n---Message data:---\n"
+    return f"{info}{part}\n{_END}"
 
 
 def _json(options: Namespace, short: Shortening) -> Callable[[Any, dict[str, Any]], str]:
@@ -90,6 +98,8 @@ def _json(options: Namespace, short: Shortening) -> Callable[[Any, dict[str, Any
 
 def _csv(options: Namespace, short: Shortening) -> Callable[[Any, dict[str, Any]], str]:
     def text(part: Any, about: dict[str, Any]) -> str:  # noqa: ANN401 - as above
+        if not is_message(part):
+            return _bare(part, about if options.include_message_info else None)
         info = ",".join(map(str, about.values())) + "," if options.include_message_info else ""
         return info + csv_text(part, short)
 

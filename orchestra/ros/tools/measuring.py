@@ -84,7 +84,8 @@ def bandwidth_text(sizes: Summary, seconds: float) -> str:
     per_second = sizes.mean * sizes.count / seconds
     scale, unit = (1, "B") if per_second < _KILO else (_KILO, "KB") if per_second < _MEGA else (_MEGA, "MB")
     amounts = [per_second, sizes.mean, sizes.least, sizes.most]
-    total, mean, least, most = (f"{amount / scale:.2f} {unit}" for amount in amounts)
+    digits = 0 if scale == 1 else 2
+    total, mean, least, most = (f"{amount / scale:.{digits}f} {unit}" for amount in amounts)
     return f"{total}/s from {sizes.count} messages\n\tMessage size mean: {mean} min: {least} max: {most}\n"
 
 

@@ -37,7 +37,10 @@ def info(options: Namespace) -> int:
             raise unknown("node", full, nodes(graph))
         count = nodes(graph, every=True).count(full)
     if count > 1:
-        warn(f"warning: there are {count} nodes {full}; this is one of them")
+        warn(
+            f'There are {count} nodes in the graph with the exact name "{full}". '
+            "You are seeing information about only one of them."
+        )
     groups = "".join(f"  {title}:\n{_names(seen[key])}" for key, title in _GROUPS)
     data = {key: [{"name": name, "types": types} for name, types in seen[key]] for key, _ in _GROUPS}
     tell(options, f"{full}\n{groups}", {"node": full, **data})

@@ -11,8 +11,8 @@ from rcl_interfaces.msg import Parameter
 
 from orchestra.errors import RunError
 from orchestra.ros.tools.graph.asking import Deadline
-from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import absolute, nodes, services, unknown
+from orchestra.ros.tools.graph.seeing import looking
 from orchestra.ros.tools.parameter_values import json_value, plain_value, type_name, value_of
 from orchestra.ros.tools.parameters import Asked, asked
 from orchestra.ros.tools.telling import as_json, json_line, tell, warn
@@ -20,7 +20,7 @@ from orchestra.ros.tools.telling import as_json, json_line, tell, warn
 if TYPE_CHECKING:
     from argparse import Namespace
 
-    from orchestra.ros.tools.graph.joining import Graph
+    from orchestra.ros.tools.graph.seeing import Graph
 
 _VALUES: Final = "ros__parameters"
 _EVERY_NODE: Final = "/**"
@@ -30,7 +30,7 @@ _LISTS: Final = "/list_parameters"
 def list_parameters(options: Namespace) -> int:
     """Write the names of parameters, of one node or of all."""
     keep = _filter(options)
-    with joined(options) as graph:
+    with looking(options) as graph:
         wanted = _wanted(graph, options)
         silent = []
         found: dict[str, list[tuple[str, str]]] = {}
@@ -67,7 +67,7 @@ def dump(options: Namespace) -> int:
         values = node.values(names)
         if len(values) != len(names):  # rclcpp answers nothing at all where one has no value
             values = [next(iter(node.values([name])), value_of(None)) for name in names]
-    kept = [(name, value) for name, value in zip(names, values, strict=True) if value.type]
+    kept = list(zip(names, values, strict=True))
     if as_json(options):
         sys.stdout.write(json_line({node.node: {name: json_value(value) for name, value in kept}}))
         return 0
@@ -76,9 +76,8 @@ def dump(options: Namespace) -> int:
     tree: dict[str, Any] = {}
     for name, value in kept:
         _place(tree, name, plain_value(value))
-    sys.stdout.write(
-        yaml.safe_dump({node.node: {_VALUES: tree}}, default_flow_style=False, allow_unicode=True)
-    )
+    # As the ROS 2 tools write it: in ASCII, with an empty line at its end.
+    sys.stdout.write(yaml.safe_dump({node.node: {_VALUES: tree}}, default_flow_style=False) + "\n")
     return 0
 
 
@@ -87,6 +86,8 @@ def load(options: Namespace) -> int:
     values = _in_file(options.file, absolute(options.node), wildcard=not options.no_use_wildcard)
     made = []
     for name, data in values.items():
+        if data is None:
+            continue  # as `dump` writes what has no value: to set it would be to undeclare it
         try:
             made.append(Parameter(name=name, value=value_of(data)))
         except RunError as error:

@@ -20,6 +20,7 @@ _KINDS: Final = {
     ParameterType.PARAMETER_DOUBLE_ARRAY: ("double array", "Double values are:", "double_array_value"),
     ParameterType.PARAMETER_STRING_ARRAY: ("string array", "String values are:", "string_array_value"),
 }
+_ARRAYS: Final = tuple(kind for kind, (name, *_) in _KINDS.items() if name.endswith("array"))
 _UNSET: Final = ("not set", "Parameter not set.", "")
 _INTEGERS: Final = (-(2**63), 2**63 - 1)
 
@@ -46,6 +47,16 @@ def plain_value(value: Any) -> Any:  # noqa: ANN401 - as above
     return found if found is None or isinstance(found, bool | int | float | str) else list(found)
 
 
+def is_empty(value: Any) -> bool:  # noqa: ANN401 - as above
+    """Tell whether it is an array in which nothing is."""
+    return value.type in _ARRAYS and not len(held(value))
+
+
+def retyped(value: Any, like: Any) -> ParameterValue:  # noqa: ANN401 - as above
+    """Return an empty array as one of the type that another value has, where that is an array."""
+    return ParameterValue(type=like.type) if like.type in _ARRAYS else value
+
+
 def json_value(value: Any) -> Any:  # noqa: ANN401 - as above
     """Return it as JSON data: bytes are numbers."""
     found = plain_value(value)
@@ -55,13 +66,17 @@ def json_value(value: Any) -> Any:  # noqa: ANN401 - as above
 
 
 def value_of_text(text: str) -> ParameterValue:
-    """Return the value that a text stands for, by the rules of YAML: `'!!str 1'` is a string. Raises `RunError`."""
+    """Return the value that a text stands for, by the rules of YAML: `'!!str 1'` is a string. Raises `RunError`.
+
+    What YAML reads as nothing (`null`), or not at all, is meant as it stands, as in the ROS 2 tools.
+    """
     import yaml  # noqa: PLC0415 - only where somebody gives a text
 
     try:
-        return value_of(yaml.safe_load(text) if text.strip() else text)
+        found = yaml.safe_load(text)
     except yaml.YAMLError:
-        return value_of(text)  # as the ROS 2 tools have it: then it is meant as it stands
+        found = None
+    return value_of(text if found is None else found)
 
 
 def value_of(data: Any) -> ParameterValue:  # noqa: ANN401 - whatever YAML gives
@@ -84,9 +99,9 @@ def value_of(data: Any) -> ParameterValue:  # noqa: ANN401 - whatever YAML gives
 
 
 def _array(items: list[Any]) -> ParameterValue:
-    """Return the value of a list. An empty one is of strings, as in the ROS 2 tools: nothing tells its type."""
+    """Return the value of a list. Nothing tells the type of an empty one: it is of booleans, as in the ROS 2 tools."""
     kinds = {type(item) for item in items}
-    if kinds == {bool}:
+    if kinds <= {bool}:
         return _made(ParameterType.PARAMETER_BOOL_ARRAY, items)
     if kinds == {int}:
         return _made(ParameterType.PARAMETER_INTEGER_ARRAY, [_bounded(item) for item in items])

@@ -11,11 +11,13 @@ from rcl_interfaces.srv import DescribeParameters, GetParameters, ListParameters
 from orchestra.errors import RunError
 from orchestra.nearest import nearest
 from orchestra.ros.tools.graph.asking import Deadline, ask, node_there
-from orchestra.ros.tools.graph.joining import joined
+from orchestra.ros.tools.graph.seeing import looking
 from orchestra.ros.tools.parameter_values import (
     held,
+    is_empty,
     json_value,
     label,
+    retyped,
     type_name,
     value_of,
     value_of_text,
@@ -26,7 +28,7 @@ if TYPE_CHECKING:
     from argparse import Namespace
     from collections.abc import Iterator, Sequence
 
-    from orchestra.ros.tools.graph.joining import Graph
+    from orchestra.ros.tools.graph.seeing import Graph
 
 
 class Asked:
@@ -53,7 +55,13 @@ class Asked:
         return list(self._ask(DescribeParameters, "describe_parameters", request).descriptors)
 
     def set(self, parameters: Sequence[Parameter]) -> list[Any]:
-        """Set parameters, each on its own, and return what the node says to each."""
+        """Set parameters, each on its own, and return what the node says to each.
+
+        An empty list is of the type that the parameter has.
+        """
+        for one in filter(lambda one: is_empty(one.value), parameters):
+            for present in self.values([one.name]):
+                one.value = retyped(one.value, present)
         request = SetParameters.Request(parameters=list(parameters))
         return list(self._ask(SetParameters, "set_parameters", request, repeat=False).results)
 
@@ -65,7 +73,7 @@ class Asked:
 def asked(options: Namespace) -> Iterator[Asked]:
     """Join the graph and find the node."""
     deadline = Deadline(options.timeout)
-    with joined(options) as graph:
+    with looking(options) as graph:
         yield Asked(graph, node_there(graph, options.node, deadline), deadline)
 
 
@@ -77,14 +85,8 @@ def get(options: Namespace) -> int:
         if not values or not values[0].type:
             _must_be_there(node, options.name)
     value = values[0] if values else value_of(None)
-    text = " ".join(map(str, ([] if options.hide_type or held(value) is None else [label(value)])))
-    shown = (
-        label(value)
-        if held(value) is None
-        else f"{text} {held(value)}".lstrip()
-        if text
-        else str(held(value))
-    )
+    there = held(value)
+    shown = str(there) if options.hide_type else label(value) if there is None else f"{label(value)} {there}"
     data = {
         "node": node.node,
         "name": options.name,

@@ -18,5 +18,5 @@ def proto(options: Namespace) -> int:
     kind = interface_type(options.type)
     made = plain(getattr(kind, "Request", getattr(kind, "Goal", kind))())
     text = yaml_text(made)
-    tell(options, text if options.no_quotes else f'"{text}"\n', made)
+    tell(options, f"{text}\n" if options.no_quotes else f'"{text}"\n', made)
     return 0

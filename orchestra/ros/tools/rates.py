@@ -24,7 +24,7 @@ from orchestra.ros.tools.measuring import (
 )
 from orchestra.ros.tools.messages.expressions import passes
 from orchestra.ros.tools.messages.types import message_class
-from orchestra.ros.tools.telling import tell, warn
+from orchestra.ros.tools.telling import remark, tell
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -76,7 +76,15 @@ def bw(options: Namespace) -> NoReturn:
         return bandwidth_text(summary, seconds), bandwidth_data(summary, seconds)
 
     with joined(options) as graph:
-        _watch(graph, options, heard, report, lambda: sizes.heard, raw=True)
+        _watch(
+            graph,
+            options,
+            heard,
+            report,
+            lambda: sizes.heard,
+            raw=True,
+            begin=f"Subscribed to [{options.topic}]",
+        )
 
 
 def delay(options: Namespace) -> NoReturn:
@@ -95,7 +103,7 @@ def delay(options: Namespace) -> NoReturn:
             summary = delays.summary()
             return None if summary is None else (delay_text(summary), delay_data(summary))
 
-        _watch(graph, options, heard, report, lambda: delays.heard, raw=False)
+        _watch(graph, options, heard, report, lambda: delays.heard, raw=False, silence="no new messages")
 
 
 def _watch(
@@ -106,24 +114,28 @@ def _watch(
     count: Callable[[], int],
     *,
     raw: bool,
+    begin: str | None = None,
+    silence: str | None = None,
 ) -> NoReturn:
-    """Hear a topic and report until somebody ends it."""
+    """Hear a topic and report until somebody ends it; say `begin` first, and `silence` where nothing new comes."""
     topic = absolute(options.topic)
     if not graph.found(lambda: dict(topics(graph)).get(topic)):
-        warn(f"WARNING: topic [{topic}] does not appear to be published yet")
+        remark(options, f"WARNING: topic [{options.topic}] does not appear to be published yet")
         graph.wait(lambda: dict(topics(graph)).get(topic), None)
     kind = message_class(type_of(graph, topic))
     profile = QoSProfile(
         history=HistoryPolicy.KEEP_LAST, depth=_DEEP, reliability=ReliabilityPolicy.BEST_EFFORT
     )
     subscribe(graph.node, kind, topic, profile, heard, raw=raw)
+    if begin is not None:
+        remark(options, begin)
     due, told = time.monotonic() + _EVERY, 0
     while True:
         graph.wait(lambda: False, due - time.monotonic())
         due = max(due + _EVERY, time.monotonic())
         found = report()
-        if count() == told:
-            warn("no new messages")
-        elif found is not None:
+        if count() != told and found is not None:
             tell(options, *found)
+        elif found is not None and silence is not None:
+            remark(options, silence)
         told = count()

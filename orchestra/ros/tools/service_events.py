@@ -7,6 +7,7 @@ import time
 from typing import TYPE_CHECKING, Any, Final
 
 from rclpy.qos import qos_profile_services_default
+from service_msgs.msg import ServiceEventInfo
 
 from orchestra.errors import RunError
 from orchestra.ros.tools.echo import renderer
@@ -22,6 +23,10 @@ if TYPE_CHECKING:
     from orchestra.ros.tools.graph.joining import Graph
 
 _TOPIC: Final = "/_service_event"
+_KINDS: Final = {
+    getattr(ServiceEventInfo, name): name
+    for name in ("REQUEST_SENT", "REQUEST_RECEIVED", "RESPONSE_SENT", "RESPONSE_RECEIVED")
+}
 
 
 def echo(options: Namespace) -> int:
@@ -29,7 +34,7 @@ def echo(options: Namespace) -> int:
     name = absolute(options.service)
     wanted = 1 if options.once else options.count
     shown = 0
-    render = renderer(options)
+    render = renderer(options, _worded)
 
     def heard(message: Any, about: dict[str, Any]) -> None:  # noqa: ANN401 - of any class
         nonlocal shown
@@ -49,6 +54,12 @@ def echo(options: Namespace) -> int:
     if wanted is not None and not enough:
         raise RunError(f"{name}: {shown} of {wanted} events came within {options.timeout:g} s")
     return 0
+
+
+def _worded(event: dict[str, Any]) -> dict[str, Any]:
+    """Return an event with the name of what has happened in place of its number, as the ROS 2 tools write it."""
+    kind = event["info"]["event_type"]
+    return {**event, "info": {**event["info"], "event_type": _KINDS.get(kind, kind)}}
 
 
 def _type_of(graph: Graph, name: str) -> str:

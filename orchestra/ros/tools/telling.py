@@ -35,6 +35,13 @@ def lines(items: Any) -> str:  # noqa: ANN401 - texts
     return "".join(f"{item}\n" for item in items)
 
 
+def remark(options: Namespace, text: str) -> None:
+    """Say what the ROS 2 tools say among their answers; where JSON is asked for, on standard error."""
+    stream = sys.stderr if as_json(options) else sys.stdout
+    stream.write(f"{text}\n")
+    stream.flush()
+
+
 def warn(text: str) -> None:
     """Say something on standard error, beside the answer."""
     sys.stderr.write(f"{text}\n")

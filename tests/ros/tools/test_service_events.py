@@ -48,7 +48,7 @@ def shell() -> Iterator[Graph]:
         ) as server:
             try:
                 assert server.stdout is not None
-                assert server.stdout.readline() == "ready\n"
+                assert "ready\n" in server.stdout  # the middleware may say something before
                 yield Graph(here)
             finally:
                 server.kill()
@@ -63,7 +63,7 @@ def test_requests_and_responses_are_shown(shell: Graph) -> None:
         told = echo.stdout.read()
         assert echo.wait() == 0
     assert told.count("\n---\n") == 2
-    assert "event_type: 1\n" in told or "event_type: 2\n" in told
+    assert "  event_type: REQUEST_RECEIVED\n" in told or "  event_type: RESPONSE_SENT\n" in told
     assert "- data: true\n" in told or "message: it is so\n" in told
 
 

@@ -78,7 +78,8 @@ def test_the_rate_of_messages_is_measured(graph: Graph) -> None:
 def test_how_much_comes_in_is_measured(graph: Graph) -> None:
     with graph.asking("topic", "bw", "/robot1/scan") as process:
         assert process.stdout is not None
-        first, second = process.stdout.readline(), process.stdout.readline()
+        begin, first, second = (process.stdout.readline() for _ in range(3))
+    assert begin == "Subscribed to [/robot1/scan]\n"
     assert "/s from " in first
     assert second.startswith("\tMessage size mean: 1.50 KB min: 1.50 KB")
 

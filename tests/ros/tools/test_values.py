@@ -38,7 +38,9 @@ from orchestra.ros.tools.parameter_values import plain_value, value_of, value_of
         ("[1, 2]", ParameterType.PARAMETER_INTEGER_ARRAY, [1, 2]),
         ("[1, 2.5]", ParameterType.PARAMETER_DOUBLE_ARRAY, [1.0, 2.5]),
         ("[a, '1']", ParameterType.PARAMETER_STRING_ARRAY, ["a", "1"]),
-        ("[]", ParameterType.PARAMETER_STRING_ARRAY, []),
+        ("[]", ParameterType.PARAMETER_BOOL_ARRAY, []),
+        ("null", ParameterType.PARAMETER_STRING, "null"),
+        ("~", ParameterType.PARAMETER_STRING, "~"),
         ("!!binary AQI=", ParameterType.PARAMETER_BYTE_ARRAY, [b"\x01", b"\x02"]),
     ],
 )

@@ -29,6 +29,10 @@ _LEASE: Final = "qos_liveliness_lease_duration_seconds"
 _DURATIONS: Final = ("lifespan", "deadline", "liveliness_lease_duration")
 _ENDLESS: Final = 2**62  # what an endpoint of the graph has as an endless duration, in nanoseconds
 _NANOSECONDS: Final = 1e9
+_MIXED: Final = (
+    "Some, but not all, publishers are offering QoS{policy}Policy.{}. Falling back to QoS{policy}Policy.{} "
+    "as it will connect to all publishers"
+)
 _DEEP: Final = 1000  # nothing is lost while the process that hears does something else for a moment
 
 
@@ -62,16 +66,12 @@ def matched(endpoints: Sequence[Any], profile: QoSProfile) -> tuple[QoSProfile, 
         ReliabilityPolicy.RELIABLE if reliable == len(endpoints) else ReliabilityPolicy.BEST_EFFORT
     )
     if 0 < reliable < len(endpoints):
-        notes.append(
-            "some publishers are reliable and others best effort: heard with best effort, as all can be"
-        )
+        notes.append(_MIXED.format("RELIABLE", "BEST_EFFORT", policy="Reliability"))
     made.durability = (
         DurabilityPolicy.TRANSIENT_LOCAL if keeping == len(endpoints) else DurabilityPolicy.VOLATILE
     )
     if 0 < keeping < len(endpoints):
-        notes.append(
-            "some publishers keep messages for those who come late and others do not: heard from now on"
-        )
+        notes.append(_MIXED.format("TRANSIENT_LOCAL", "VOLATILE", policy="Durability"))
     return made, notes
 
 
