@@ -31,6 +31,7 @@ REPORTED = "reported"
 _EntityT = TypeVar("_EntityT", bound="Entity")
 
 _set_beside: Callable[[Model, dict[str, Any]], None] = vars(Model)["__pydantic_private__"].__set__
+_set_values: Callable[[Model, dict[str, Any]], None] = vars(Model)["__dict__"].__set__
 
 
 class FaultReader(Protocol):
@@ -211,6 +212,14 @@ class Conditional(Entity):
 
 class Action(Conditional):
     """What a launch description is made of."""
+
+
+def new_entity(model: type[_EntityT], values: dict[str, Any], span: Span) -> _EntityT:
+    """Return an entity of a file: all of its fields, which nothing is wrong with, and its place."""
+    entity = object.__new__(model)
+    _set_values(entity, values)
+    _set_beside(entity, {"span": span})
+    return entity
 
 
 def _sound(entity: _EntityT) -> _EntityT:

@@ -48,6 +48,14 @@ def describe(tree: Any, path: str, file: str, reader: Reader) -> Description | N
     return Description(path, file, launch.children, launch.deprecated, frozenset(builder.lost))
 
 
+def action_in(item: Any, reader: Reader) -> Action | None:  # noqa: ANN401 - a tree
+    """Return the one action that an item of a list of actions holds; None where there is none, or there are more."""
+    items = Listed(item.span)
+    items.append(item)
+    actions = _Builder(reader).actions(items, item.span)
+    return actions[0] if len(actions) == 1 else None
+
+
 @dataclass(slots=True)
 class _Builder:
     """Builds the actions of one file; remembers every scalar of those that cannot be built."""

@@ -5,17 +5,20 @@ from __future__ import annotations
 import os
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, cast
 
+from orchestra.description.launch import Description
 from orchestra.errors import Code, Problems
 from orchestra.load.encodings import UndecodableError, decoded
 from orchestra.load.entities import describe
+from orchestra.load.offsets import source
 from orchestra.load.reader import Reader
 from orchestra.location import Location, Span, displayed, point
 from orchestra.witness.once import once, real
 
 if TYPE_CHECKING:
-    from orchestra.description.launch import Description
+    from orchestra.description.entity import Action
+    from orchestra.load.alike.one_by_one import Format
 
 PYTHON = ".py"
 FORMATS: dict[str, str] = {
@@ -25,7 +28,11 @@ FORMATS: dict[str, str] = {
     ".yml": "yaml_file",
 }
 
+# The formats of which long files are read action by action, with what was learned of others.
+ONE_BY_ONE: dict[str, str] = {"xml_file": "xml_items", "yaml_file": "yaml_items"}
+
 _LARGEST = 64 * 1024 * 1024
+_LONG = 1_000  # characters
 
 
 def load(
@@ -52,8 +59,22 @@ def load(
     text = _text(path, file, problems, location)
     if text is None:
         return None
+    actions = _one_by_one(text, file, module, reader) if len(text) >= _LONG else None
+    if actions is not None:
+        return Description(path, file, actions)
     tree = import_module(f"orchestra.load.{module}").read(text, file, reader)
     return None if tree is None else describe(tree, path, file, reader)
+
+
+def _one_by_one(text: str, file: str, module: str, reader: Reader) -> tuple[Action, ...] | None:
+    """Return the actions of a long file in which nothing is wrong; None where it takes the ordinary way to read it."""
+    items = ONE_BY_ONE.get(module)
+    if items is None:
+        return None
+    from orchestra.load.alike.one_by_one import actions  # noqa: PLC0415 - what is short needs none of it
+
+    written = cast("Format", import_module(f"orchestra.load.alike.{items}"))
+    return actions(written, source(file, text), reader)
 
 
 def _text(path: str, file: str, problems: Problems, location: Location) -> str | None:

@@ -58,6 +58,11 @@ def read(text: str, file: str, reader: Reader) -> Keyed | None:
     return tree
 
 
+def tree_of_action(element: Element, whole: Source, reader: Reader) -> Keyed:
+    """Return the tree of one action."""
+    return _Shaper(whole, reader).action(element)
+
+
 @dataclass(slots=True)
 class _Shaper:
     """Makes trees of elements."""

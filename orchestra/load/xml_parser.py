@@ -35,12 +35,15 @@ class NotXmlError(Exception):
         self.fault = fault
 
 
-def parse(whole: Source) -> Element:
-    """Return the root element. Raises `NotXmlError`."""
+def parse(whole: Source, begin: int = 0, end: int | None = None) -> Element:
+    """Return the root element, or the one that stands between two offsets. Raises `NotXmlError`."""
     parser = expat.ParserCreate("utf-8")  # whatever the text declares: it has been decoded
     parser.ordered_attributes = True
-    content = whole.text.encode("utf-8", "surrogatepass")
-    elements = _Elements(whole, _offsets(whole.text, content), parser)
+    text = whole.text[begin:end]
+    content = text.encode("utf-8", "surrogatepass")
+    offset = _offsets(text, content)
+    elements = _Elements(whole, (lambda index: begin + offset(index)) if begin else offset, parser)
+    elements.deepest -= begin > 0  # it stands in another one
     parser.StartElementHandler = elements.start
     parser.EndElementHandler = elements.end
     parser.CharacterDataHandler = elements.text
@@ -80,6 +83,7 @@ class _Elements:
         self.parser = parser
         self.roots: list[Element] = []
         self.open: list[Element] = []
+        self.deepest = _DEEPEST
 
     def opened(self) -> Opened | None:
         """Return the name and the place of the innermost element that is open."""
@@ -90,7 +94,7 @@ class _Elements:
 
     def start(self, name: str, pairs: list[str]) -> None:
         at = self.offset(self.parser.CurrentByteIndex) + 1
-        if len(self.open) >= _DEEPEST:
+        if len(self.open) >= self.deepest:
             fault = Fault(f"the file nests more than {_DEEPEST} deep", self.whole.span(at, at + len(name)))
             raise NotXmlError(fault)
         element = _element(self.whole.text, name, at, pairs)

@@ -54,22 +54,32 @@ def read(whole: Source) -> Any | None:  # noqa: ANN401 - a tree
         return None
 
 
+def read_part(whole: Source, begin: int, end: int, depth: int) -> Any | None:  # noqa: ANN401 - a tree
+    """Return the tree of what stands between two offsets, so deep in a file, if it is a whole value; None as `read`."""
+    try:
+        parser = PARSER(whole.text[begin:end])
+        return _Events(whole, parser.get_event, begin).document(depth)
+    except (_NotPlainError, yaml.YAMLError):
+        return None
+
+
 class _Events:
-    """Reads on from an event; `following` gives the next one."""
+    """Reads on from an event; `following` gives the next one. Their text begins at the offset `first` of the whole."""
 
-    __slots__ = ("following", "marked", "text", "whole")
+    __slots__ = ("first", "following", "marked", "text", "whole")
 
-    def __init__(self, whole: Source, following: Callable[[], Any]) -> None:
+    def __init__(self, whole: Source, following: Callable[[], Any], first: int = 0) -> None:
         self.whole = whole
+        self.first = first
         self.text = whole.text
         self.following = following
         self.marked = any(map(whole.text.__contains__, "&*!"))  # there may be anchors or tags
 
-    def document(self) -> Any:  # noqa: ANN401 - a tree
+    def document(self, depth: int = 1) -> Any:  # noqa: ANN401 - a tree
         """Return the tree of the one document that there is."""
         self.following()  # the stream begins
         self.expect(DocumentStartEvent)
-        tree = self.value(self.following(), None, 1)
+        tree = self.value(self.following(), None, depth)
         self.expect(DocumentEndEvent)
         self.expect(StreamEndEvent)
         return tree
@@ -93,7 +103,8 @@ class _Events:
         if self.marked and (event.anchor is not None or event.tag is not None):
             raise _NotPlainError
         text, style = event.value, event.style
-        begin, end = event.start_mark.index, event.end_mark.index
+        first = self.first
+        begin, end = event.start_mark.index + first, event.end_mark.index + first
         span = stretch(self.whole, begin, end)
         if not style:
             if self.text[begin:end] == text:
@@ -111,14 +122,14 @@ class _Events:
         while (kind := type(event)) is not SequenceEndEvent:
             items.append(self.scalar(event) if kind is ScalarEvent else self.value(event, None, depth + 1))
             event = following()
-        listed = Listed(_between(self.whole, start, event))
+        listed = Listed(self.between(start, event))
         listed += items
         return listed
 
     def mapping(self, start: Any, key: Any, depth: int) -> Keyed:  # noqa: ANN401 - events
         if self.marked:
             self.check(start)
-        whole, following = self.whole, self.following
+        following = self.following
         found: dict[str, Any] = {}
         keys: list[Any] = []
         event = following()
@@ -137,13 +148,13 @@ class _Events:
             event = following()
         if kind is not MappingEndEvent:
             raise _NotPlainError
-        span = _between(whole, start, event)
+        span = self.between(start, event)
         if key is None and keys and not start.flow_style:
             key = keys[0]
-        head = inside(span, 0, 1) if key is None else _between(whole, key, key)
+        head = inside(span, 0, 1) if key is None else self.between(key, key)
         mapping = Keyed(span, head, found)
         mapping.place_later(
-            lambda: {name: _between(whole, mark, mark) for name, mark in zip(found, keys, strict=True)}
+            lambda: {name: self.between(mark, mark) for name, mark in zip(found, keys, strict=True)}
         )
         return mapping
 
@@ -152,6 +163,7 @@ class _Events:
         if event.anchor is not None or event.tag is not None:
             raise _NotPlainError
 
-
-def _between(whole: Source, first: Any, last: Any) -> Span:  # noqa: ANN401 - events
-    return stretch(whole, first.start_mark.index, last.end_mark.index)
+    def between(self, first: Any, last: Any) -> Span:  # noqa: ANN401 - events
+        """Return the place from where one event begins to where another one ends."""
+        before = self.first
+        return stretch(self.whole, first.start_mark.index + before, last.end_mark.index + before)

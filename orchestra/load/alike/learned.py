@@ -1,0 +1,70 @@
+"""How actions of one form are written, and what is made of their values.
+
+Launch files that are long say the same few things time and again. An action that has been read in the ordinary way
+becomes a regular expression, in which its values are groups, and a function that makes the same objects of other
+values. Of each form several are read first: it takes as long to learn as some five actions take to be read.
+
+Nothing is read here that the ordinary way would read otherwise: values are of characters that mean nothing in the
+format, and whatever there is to tell of one sends the whole file the ordinary way.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Final
+
+from orchestra.dataclass import dataclass
+from orchestra.description.entity import Action
+from orchestra.fields import field
+from orchestra.load.offsets import Source
+from orchestra.load.reader import Reader
+
+# So many of one form are read before it is learned, and so many forms are kept of each beginning and in all.
+FEW: Final = 4
+_MOST_ALIKE: Final = 8
+_MOST: Final = 100
+# So many forms that have been seen too seldom are counted.
+_MOST_COUNTED: Final = 2_000
+
+
+class UnlikeError(Exception):
+    """A value is not one of those that can be told by their characters alone."""
+
+
+@dataclass(frozen=True, slots=True)
+class Form:
+    """One way to write an action: what matches its text, and what makes the action of a match."""
+
+    pattern: re.Pattern[str]
+    make: Callable[[Source, re.Match[str], Reader], Action]
+
+
+@dataclass(slots=True)
+class Forms:
+    """The forms of one format that are known, by how the text of an action begins."""
+
+    known: dict[str, list[Form]] = field(default_factory=dict)
+    _counted: dict[tuple[str, ...], int] = field(default_factory=dict)
+
+    def worth(self, words: tuple[str, ...]) -> bool:
+        """Count an action of a form that is not known; tell whether it is time to learn it."""
+        if len(self._counted) >= _MOST_COUNTED:
+            self._counted.clear()
+        count = self._counted[words] = self._counted.get(words, 0) + 1
+        return count == FEW and sum(map(len, self.known.values())) < _MOST
+
+    def keep(self, beginning: str, form: Form) -> None:
+        """Keep a form; of those that begin alike the last one is tried first."""
+        alike = self.known.setdefault(beginning, [])
+        alike.insert(0, form)
+        del alike[_MOST_ALIKE:]
+
+
+def action_of(forms: list[Form] | None, whole: Source, begin: int, end: int, reader: Reader) -> Action | None:
+    """Return the action that stands between two offsets, where it is of one of these forms."""
+    for form in forms or ():
+        match = form.pattern.fullmatch(whole.text, begin, end)
+        if match is not None:
+            return form.make(whole, match, reader)
+    return None

@@ -1,0 +1,87 @@
+"""The actions of a file, each by itself: by a form that is known, else in the ordinary way, which teaches it."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Protocol
+
+from orchestra.dataclass import dataclass
+from orchestra.description.actions import model_of
+from orchestra.description.source import Keyed
+from orchestra.errors import Problems
+from orchestra.load.alike.casting import learned
+from orchestra.load.alike.learned import Forms, UnlikeError, action_of
+from orchestra.load.entities import action_in
+from orchestra.load.keys import spelled
+from orchestra.load.reader import Reader
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable
+
+    from orchestra.description.entity import Action
+    from orchestra.load.alike.casting import Manner
+    from orchestra.load.offsets import Source
+
+
+@dataclass(slots=True)
+class Item:
+    """A stretch of a file that holds one action, and how it begins: actions of one form begin alike."""
+
+    begin: int
+    end: int
+    beginning: str
+
+
+class Format(Protocol):
+    """What is asked of a format."""
+
+    MANNER: Manner
+    FORMS: Forms
+
+    @staticmethod
+    def items(whole: Source) -> Iterable[Item] | None:
+        """Return the stretches, in order and with nothing but blanks and comments between them; None as `actions`."""
+
+    @staticmethod
+    def tree(whole: Source, item: Item, reader: Reader) -> Any | None:  # noqa: ANN401 - a tree
+        """Return the tree of the one action of a stretch; None where there is something else."""
+
+    @staticmethod
+    def words(text: str) -> list[str]:
+        """Return what the form of an action shows in: the same for those that are alike."""
+
+
+def actions(written: Format, whole: Source, around: Reader) -> tuple[Action, ...] | None:
+    """Return the actions of a file in which nothing is wrong; None for any other, and where it takes a closer look.
+
+    Nothing is reported to the reader `around`: whoever reads the file in the ordinary way finds it again.
+    """
+    items = written.items(whole)
+    if items is None:
+        return None
+    reader = Reader(Problems(), around.included_from)
+    known, found = written.FORMS.known, []
+    for item in items:
+        action = action_of(known.get(item.beginning), whole, item.begin, item.end, reader)
+        action = action or _read(written, whole, item, reader)
+        if action is None or len(reader.problems):
+            return None
+        found.append(action)
+    return tuple(found)
+
+
+def _read(written: Format, whole: Source, item: Item, reader: Reader) -> Action | None:
+    """Return an action in the ordinary way; learn its form if there have been some of it."""
+    tree = written.tree(whole, item, reader)
+    if not isinstance(tree, Keyed) or any(model_of(spelled(name)) is None for name in tree):
+        return None
+    action = action_in(tree, reader)
+    if action is None or action.faulty or len(reader.problems):
+        return None
+    words = written.words(whole.text[item.begin : item.end])
+    if written.FORMS.worth((item.beginning, *words)):
+        try:
+            form = learned(tree, action, whole, item.begin, item.end, written.MANNER)
+        except UnlikeError:
+            return action
+        written.FORMS.keep(item.beginning, form)
+    return action

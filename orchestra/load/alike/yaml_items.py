@@ -1,0 +1,87 @@
+"""The actions of a YAML launch file, each by itself.
+
+An item of a list in block form ends where a line begins that is indented no more than it. The text of each is read as
+a document of its own, which is complete if the item is: what is left open, as a quote or a bracket, is a fault there.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.load.alike.casting import Manner
+from orchestra.load.alike.learned import Forms
+from orchestra.load.alike.one_by_one import Item
+from orchestra.load.yaml_plain import read_part
+
+if TYPE_CHECKING:
+    from orchestra.load.offsets import Source
+    from orchestra.load.reader import Reader
+
+# What a comment may hold here (more characters take 10 ms to be compiled), what stands behind a value up to the next
+# one, and lines without any.
+_COMMENT: Final = r"#[\t -~\xa0-\xff]*"
+_REST: Final = rf"(?: +{_COMMENT}| *)(?:\n *(?:{_COMMENT})?)*"
+_EMPTY: Final = rf"(?: *(?:{_COMMENT})?\n)*"
+_HEAD: Final = re.compile(rf"{_EMPTY}(?:--- *\n{_EMPTY})?launch: *(?: {_COMMENT})?\n{_EMPTY}(?=( *)- )")
+_CLOSED: Final = re.compile(rf"([\]}} ,]*?)({_REST})")
+_BEGINNING: Final = re.compile(r"[^\n:]*:")
+_WORDS: Final = re.compile(r"[\w-]+(?=:[ \n])|[{\[]|\n *- ")
+
+# Values in quotes that have no escapes; plain ones, within a flow collection and outside of one.
+_QUOTED: Final = r"[ !#-&(-[\]-~]+"  # of ASCII all but quotes and backslashes
+_FIRST: Final = r"(?![nN]ull\b|NULL\b)(?:[A-Za-z0-9_/.$(+]|-(?=[0-9.]))"
+_FLOW: Final = r"[A-Za-z0-9_/.$()+=~^;@%<>-]"
+_BLOCK: Final = r"(?:[A-Za-z0-9_/.$()+=~^;@%<>,{}\[\]-]|:(?=[A-Za-z0-9_/.=$(]))"
+_IN_FLOW: Final = rf"{_FIRST}{_FLOW}*(?: +{_FLOW}+)*"
+_IN_BLOCK: Final = rf"{_FIRST}{_BLOCK}*(?: +{_BLOCK}+)*"
+_QUOTES: Final = ("'", '"')
+_BRACKET: Final = re.compile(r"[{\[]")
+_DEPTH: Final = 2  # a list that stands behind the key of a mapping
+
+FORMS: Final = Forms()
+
+
+def items(whole: Source) -> list[Item] | None:
+    """Return the items of the list behind the only key; None where the file is anything else."""
+    text = whole.text
+    head = _HEAD.match(text)
+    if head is None:
+        return None
+    begins = [
+        found.start() for found in re.finditer(rf"^ {{{len(head[1])}}}- ", text[head.end() :], re.MULTILINE)
+    ]
+    begins = [head.end() + begin for begin in begins]
+    found = []
+    for begin, end in zip(begins, [*begins[1:], len(text)], strict=True):
+        beginning = _BEGINNING.match(text, begin, end)
+        found.append(Item(begin, end, beginning[0] if beginning is not None else ""))
+    return found
+
+
+def tree(whole: Source, item: Item, reader: Reader) -> Any | None:  # noqa: ANN401 - a tree
+    """Return the tree of an item; None where the text does not end with it."""
+    del reader
+    listed = read_part(whole, item.begin, item.end, _DEPTH)
+    return listed[0] if isinstance(listed, list) and len(listed) == 1 else None
+
+
+def words(text: str) -> list[str]:
+    """Return the keys of an item, and where lists and flow mappings begin."""
+    return _WORDS.findall(text)
+
+
+def _harmless(text: str, start: int, begin: int, end: int) -> str:
+    before, behind = text[begin - 1 : begin], text[end : end + 1]
+    if before in _QUOTES:
+        return _QUOTED if before == behind else ""
+    # Behind a bracket fewer characters mean nothing, as long as it is open and, for simplicity, afterwards too.
+    return _IN_BLOCK if _BRACKET.search(text, start, begin) is None else _IN_FLOW
+
+
+def _ending(text: str) -> str:
+    closed = _CLOSED.fullmatch(text)
+    return re.escape(text) if closed is None else f"{re.escape(closed[1])}{_REST}"
+
+
+MANNER: Final = Manner(_harmless, _ending)

@@ -1,0 +1,162 @@
+"""What is read action by action, by what was learned of others, is what the ordinary way reads."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from orchestra.errors import Problems
+from orchestra.load import xml_file, yaml_file
+from orchestra.load.alike import xml_items, yaml_items
+from orchestra.load.alike.learned import FEW, Forms
+from orchestra.load.alike.one_by_one import actions
+from orchestra.load.entities import describe
+from orchestra.load.offsets import source
+from orchestra.load.reader import Reader
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+    from orchestra.description.entity import Action
+
+_YAML = (
+    "- node:\n    pkg: {0}\n    exec: {1}\n    name: '{2}'\n    output: screen\n    param:\n"
+    '    - {{name: rate, value: {3}}}\n    - {{name: x, value: [{0}, "{1}"]}}\n    - from: {2}\n'
+    "    args: {3}\n",
+    "- let: {{name: a, value: {0}}} # {1}\n",
+    "- arg:\n    name: {0}\n    default: {1}\n    description: {2}\n    choices: [{3}, 'b']\n",
+    "- group:\n  - push_ros_namespace: {{namespace: {0}}}\n  - node: {{exec: {1}, name: {2}}}\n  # {3}\n",
+    "- executable:\n    cmd: {0}\n    env:\n      - name: A\n        value: {1}\n    shell: {3}\n\n",
+    "- include:\n    file: $(dirname)/{0}\n    arg: [{{name: {1}, value: '{2}'}}]\n    if: $(var {3})\n",
+    "- log: {{message: {0} $(var a) {1}, level: info}}\n",
+    "- set_parameter: {{name: {0}, value: {1}}}\n",
+)
+_XML = (
+    '<node pkg="{0}" exec="{1}" name="{2}" output="screen"><param name="rate" value="{3}"/>\n'
+    "  <remap from=\"{0}\" to='{1}'/></node>\n",
+    '<let name="{0}" value="{1}"/> <!-- {2} -->\n',
+    '<arg name="{0}" default="{1}" description="{2}"/>',
+    '<group><push_ros_namespace namespace="{0}"/><node exec="{1}" name="{2}"/></group>\n',
+    '<executable cmd="{0}" shell="{3}"><env name="A" value="{1}"/></executable>\n',
+)
+_ODD = st.text("ab1 :#-,'\"\\\n[]{}$()<>&!*~.|%@`=\tü\u2028", max_size=8)
+_LIKELY = st.sampled_from(
+    """a -1 1.5 null ~ true $(var\ta) /$(var\ta)/b $(find-pkg-share\tx)/y\tz a:\tb a\t#b [a,\tb] {a:\tb} (var\ta) ${var\ta}
+    it's 'q' "q" a,b $(env\tA) $(eval\t1) x=1 ... a\\b""".replace("\t", "\0").split()
+).map(lambda text: text.replace("\0", " "))
+_VALUES = st.lists(st.tuples(*[st.one_of(_LIKELY, _LIKELY, _ODD)] * 4), min_size=1, max_size=4)
+
+
+def _forgetful(module: Any, monkeypatch: pytest.MonkeyPatch) -> Forms:
+    forms = Forms()
+    monkeypatch.setattr(module, "FORMS", forms)
+    return forms
+
+
+def _ordinary(module: Any, text: str) -> tuple[tuple[Action, ...] | None, bool]:
+    """Return the actions of a text as it is read otherwise, and whether there is nothing to tell of it."""
+    reader = Reader(Problems())
+    tree = module.read(text, "a", reader)
+    found = None if tree is None else describe(tree, "/a", "a", reader)
+    if found is None:
+        return None, False
+    return found.actions, not len(reader.problems) and not found.lost and found.deprecated is None
+
+
+def _compare(text: str, items: Any, module: Any) -> bool:
+    """Hold both ways to each other; return whether the one by one was taken."""
+    found = actions(items, source("a", text), Reader(Problems()))
+    if found is None:
+        return False
+    ordinary, sound = _ordinary(module, text)
+    assert sound
+    assert found == ordinary
+    assert [repr(action) for action in found] == [repr(action) for action in ordinary or ()]
+    return True
+
+
+def _written(template: str, values: Sequence[tuple[str, ...]]) -> str:
+    plain = ("a", "b", "c", "true")
+    return "".join(template.format(*item) for item in [*[plain] * FEW, *values])
+
+
+@settings(deadline=None)  # a busy machine is no fault
+@given(st.sampled_from(_YAML), _VALUES, st.integers(0, 4))
+def test_yaml_is_read_alike(template: str, values: list[tuple[str, ...]], indent: int) -> None:
+    text = _written(template, values).replace("\n", f"\n{' ' * indent}").rstrip(" ")
+    _compare(f"launch:\n{' ' * indent}{text}", yaml_items, yaml_file)
+
+
+@settings(deadline=None)  # a busy machine is no fault
+@given(st.sampled_from(_XML), _VALUES)
+def test_xml_is_read_alike(template: str, values: list[tuple[str, ...]]) -> None:
+    _compare(f"<launch>{_written(template, values)}</launch>\n", xml_items, xml_file)
+
+
+@pytest.mark.parametrize(
+    ("items", "module", "written", "template"),
+    [
+        *[(yaml_items, yaml_file, "# a\nlaunch:\n{}", template) for template in _YAML],
+        *[
+            (xml_items, xml_file, '<?xml version="1.0"?>\n<launch>\n{}</launch>', template)
+            for template in _XML
+        ],
+    ],
+)
+def test_forms_are_learned(
+    items: Any, module: Any, written: str, template: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    forms = _forgetful(items, monkeypatch)
+    assert _compare(written.format(_written(template, [])), items, module)
+    (known,) = forms.known.values()
+    assert len(known) == 1
+    others = [("x", "/y", "Z1", "true"), ("long_one", "$(var a)", "no text", "true")]
+    text = written.format("".join(template.format(*item) for item in others))
+    match = known[0].pattern.fullmatch
+    assert all(match(text, item.begin, item.end) for item in items.items(source("a", text)))
+    assert _compare(text, items, module)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "launch:\n- node: {exec: a}\nother: 1\n",
+        "launch:\n- node: {exec: a}\n---\nlaunch: []\n",
+        "launch:\n- node: {exec: a}\n- node: {exec: 'a\n- node: b'}\n",
+        "launch:\n- node: {exec: [a,\n- b]}\n",
+        "launch:\n- node: &x {exec: a}\n- *x\n",
+        "launch:\n- node: {exec: a}\n-\n  node: {exec: b}\n",
+        "launch:\n- node: {exec: a}\n  arg: {name: b}\n",
+        "launch:\n- nod: {exec: a}\n",
+        "launch: [{node: {exec: a}}]\n",
+        "launch:\n- node: {exec: a}\r- node: {exec: b}\n",
+        "launch:\n- node: {exec: a, name: (var a)}\n",
+        "launch:\n- a\n",
+        "launch:\n",
+        "",
+    ],
+)
+def test_what_takes_a_closer_look_is_left_alone(text: str) -> None:
+    assert not _compare(text, yaml_items, yaml_file)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "<launch><node exec='a'/></launch><launch/>",
+        "<launch><node exec='a'/>text</launch>",
+        "<launch x='1'><node exec='a'/></launch>",
+        "<launch><node exec='a'></launch>",
+        "<launch><nod exec='a'/></launch>",
+        "<launch><node exec='a' exec='b'/></launch>",
+        "<launch><group><group></group></group></launch>",
+        "<launch><node exec='a'><!-- </node> --></node></launch>",
+        "<launch><node exec='a'/>",
+        "",
+    ],
+)
+def test_xml_that_takes_a_closer_look_is_left_alone(text: str) -> None:
+    assert not _compare(text, xml_items, xml_file)
