@@ -89,12 +89,24 @@ def _compiled(path: str, cached: str) -> CodeType | None:
         or len(content) == _MOST
     ):
         return None
-    code: CodeType = marshal.loads(memoryview(content)[_HEADER:])  # noqa: S302 - bytecode, as the interpreter does
+    try:
+        code: CodeType = marshal.loads(memoryview(content)[_HEADER:])  # noqa: S302 - bytecode, as the interpreter does
+    except (EOFError, TypeError, ValueError):
+        _remove(cached)
+        return None
     if code.co_filename != path:
         _fix_co_filename(
             code, path
         )  # it was compiled in another place, or by another name: as the import system does
     return code
+
+
+def _remove(cached: str) -> None:
+    """Remove bytecode that was cut short, as the disk was full when it was written: the import system fails on it."""
+    try:
+        os.unlink(cached)  # noqa: PTH108 - see above
+    except OSError:
+        return
 
 
 def _word(number: int) -> bytes:

@@ -104,3 +104,13 @@ def test_an_interpreter_out_of_the_common_has_its_own_way(tree: Path) -> None:
     assert _loaders(_told(tree, PYTHONPYCACHEPREFIX=str(tree / "elsewhere"))) == {
         "_frozen_importlib_external"
     }
+
+
+def test_bytecode_that_was_cut_short_is_made_anew(tree: Path) -> None:
+    """A full disk cuts it, and the interpreter takes it for whole."""
+    _told(tree)
+    (cached,) = tree.glob("orchestra/__pycache__/plain.*.pyc")
+    content = cached.read_bytes()
+    cached.write_bytes(content[:-7])
+    assert _told(tree)["orchestra.plain"][5] == 3
+    assert cached.read_bytes() == content
