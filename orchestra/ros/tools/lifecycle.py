@@ -9,14 +9,14 @@ from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions, GetState
 from orchestra.errors import RunError
 from orchestra.ros.observer.transitions import consequence
 from orchestra.ros.tools.graph.asking import Deadline, ask
-from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import absolute, nodes, services, unknown
+from orchestra.ros.tools.graph.seeing import looking
 from orchestra.ros.tools.telling import lines, tell, warn
 
 if TYPE_CHECKING:
     from argparse import Namespace
 
-    from orchestra.ros.tools.graph.joining import Graph
+    from orchestra.ros.tools.graph.seeing import Graph
 
 _SERVICE: Final = "/get_state"
 _TYPE: Final = "lifecycle_msgs/srv/GetState"
@@ -24,7 +24,7 @@ _TYPE: Final = "lifecycle_msgs/srv/GetState"
 
 def list_nodes(options: Namespace) -> int:
     """Write the names of the nodes with a lifecycle."""
-    with joined(options) as graph:
+    with looking(options) as graph:
         found = graph.whole(lambda: _nodes(graph, every=options.all))
     if options.count_nodes:
         tell(options, f"{len(found)}\n", len(found))
@@ -35,7 +35,7 @@ def list_nodes(options: Namespace) -> int:
 
 def get(options: Namespace) -> int:
     """Write the state of a node, or of all that have one."""
-    with joined(options) as graph:
+    with looking(options) as graph:
         if options.node is not None:
             full = _node(graph, options.node)
             state = _state(graph, full, options)
@@ -57,7 +57,7 @@ def get(options: Namespace) -> int:
 def list_transitions(options: Namespace) -> int:
     """Write the transitions that a node can make now, or all that there are."""
     service = "get_transition_graph" if options.all else "get_available_transitions"
-    with joined(options) as graph:
+    with looking(options) as graph:
         full = _node(graph, options.node)
         found = _transitions(graph, full, service, Deadline(options.timeout))
     text = "".join(
@@ -75,7 +75,7 @@ def list_transitions(options: Namespace) -> int:
 def set_state(options: Namespace) -> int:
     """Make a node change its state."""
     deadline = Deadline(options.timeout)
-    with joined(options) as graph:
+    with looking(options) as graph:
         full = _node(graph, options.node)
         there = _transitions(graph, full, "get_available_transitions", deadline)
         available = [one.transition for one in there]

@@ -13,6 +13,8 @@ _SELDOM: Final = ("numpy", "yaml")
 # without where that is not to be had.
 _NEVER: Final = "rosidl_generator_py.generate_py_impl"
 _SPEC: Final = "__spec__"
+# What the import system asks of a package when it imports something in it.
+_OF_THE_IMPORT_SYSTEM: Final = (_SPEC, "__path__")
 
 
 class _Postponed(ModuleType):
@@ -23,7 +25,7 @@ class _Postponed(ModuleType):
 
     def __getattribute__(self, name: str) -> Any:  # noqa: ANN401 - whatever the module has
         get = super().__getattribute__
-        if name == _SPEC:
+        if name in _OF_THE_IMPORT_SYSTEM:
             return get(name)
         spec = get(_SPEC)
         self.__class__ = ModuleType  # type: ignore[assignment]  # it is one from here on
@@ -35,7 +37,12 @@ def postpone() -> None:
     """Have these modules imported when they are used. For a process with one thread of Python."""
     sys.modules.setdefault(_NEVER, None)  # type: ignore[arg-type]  # as the import system has it
     for name in _SELDOM:
-        spec = None if name in sys.modules else find_spec(name)
-        if spec is not None and spec.loader is not None:
-            module = sys.modules[name] = module_from_spec(spec)
-            module.__class__ = _Postponed
+        postpone_module(name)
+
+
+def postpone_module(name: str) -> None:
+    """Have a module imported when it is used, unless it is there. What is in a package can be imported before it."""
+    spec = None if name in sys.modules else find_spec(name)
+    if spec is not None and spec.loader is not None:
+        module = sys.modules[name] = module_from_spec(spec)
+        module.__class__ = _Postponed

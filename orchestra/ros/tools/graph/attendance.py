@@ -9,17 +9,12 @@ from __future__ import annotations
 
 import os
 import time
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
-from rclpy.utilities import get_rmw_implementation_identifier
-
+from orchestra.ros.tools.graph.bare import publishers
 from orchestra.ros.tools.graph.ports import own_port, ports_here
+from orchestra.ros.tools.graph.rcl import rcl
 from orchestra.ros.tools.graph.rollcall import RollCall
-
-if TYPE_CHECKING:
-    from collections.abc import Callable
-
-    from rclpy.node import Node
 
 # How long what is seen must stay as it is, in seconds: where participants are counted, and where they are not.
 _QUIET: Final = 0.1
@@ -41,15 +36,16 @@ _PREFIX, _HOST = 12, 4
 
 
 class Attendance:
-    """Who is there of those who should be."""
+    """Who is there of those who should be. `exact` tells whether all who should be are counted."""
 
-    def __init__(self, node: Node) -> None:
+    def __init__(self, node: Any) -> None:  # noqa: ANN401 - of rclpy, or a bare one
         self._news(time.monotonic())
         self._node = node
         self._domain = node.context.get_domain_id()
-        self._counted = get_rmw_implementation_identifier() == "rmw_fastrtps_cpp"
+        self._counted = rcl.rclpy_get_rmw_implementation_identifier() == "rmw_fastrtps_cpp"
         alone = os.environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").upper() == "LOCALHOST"
-        self._quiet = _QUIET if self._counted and alone else _QUIET_UNCOUNTED
+        self.exact = self._counted and alone
+        self._quiet = _QUIET if self.exact else _QUIET_UNCOUNTED
         self._seen: Any = None
         self._own = b""
         self._found: frozenset[bytes] = frozenset()
@@ -136,22 +132,22 @@ class Attendance:
 
     def _participants(self) -> frozenset[bytes]:
         """Return the identities of the participants of which endpoints are known."""
-        endpoints = self._node.get_publishers_info_by_topic(_DISCOVERY, no_mangle=True)
-        return frozenset(bytes(endpoint.endpoint_gid[:_PREFIX]) for endpoint in endpoints)
+        endpoints = publishers(self._node, _DISCOVERY, of_middleware=True)
+        return frozenset(endpoint.endpoint_gid[:_PREFIX] for endpoint in endpoints)
 
     def _named(self) -> frozenset[bytes]:
         """Return those of which nodes are known."""
-        ask: Callable[[str], Any] = self._node.get_publishers_info_by_topic
         named: set[bytes] = set()
         for topic in _OF_NODES:
             if not self._found <= named:
-                known = (one for one in ask(topic) if one.node_name != _UNKNOWN)
-                named.update(bytes(one.endpoint_gid[:_PREFIX]) for one in known)
+                known = (one for one in publishers(self._node, topic) if one.node_name != _UNKNOWN)
+                named.update(one.endpoint_gid[:_PREFIX] for one in known)
         return frozenset(named)
 
     def _identity(self) -> bytes:
         """Return our own identity, nothing until it is known."""
-        for endpoint in self._node.get_publishers_info_by_topic(_OF_NODES[0]):
-            if endpoint.node_name == self._node.get_name():
-                return bytes(endpoint.endpoint_gid[:_PREFIX])
+        for topic in _OF_NODES:
+            for endpoint in publishers(self._node, topic):
+                if endpoint.node_name == self._node.get_name():
+                    return endpoint.endpoint_gid[:_PREFIX]
         return b""

@@ -1,0 +1,155 @@
+"""What a node of ours sees of the graph, and a bare one for commands that look, and ask, and nothing else."""
+
+from __future__ import annotations
+
+import os
+import time
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, Final, TypeVar
+
+from orchestra.errors import RunError
+from orchestra.ros.tools.graph.attendance import Attendance
+from orchestra.ros.tools.graph.bare import BareContext, BareNode
+from orchestra.ros.tools.graph.ending import Ending
+
+if TYPE_CHECKING:
+    from argparse import Namespace
+    from collections.abc import Callable, Iterator
+
+_SeenT = TypeVar("_SeenT")
+
+# rclpy hears of a signal between two waits.
+_PAUSE: Final = 0.1
+_LOOK: Final = 0.005
+_MEETING: Final = 0.02
+_CHANGING: Final = 6
+_NO_SUPPORT: Final = "Type support not from this implementation"
+# No log file: it would be a new one for each command.
+ARGUMENTS: Final = ("--ros-args", "--disable-external-lib-logs")
+
+
+class Graph:
+    """What our node sees of the graph.
+
+    `spin_time` is the longest time in seconds without anything new to wait for, where not all of it is seen. `hear`
+    lets what has come in be heard, and waits for it at most so many seconds.
+    """
+
+    def __init__(
+        self,
+        node: Any,  # noqa: ANN401 - one of rclpy, or a bare one
+        spin_time: float,
+        ending: Ending,
+        hear: Callable[[float], None],
+    ) -> None:
+        self.node = node
+        self._ending = ending
+        self._hear = hear
+        self._began = time.monotonic()
+        self._spin_time = spin_time
+        self._met = False
+        self._attendance = Attendance(node)
+
+    def spin(self, seconds: float = _PAUSE) -> None:
+        """Let what has come in be heard, and wait for it at most so long."""
+        self._hear(min(seconds, _PAUSE))
+        self._ending.check()
+
+    def pause(self, seconds: float) -> None:
+        """Let a time pass in which nothing is heard, for those who take what comes themselves."""
+        self._has_met()
+        time.sleep(seconds)
+        self._ending.check()
+
+    def wait(self, holds: Callable[[], Any], seconds: float | None, look: float = _PAUSE) -> bool:
+        """Wait until something holds, without end where no time is given; return whether it does.
+
+        Each message that is heard may make it hold; what nobody tells of is looked at after `look` seconds each.
+        """
+        until = None if seconds is None else time.monotonic() + seconds
+        while not holds():
+            left = _PAUSE if until is None else until - time.monotonic()
+            if left <= 0:
+                return False
+            self.spin(min(left, look if self._has_met() else min(look, _MEETING)))
+        return True
+
+    def _has_met(self) -> bool:
+        """Tell whether all others are known, and ask them to name themselves where they are not."""
+        if not self._met:
+            self._met = self._attendance.complete() or self._is_late()
+        return self._met
+
+    def _is_late(self) -> bool:
+        """Tell whether nothing new has come for too long, or new things do not cease."""
+        changing = time.monotonic() - self._began
+        return self._attendance.silent(self._spin_time) or changing > _CHANGING * self._spin_time
+
+    def found(self, look: Callable[[], _SeenT]) -> _SeenT:
+        """Return the first that is seen and counts as true, else what is seen once all of the graph is."""
+        while not (seen := look()):
+            if self._is_whole(lambda: seen):
+                return look()
+        return seen
+
+    def whole(self, look: Callable[[], _SeenT], *, named: bool = False) -> _SeenT:
+        """Return what is seen once all of the graph is, and it stays as it is.
+
+        Names of nodes are all there as soon as everybody has `named` them: nothing more is waited for then.
+        """
+        while not (late := self._is_late()) and not self._attendance.complete():
+            self._rest()
+        if late or (named and self._attendance.exact):
+            return look()
+        while True:
+            seen = look()
+            if self._is_whole(lambda seen=seen: seen):  # type: ignore[misc]
+                return seen
+
+    def _is_whole(self, seen: Callable[[], Any]) -> bool:
+        """Tell whether nobody is missing and nothing changes any more; a moment passes otherwise."""
+        if self._attendance.settled(seen()) or self._is_late():
+            return True
+        self._rest()
+        return False
+
+    def _rest(self) -> None:
+        time.sleep(_LOOK)
+        self._ending.check()
+
+    def close(self) -> None:
+        """Leave the graph, and take back what was said to others to make them known."""
+        self._attendance.close()
+        self.node.destroy_node()
+
+
+@contextmanager
+def looking(options: Namespace) -> Iterator[Graph]:
+    """Look at the graph with a hidden bare node."""
+    context = BareContext(ARGUMENTS)
+    try:
+        with Ending() as ending:
+            node = BareNode(own_name(options), context)
+            graph = Graph(node, float(options.spin_time), ending, node.hear)
+            try:
+                yield graph
+            except ValueError as error:
+                raise told(error) from None
+            finally:
+                graph.close()
+    finally:
+        context.close()
+
+
+def own_name(options: Namespace) -> str:
+    """Return the name of our node."""
+    return getattr(options, "node_name", None) or f"_orchestra_{os.getpid()}"
+
+
+def told(error: ValueError) -> Exception:
+    """Return what tells the user of libraries that are not there; any other error as it is."""
+    if _NO_SUPPORT not in str(error):
+        return error
+    lines = [line.strip() for line in str(error).splitlines()]
+    reason = next((line for line in lines if "dlopen" in line), lines[0])
+    return RunError(f"the libraries of a type are not to be found: {reason}")
