@@ -18,6 +18,7 @@ _TYPE: Final = re.compile(
     r"(?P<name>[A-Za-z][A-Za-z0-9_]*(?:/[A-Za-z0-9_]+){0,2})(?:<=[0-9]+)?(?:\[[^\]]*\])?"
 )
 _IDL: Final = "module "
+_UNIT: Final = re.compile(r"\s*\[[^,\]]+\]")
 
 
 class Comments(Enum):
@@ -38,14 +39,36 @@ def expanded(name: str, text_of: Callable[[str], str], comments: Comments = Comm
 
 def _lines(name: str, text_of: Callable[[str], str], comments: Comments, depth: int) -> Iterator[str]:
     shown = comments is Comments.ALL or (comments is Comments.OUTER and depth == 0)
-    for line in text_of(name).splitlines():
+    for whole in text_of(name).splitlines():
+        line = whole.rstrip()
         field = without_comment(line)
-        if shown:
-            yield "\t" * depth + line
-        elif field.strip():
-            yield "\t" * depth + field.rstrip()
+        text = line if shown else bare(line)
+        if text:
+            yield "\t" * depth + text
+        elif shown:
+            yield ""
         if (nested := type_in(field, name.partition("/")[0])) is not None:
             yield from _lines(nested, text_of, comments, depth + 1)
+
+
+def bare(line: str) -> str:
+    """Return a line without its comment, as the ROS 2 tools leave it out.
+
+    They keep comments behind constants, comments that are indented and those without a text, and the `#` of the others.
+    """
+    field, sign, comment = line.replace("\t", " ").partition("#")
+    said = _without_unit(comment.lstrip("#"))
+    if not field:
+        return line if sign and not said else ""
+    if not field.strip() or not said or "=" in field.partition(" ")[2]:
+        return line
+    return line[: line.find(said.lstrip()) - 1].strip()
+
+
+def _without_unit(comment: str) -> str:
+    """Return a comment without the one unit in brackets that it may have: rosidl takes it for something else."""
+    units = _UNIT.findall(comment)
+    return comment.replace(units[0], "") if len(units) == 1 else comment
 
 
 def type_in(field: str, package: str) -> str | None:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.cli.interfaces.expanded import Comments, expanded, type_in, without_comment
+from orchestra.cli.interfaces.expanded import Comments, bare, expanded, type_in, without_comment
 from orchestra.cli.interfaces.index import Interfaces
 from orchestra.errors import RunError
 
@@ -63,10 +63,10 @@ def test_fields_of_types_stand_one_tab_deeper_without_comments(interfaces: Inter
 # What it is
 
 Inner[] parts  # all of them
-	float64 x 0
+	float64 x 0 #
 other_msgs/Deep deep
 	my_msgs/msg/Inner[3] inner
-		float64 x 0
+		float64 x 0 #
 string<=5 name "a # b"
 uint8 KIND=1 # one
 ---
@@ -77,10 +77,26 @@ bool done
 
 def test_comments_are_shown_as_they_are_wanted(interfaces: Interfaces) -> None:
     none = expanded("my_msgs/srv/Outer", interfaces.text, Comments.NONE)
-    assert none.startswith("Inner[] parts\n\tfloat64 x 0\n")
-    assert 'string<=5 name "a # b"\nuint8 KIND=1\n---\n' in none
+    assert none.startswith("Inner[] parts  #\n\tfloat64 x 0 #\n")
+    assert 'string<=5 name "a #\nuint8 KIND=1 # one\n---\n' in none
     everything = expanded("my_msgs/srv/Outer", interfaces.text, Comments.ALL)
-    assert "\t# a part\n\t\n\tfloat64 x 0 # how far\n" in everything
+    assert "\t# a part\n\n\tfloat64 x 0 # how far\n" in everything
+
+
+@pytest.mark.parametrize(
+    ("line", "shown"),
+    [
+        ("# said", ""),
+        ("#", "#"),
+        ("# [m]", "# [m]"),
+        ("    # said", "    # said"),
+        ("float32 x   # how far [m]", "float32 x   #"),
+        ("uint8 A = 1  # said", "uint8 A = 1  # said"),
+        ("uint8<=3[] a", "uint8<=3[] a"),
+    ],
+)
+def test_comments_are_left_out_as_the_ros_2_tools_leave_them_out(line: str, shown: str) -> None:
+    assert bare(line) == shown
 
 
 def test_a_definition_in_idl_is_shown_as_it_is() -> None:

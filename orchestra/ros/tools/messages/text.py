@@ -53,9 +53,11 @@ def _dumper() -> Any:  # noqa: ANN401 - a class of PyYAML
         pairs = [(dumper.represent_data(key), dumper.represent_data(value)) for key, value in data.items()]
         return yaml.MappingNode("tag:yaml.org,2002:map", pairs)
 
-    made = type("Dumper", (yaml.SafeDumper,), {})
-    made.add_representer(dict, represented)
-    return made
+    class Dumper(yaml.SafeDumper):  # type: ignore[misc] - of an untyped package
+        pass
+
+    Dumper.add_representer(dict, represented)
+    return Dumper
 
 
 def _mapping(fields: dict[str, Any], indent: str) -> Iterator[str]:
