@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from bringup.world.body import WHEEL_RADIUS, WHEEL_SEPARATION
 
 
-@dataclass(frozen=True, slots=True)
-class Twist:
-    """Forward velocity in m/s and turning rate in rad/s."""
+class Twist(NamedTuple):
+    """Forward velocity in m/s and turning rate in rad/s. A tuple, as `bringup.world.geometry.Pose` is."""
 
     linear: float
     angular: float

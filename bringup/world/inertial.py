@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING
 from bringup.world.draws import Draws
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     import numpy as np
-    from numpy.typing import NDArray
 
 SMALLEST_VARIANCE = 1e-9
 PERIOD = 0.01
@@ -53,7 +54,7 @@ class Inertial:
         self._walk = [noise.gyro_walk] * 3 + [noise.accelerometer_walk] * 3
         self._strays = any(self._walk)
 
-    def measure(self, true: NDArray[np.float64], dt: float = PERIOD) -> list[float]:
+    def measure(self, true: Sequence[float], dt: float = PERIOD) -> list[float]:
         """What it reports for true turning rates (three, rad/s) and accelerations (three, m/s^2), `dt` s later."""
         if self._strays:
             root = math.sqrt(dt)
@@ -63,7 +64,7 @@ class Inertial:
             self._walked[1] += dt * self._noise.accelerometer_walk**2
         draws = self._draws.take(6)
         # Without checks of the lengths, which are all six: this is the busiest line of the sensors.
-        parts = zip(true.tolist(), self._bias, self._strayed, self._deviation, draws, strict=False)
+        parts = zip(true, self._bias, self._strayed, self._deviation, draws, strict=False)
         return [value + bias + strayed + deviation * draw for value, bias, strayed, deviation, draw in parts]
 
     def variances(self) -> tuple[float, float]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
@@ -85,10 +85,29 @@ def load(layout: Layout) -> Model:
     return Model(layout, physics, robots, _owners(physics, [robot.name for robot in robots]))
 
 
+class Moment(NamedTuple):
+    """MuJoCo's numbers at one tick as plain ones, under its names: whoever asks one by one pays for numpy each time."""
+
+    qpos: list[float]
+    qvel: list[float]
+    sensordata: list[float]
+
+
+def moment(data: Any) -> Moment:  # noqa: ANN401 - MjData has no type
+    """The numbers of this moment."""
+    return Moment(data.qpos.tolist(), data.qvel.tolist(), data.sensordata.tolist())
+
+
 def pose(data: Any, robot: Robot) -> Pose:  # noqa: ANN401 - MjData has no type
     """Where the robot is now, in world coordinates."""
-    x, y, _, *quaternion = data.qpos[robot.position : robot.position + 7].tolist()
-    return Pose(x, y, yaw_of(*quaternion))
+    return placed(data.qpos.tolist(), robot)
+
+
+def placed(qpos: list[float], robot: Robot) -> Pose:
+    """Where the robot is, in world coordinates, by the numbers of a moment."""
+    at = robot.position
+    x, y, _, w, i, j, k = qpos[at : at + 7]
+    return Pose(x, y, yaw_of(w, i, j, k))
 
 
 def place(data: Any, robot: Robot, pose: Pose) -> None:  # noqa: ANN401 - MjData has no type
@@ -115,7 +134,13 @@ def wheel_speeds(data: Any, robot: Robot) -> tuple[float, float]:  # noqa: ANN40
 
 def twist(data: Any, robot: Robot, heading: float) -> tuple[Twist, float]:  # noqa: ANN401 - MjData has no type
     """How the robot moves now, in its own frame, and its velocity to the left in m/s."""
-    vx, vy, _, _, _, turn = data.qvel[robot.velocity : robot.velocity + 6].tolist()
+    return moving(data.qvel.tolist(), robot, heading)
+
+
+def moving(qvel: list[float], robot: Robot, heading: float) -> tuple[Twist, float]:
+    """How the robot moves, in its own frame, and its velocity to the left, by the numbers of a moment."""
+    at = robot.velocity
+    vx, vy, _, _, _, turn = qvel[at : at + 6]
     cos, sin = math.cos(heading), math.sin(heading)
     return Twist(cos * vx + sin * vy, turn), cos * vy - sin * vx
 

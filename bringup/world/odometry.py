@@ -12,14 +12,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bringup.world.body import WHEEL_RADIUS, WHEEL_SEPARATION
 from bringup.world.draws import Draws
 from bringup.world.drive import Twist
 from bringup.world.geometry import Pose, wrap
+
+if TYPE_CHECKING:
+    from numpy.typing import NDArray
 
 # Seconds for which slip stays about the same.
 SLIP_TIME = 1.0
@@ -44,18 +47,31 @@ class WheelErrors:
     counts: int = 0
 
 
-@dataclass(frozen=True, slots=True)
-class Estimate:
-    """Where the odometry believes the robot is and how it moves; covariances over (x, y, yaw) and (vx, vyaw)."""
+class Estimate(NamedTuple):
+    """Where the odometry believes the robot is and how it moves.
+
+    Spreads: the rows of the covariances over (x, y, yaw) and (vx, vyaw) from the diagonal on, as plain numbers.
+    """
 
     pose: Pose
     twist: Twist
-    pose_covariance: NDArray[np.float64]
-    twist_covariance: NDArray[np.float64]
+    pose_spread: tuple[float, float, float, float, float, float]
+    twist_spread: tuple[float, float, float]
+
+    @property
+    def pose_covariance(self) -> NDArray[np.float64]:
+        """The covariance over (x, y, yaw)."""
+        xx, xy, xt, yy, yt, tt = self.pose_spread
+        return np.array(((xx, xy, xt), (xy, yy, yt), (xt, yt, tt)))
+
+    @property
+    def twist_covariance(self) -> NDArray[np.float64]:
+        """The covariance over (vx, vyaw)."""
+        ahead, mixed, turning = self.twist_spread
+        return np.array(((ahead, mixed), (mixed, turning)))
 
 
-@dataclass(slots=True)
-class _Walk:
+class _Walk(NamedTuple):
     """The covariance of all that is random in a pose, entry by entry."""
 
     xx: float = SMALLEST_VARIANCE
@@ -96,7 +112,7 @@ class Odometry:
         self._spread(left, right, heading, dx, dy, dt)
         self._pose = Pose(self._pose.x + dx, self._pose.y + dy, wrap(self._pose.yaw + turn))
         twist = Twist(way / dt, turn / dt)
-        return Estimate(self._pose, twist, self._pose_covariance(), self._twist_covariance(left, right, dt))
+        return Estimate(self._pose, twist, self._pose_spread(), self._twist_spread(left, right, dt))
 
     def _counted(self, left: float, right: float, dt: float) -> tuple[float, float]:
         """The travel of each wheel that is counted for so much turning."""
@@ -135,15 +151,15 @@ class Odometry:
         slip = 2.0 * SLIP_TIME * self.errors.slip**2 * way / dt
         return (self.errors.noise**2 + slip) * way
 
-    def _pose_covariance(self) -> NDArray[np.float64]:
+    def _pose_spread(self) -> tuple[float, float, float, float, float, float]:
         one, other = (self.errors.left_scale - 1.0) ** 2, (self.errors.right_scale - 1.0) ** 2
         walk, (lx, ly, lt), (rx, ry, rt) = self._walk, self._of_left, self._of_right
         xx, yy = walk.xx + one * lx * lx + other * rx * rx, walk.yy + one * ly * ly + other * ry * ry
         xy, xt = walk.xy + one * lx * ly + other * rx * ry, walk.xt + one * lx * lt + other * rx * rt
         yt, tt = walk.yt + one * ly * lt + other * ry * rt, walk.tt + one * lt * lt + other * rt * rt
-        return np.array(((xx, xy, xt), (xy, yy, yt), (xt, yt, tt)))
+        return xx, xy, xt, yy, yt, tt
 
-    def _twist_covariance(self, left: float, right: float, dt: float) -> NDArray[np.float64]:
+    def _twist_spread(self, left: float, right: float, dt: float) -> tuple[float, float, float]:
         errors = self.errors
         # The difference of two counts that each are wrong by up to a step.
         step = math.tau * WHEEL_RADIUS / errors.counts if errors.counts else 0.0
@@ -155,7 +171,7 @@ class Odometry:
             ((errors.right_scale - 1.0) ** 2 + errors.slip**2) * right**2 + errors.noise**2 * abs(right)
         ) / dt**2
         ahead, mixed = (one + other + 2 * least) / 4, (other - one) / 2 / WHEEL_SEPARATION
-        return np.array(((ahead, mixed), (mixed, (one + other + 2 * least) / WHEEL_SEPARATION**2)))
+        return ahead, mixed, (one + other + 2 * least) / WHEEL_SEPARATION**2
 
 
 def _stepped(angle: float, counts: int) -> float:

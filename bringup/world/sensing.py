@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bringup.world.drive import Twist
 from bringup.world.geometry import Pose, relative
 from bringup.world.inertial import Inertial
 from bringup.world.lidar import Lidar, reported
-from bringup.world.model import TICKS_PER_SECOND, pose, twist, wheel_angles
+from bringup.world.model import TICKS_PER_SECOND, Moment, moving, placed, wheel_angles
 from bringup.world.odometry import Estimate, Odometry
 
 if TYPE_CHECKING:
+    from numpy.typing import NDArray
+
     from bringup.world.settings import RobotSettings
     from bringup.world.simulation import Simulation
 
@@ -29,16 +30,14 @@ class Truth:
     sideways: float
 
 
-@dataclass(frozen=True, slots=True)
-class InertialReading:
+class InertialReading(NamedTuple):
     """Three turning rates (rad/s), then three accelerations (m/s^2), and the variances of one of each."""
 
     values: list[float]
     variances: tuple[float, float]
 
 
-@dataclass(frozen=True, slots=True)
-class Readings:
+class Readings(NamedTuple):
     """What is new at a tick; None for a sensor that says nothing at it.
 
     `world` is the true pose in the world, `local` as seen from where the robot has started.
@@ -90,27 +89,19 @@ class Sensors:
     def read(self) -> Readings:
         """What the sensors say at the tick that the simulation has reached; to be called once at every tick."""
         simulation, settings = self._simulation, self._settings
-        ticks, data = simulation.ticks, simulation.data
-        here = pose(data, self.robot)
+        ticks, now = simulation.ticks, simulation.moment()
+        here = placed(now.qpos, self.robot)
         local = relative(self.robot.start, here)
-        return Readings(
-            world=here,
-            local=local,
-            truth=Truth(local, *twist(data, self.robot, here.yaw))
-            if due(ticks, settings.odometry_rate)
-            else None,
-            odometry=self._estimate(ticks) if due(ticks, settings.odometry_rate) else None,
-            inertial=self._felt(ticks) if due(ticks, settings.imu_rate) else None,
-            ranges=self._seen() if due(ticks, settings.scan_rate) else None,
-        )
+        truth = odometry = None
+        if due(ticks, settings.odometry_rate):
+            truth = Truth(local, *moving(now.qvel, self.robot, here.yaw))
+            odometry = self._odometry.update(wheel_angles(now, self.robot), self._since("odometry", ticks))
+        inertial = self._felt(now, ticks) if due(ticks, settings.imu_rate) else None
+        ranges = self._seen() if due(ticks, settings.scan_rate) else None
+        return Readings(here, local, truth, odometry, inertial, ranges)
 
-    def _estimate(self, ticks: int) -> Estimate:
-        angles = wheel_angles(self._simulation.data, self.robot)
-        return self._odometry.update(angles, self._since("odometry", ticks))
-
-    def _felt(self, ticks: int) -> InertialReading:
-        true = self._simulation.data.sensordata[self.robot.imu]
-        values = self._inertial.measure(true, self._since("inertial", ticks))
+    def _felt(self, now: Moment, ticks: int) -> InertialReading:
+        values = self._inertial.measure(now.sensordata[self.robot.imu], self._since("inertial", ticks))
         return InertialReading(values, self._inertial.variances())
 
     def _seen(self) -> NDArray[np.float64]:

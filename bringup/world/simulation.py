@@ -18,7 +18,7 @@ from typing import TYPE_CHECKING
 
 from bringup.world.contacts import ContactCount, Touch, touches
 from bringup.world.drive import STILL, Limits, Twist, limited, ramped, wheel_speeds
-from bringup.world.model import STEPS_PER_TICK, TICKS_PER_SECOND, Model, place
+from bringup.world.model import STEPS_PER_TICK, TICKS_PER_SECOND, Model, Moment, moment, place
 from bringup.world.physics import mujoco
 
 if TYPE_CHECKING:
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from bringup.world.geometry import Pose
 
 TICK = 1.0 / TICKS_PER_SECOND
+_step = mujoco.mj_step
 
 
 class Simulation:
@@ -43,6 +44,9 @@ class Simulation:
             limits = [limits or Limits()] * len(model.robots)
         self.limits = list(limits)
         self.data = mujoco.MjData(model.physics)
+        self._motors = self.data.ctrl
+        self._moment: Moment | None = None
+        self._steady: list[tuple[Twist, Limits] | None] = []
         self.contacts = tuple(ContactCount() for _ in model.robots)
         self.reset()
 
@@ -59,37 +63,57 @@ class Simulation:
         for count in self.contacts:
             count.clear()
         self._drives = [STILL for _ in self.model.robots]
-        self._seen = _Seen()
+        self._forget()
 
     def teleport(self, number: int, pose: Pose) -> None:
         """Put a robot elsewhere (world coordinates, metres and radians), where it stands still; time does not pass."""
         place(self.data, self.model.robots[number], pose)
         self._drives[number] = STILL
         mujoco.mj_forward(self.model.physics, self.data)
-        self._seen = _Seen()
+        self._forget()
 
     def touching(self) -> tuple[Touch, ...]:
         """What touches a robot at this moment, the floor apart."""
         return self._seen.touches
 
+    def moment(self) -> Moment:
+        """The numbers of this moment."""
+        if self._moment is None:
+            self._moment = moment(self.data)
+        return self._moment
+
     def tick(self, commands: Sequence[Twist]) -> None:
         """Advance by one tick (10 ms); one command per robot, in m/s and rad/s, already timed out where it has to."""
-        control = self.data.ctrl
-        for number, (robot, command) in enumerate(zip(self.model.robots, commands, strict=True)):
-            limits = self.limits[number]
-            drive = ramped(self._drives[number], limited(command, limits), limits, TICK)
-            self._drives[number] = drive
-            left, right = robot.motors
-            control[left], control[right] = wheel_speeds(drive)
+        for number, command in zip(range(len(self.limits)), commands, strict=True):
+            self._steer(number, command)
         physics, data = self.model.physics, self.data
         for step in range(1, STEPS_PER_TICK + 1):
-            mujoco.mj_step(physics, data)
+            _step(physics, data)
             # A graze can be shorter than a tick: whenever the number of contacts changes they are looked at.
-            if data.ncon != self._seen.count or step == STEPS_PER_TICK:
+            if step == STEPS_PER_TICK or data.ncon != self._seen.count:
                 self._look()
             for number in self._seen.robots:
                 self.contacts[number].update(data.time, touching=True)
         self.ticks += 1
+        self._moment = None
+
+    def _steer(self, number: int, command: Twist) -> None:
+        """Let a robot's motors do what becomes of its command."""
+        limits = self.limits[number]
+        # What the same command has not changed a tick ago it does not change now.
+        if self._steady[number] == (command, limits):
+            return
+        drive = ramped(self._drives[number], limited(command, limits), limits, TICK)
+        self._steady[number] = (command, limits) if drive == self._drives[number] else None
+        self._drives[number] = drive
+        left, right = self.model.robots[number].motors
+        self._motors[left], self._motors[right] = wheel_speeds(drive)
+
+    def _forget(self) -> None:
+        """Look at everything anew: it is not what the last tick has left."""
+        self._seen = _Seen()
+        self._moment = None
+        self._steady = [None] * len(self.model.robots)
 
     def _look(self) -> None:
         geoms = self.data.contact.geom

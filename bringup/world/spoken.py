@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING
 
-import numpy as np
 from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import JointState
 
@@ -13,6 +12,7 @@ from bringup.world import messages
 from bringup.world.wire import Message, Wire
 
 if TYPE_CHECKING:
+    import numpy as np
     from numpy.typing import NDArray
     from rclpy.node import Node
     from rclpy.qos import QoSProfile
@@ -25,9 +25,6 @@ if TYPE_CHECKING:
     from bringup.world.sensing import InertialReading, Truth
 
 STAMP = ("header.stamp.sec", "iI")
-# Places of (x, y, yaw) squared and of (vx, vyaw) squared among the 36 entries of a covariance.
-PLANAR = np.array([0, 1, 5, 6, 7, 11, 30, 31, 35])
-DRIVEN = np.array([0, 5, 30, 35])
 
 
 class ClockOut:
@@ -51,8 +48,8 @@ class OdometryOut:
         self._stamp = wire.slot(*STAMP)
         self._pose = wire.slot("pose.pose.position.x", "7d")
         self._twist = wire.slot("twist.twist.linear.x", "6d")
-        self._pose_covariance = wire.view("pose.covariance.0", "d", 36)
-        self._twist_covariance = wire.view("twist.covariance.0", "d", 36)
+        self._pose_covariance = wire.doubles("pose.covariance.0", 36)
+        self._twist_covariance = wire.doubles("twist.covariance.0", 36)
 
     def publish_truth(self, ticks: int, truth: Truth) -> None:
         """Tell how the robot moves."""
@@ -60,8 +57,12 @@ class OdometryOut:
 
     def publish_estimate(self, ticks: int, estimate: Estimate) -> None:
         """Tell how the wheels believe that it moves."""
-        self._pose_covariance[PLANAR] = estimate.pose_covariance.ravel()
-        self._twist_covariance[DRIVEN] = estimate.twist_covariance.ravel()
+        # Rows and columns of (x, y, yaw) are 0, 1 and 5 of six, those of (vx, vyaw) 0 and 5.
+        pose, twist = self._pose_covariance, self._twist_covariance
+        pose[0], pose[1], pose[5], pose[7], pose[11], pose[35] = estimate.pose_spread
+        pose[6], pose[30], pose[31] = pose[1], pose[5], pose[11]
+        twist[0], twist[5], twist[35] = estimate.twist_spread
+        twist[30] = twist[5]
         self._publish(ticks, estimate.pose, estimate.twist)
 
     def _publish(self, ticks: int, pose: Pose, twist: Twist, sideways: float = 0.0) -> None:

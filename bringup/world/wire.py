@@ -45,6 +45,11 @@ class Wire:
         """The numbers of an array, the first of which is named, as one that can be written to."""
         return np.frombuffer(self.bytes, f"<{form}", count, offset(self._message, path, form))
 
+    def doubles(self, path: str, count: int) -> memoryview[float]:
+        """As a view, of doubles that are written one by one: numpy takes ten times as long for one."""
+        begin = offset(self._message, path, "d")
+        return memoryview(self.bytes)[begin : begin + 8 * count].cast("d")
+
     def publish(self) -> None:
         """Send the message as it is now."""
         self._send(bytes(self.bytes))
