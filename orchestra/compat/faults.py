@@ -33,8 +33,10 @@ def report(error: BaseException, problems: Problems, chain: tuple[Span, ...], fa
         return
     calls = _calls(error.__traceback__)
     spans = [Place(call.tb_frame.f_code, call.tb_lasti).span for call in calls]
+    instead = None
     if isinstance(error, SyntaxError) and not (error.filename or "<").startswith("<"):
-        spans.append(span_of_syntax(error))
+        span, instead = span_of_syntax(error)
+        spans.append(span)
     explanation = _explained(error, calls[-1] if calls else None)
     at = explanation.span or (spans[-1] if spans else fallback)
     callers = list(dict.fromkeys(f"called at {span}" for span in spans[-2::-1]))
@@ -50,7 +52,7 @@ def report(error: BaseException, problems: Problems, chain: tuple[Span, ...], fa
             explanation.message,
             at,
             chain,
-            suggestion=explanation.suggestion,
+            suggestion=explanation.suggestion or instead,
             notes=notes,
         )
     )

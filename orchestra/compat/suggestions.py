@@ -35,6 +35,8 @@ def in_place(problem: Problem) -> Problem:
     span, meant = problem.span, problem.suggestion
     if span is None or not span.file.endswith(".py"):
         return problem
+    if problem.code is Code.SYNTAX:
+        return problem  # there are no expressions in what is no Python
     found = _found(span)
     if isinstance(span, Argument):
         problem = replace(problem, span=found.span)

@@ -14,8 +14,8 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 
-def span_of_syntax(error: SyntaxError) -> Span:
-    """Return the range of the text that is wrong, one character at least."""
+def span_of_syntax(error: SyntaxError) -> tuple[Span, str | None]:
+    """Return the range of the text that is wrong, one character at least, and what should stand there."""
     import linecache  # noqa: PLC0415 - slow, and of no use to launch files in YAML and XML
 
     file = str(error.filename)
@@ -30,7 +30,9 @@ def span_of_syntax(error: SyntaxError) -> Span:
         end_column = min(end_column, len(text) + 1)
     if (end_line, end_column) <= (line, column):
         end_line, end_column = line, column + (column <= len(text))
-    return Span(shown(file), line, column, end_line, end_column)
+    from orchestra.compat.missing_commas import narrowed  # noqa: PLC0415 - only mistakes need it
+
+    return narrowed(error, Span(shown(file), line, column, end_line, end_column), linecache.getlines(file))
 
 
 def _in_code_points(error: SyntaxError, file: str, given: tuple[int, int, int, int]) -> tuple[int, int]:

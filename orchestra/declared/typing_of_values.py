@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from orchestra.declared.texts import written
+from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
     from orchestra.declared.model import Parameter, RosType
@@ -76,7 +77,7 @@ def _scalar(value: ParameterValue, kind: str) -> str | None:
 def _unquoted(text: str, kind: str) -> str | None:
     """Return a text in quotes as what it says."""
     if kind == "bool":
-        return text.lower() if text.lower() in ("true", "false") else None
+        return text.lower() if text.lower() in ("true", "false") else nearest(text, ("true", "false"))
     try:
         return str(int(text)) if kind == "integer" else written(float(text)) if kind == "double" else None
     except ValueError:

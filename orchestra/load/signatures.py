@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.description.substitutions import ELSEWHERE, SIGNATURES
 from orchestra.load.words import snake
-from orchestra.nearest import nearest
+from orchestra.nearest import is_slip, nearest
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
@@ -27,6 +27,12 @@ def meant(name: str, arguments: Sequence[str]) -> str | None:
     near = nearest(name, SIGNATURES)
     if near == "eval" and len(arguments) == 1 and _WORD.fullmatch(arguments[0]):
         near = nearest(name, SIGNATURES.keys() - {"eval"}) or near
+    if (
+        near is None
+        and (alias := nearest(snake(name), ELSEWHERE)) is not None
+        and is_slip(snake(name), alias)
+    ):
+        return ELSEWHERE[alias]
     return near or (None if arguments else f"var {name}")
 
 

@@ -114,14 +114,19 @@ def near_path(path: Path, written: str) -> str | None:
 
 
 def near_names(path: Path) -> tuple[tuple[str, str], ...]:
-    """Return the names in a path that are not there with those that were probably meant; none where one has no such."""
+    """Return the names in a path that are not there with those that were probably meant; none where one has no such.
+
+    A file that is there in one folder below was probably meant there.
+    """
     there, names = path, list[str]()
     while not _exists(there) and there != there.parent:
         names.insert(0, there.name)
         there = there.parent
     changes = list[tuple[str, str]]()
-    for name in names:
-        near = name if _exists(there / name) else _near(there, name)
+    for index, name in enumerate(names, start=1):
+        near = name if _exists(there / name) else _near(there, name, is_last=index == len(names))
+        if near is None and len(names) == 1:
+            near = _one_folder_below(there, name)
         if near is None:
             return ()
         if near != name:
@@ -158,10 +163,23 @@ def _expanded(written: str) -> Path:
         return Path(written)
 
 
-def _near(folder: Path, name: str) -> str | None:
-    """Return the name in a folder that was probably meant; the endings alone make no two names alike."""
+def _one_folder_below(folder: Path, name: str) -> str | None:
+    """Return the name of a file with the one folder below that has it, None where none or several have it."""
     try:
-        names = [entry.name for entry in folder.iterdir()]
+        found = [entry.name for entry in folder.iterdir() if (entry / name).is_file()]
+    except (OSError, ValueError):
+        return None
+    return f"{found[0]}/{name}" if len(found) == 1 else None
+
+
+def _near(folder: Path, name: str, *, is_last: bool) -> str | None:
+    """Return the name in a folder that was probably meant; the endings alone make no two names alike.
+
+    The last name of a path is that of a folder only where it has no ending.
+    """
+    is_file = is_last and bool(Path(name).suffix)
+    try:
+        names = [entry.name for entry in folder.iterdir() if not (is_file and entry.is_dir())]
     except (OSError, ValueError):
         return None
     stem = _stem(name)

@@ -211,16 +211,24 @@ def _tell(process: ResolvedProcess, run: Resolution) -> None:
     process.origin._prepared_as(name, words_of(process), process.cwd, environment)  # noqa: SLF001 - a class of ours
 
 
-def texts(argv: Template | tuple[Template, ...] | None, run: Resolution) -> tuple[str, ...] | Poison:
+def texts(
+    argv: Template | tuple[Template, ...] | None, run: Resolution, *, for_ros: bool | None = None
+) -> tuple[str, ...] | Poison:
     """Return words: a text is split as a shell would, an item of a list is one word.
 
-    A text that is empty, or blank, is one empty word (launch, `ExecuteProcess._parse_cmdline`).
+    A text that is empty, or blank, is one empty word (launch, `ExecuteProcess._parse_cmdline`). Of a node, `for_ros`
+    tells whether all words are for rcl, or those behind `--ros-args` only.
     """
     if argv is None:
         return ()
     words = split(argv, run.context)
     if isinstance(words, Poison):
         return POISON
+    if for_ros is not None and any(word.text == "--log-level" for word in words):
+        # Here, because few nodes have one.
+        from orchestra.resolve.log_levels import check_levels  # noqa: PLC0415
+
+        check_levels(words, run.problems, for_ros=for_ros)
     return tuple(word.text for word in words) or (() if isinstance(argv, tuple) else ("",))
 
 

@@ -174,7 +174,7 @@ def test_a_broken_file_is_told_at_its_place(tmp_path: Path, environment: dict[st
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        ("--log-level debgu", "'debgu' is no level of logging; did you mean 'debug'?"),
+        ("--log-level debgu", "'debgu' is no level of logging"),
         (
             "--log-level rcl:=loud",
             "'loud' is no level of logging: it is one of debug, info, warn, error, fatal",

@@ -21,10 +21,9 @@ if TYPE_CHECKING:
     from orchestra.errors import Problems
     from orchestra.location import Location
     from orchestra.resolve.inputs import Inputs
-    from orchestra.resolve.model import Resolved, ResolvedProcess
+    from orchestra.resolve.model import Resolved
 
 _RANGES: Final = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
-_LEVELS: Final = ("debug", "info", "warn", "error", "fatal", "unset")
 _MODES: Final = ("SYNCHRONOUS", "ASYNCHRONOUS", "AUTO")
 _TOKENS: Final = (
     *("severity", "name", "message", "function_name", "file_name", "line_number"),
@@ -64,7 +63,6 @@ def check_middleware(resolved: Resolved, inputs: Inputs, problems: Problems) -> 
         check_implementation(setting.name, setting.value, setting.location, inputs, problems)
         check_files(setting.name, setting.value, setting.location, inputs, problems)
     for process in resolved.processes:
-        _check_levels(process, problems)
         check_security(process, inputs.environment, problems)
 
 
@@ -160,25 +158,3 @@ _CHECKS: Final[dict[str, Callable[[str], _Told | None]]] = {
     "RCUTILS_COLORIZED_OUTPUT": _switch,
     "RCUTILS_CONSOLE_OUTPUT_FORMAT": _format,
 }
-
-
-def _check_levels(process: ResolvedProcess, problems: Problems) -> None:
-    """Report what rcl takes for no level of logging; it does not start then."""
-    if process.kind == "process" or process.faulty:
-        return
-    for word in _after("--log-level", process):
-        level = word.rpartition(":=")[2]
-        if level.lower() not in _LEVELS:
-            near = nearest(level.lower(), _LEVELS)
-            hint = f"; did you mean '{near}'?" if near else f": it is one of {', '.join(_LEVELS[:-1])}"
-            problems.error(
-                Code.MIDDLEWARE_SETTING, f"'{level}' is no level of logging{hint}", process.location
-            )
-
-
-def _after(option: str, process: ResolvedProcess) -> Iterator[str]:
-    """Yield what follows an option among the words that rcl reads."""
-    words = [*process.arguments, "--ros-args", *(process.ros_arguments or ())]
-    for place, word in enumerate(words[:-1]):
-        if word == option and "--ros-args" in words[:place] and "--" not in words[:place]:
-            yield words[place + 1]

@@ -92,7 +92,10 @@ def _arguments(
     if action.args is None and action.ros_args is None:
         return (), (), ()
     with run.scope.tracing() as reads:
-        arguments, ros_arguments = texts(action.args, run), texts(action.ros_args, run)
+        arguments, ros_arguments = (
+            texts(action.args, run, for_ros=False),
+            texts(action.ros_args, run, for_ros=True),
+        )
     return arguments, ros_arguments, reads
 
 

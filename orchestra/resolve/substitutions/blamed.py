@@ -26,16 +26,35 @@ def blamed(written: Template, text: str, error: BaseException) -> tuple[Span | N
     A name that is not there may be part of a value: then it stands where that is read. None where it is the whole that
     is wrong; one text of Python is marked as such.
     """
-    alone = len(written.parts) == 1 and isinstance(written.span, Argument)
-    if not isinstance(error, NameError | AttributeError):
-        return (written.span if alone else None), False
     begin, end = _range(error, text)
+    if not isinstance(error, NameError | AttributeError):
+        return _failed_part(written, text, (begin, end)), False
     for index, (part, first, last) in enumerate(_placed(written, text)):
         if first <= begin < last:
             if isinstance(part, Words):
                 return _inside(part, begin - first, min(end, last) - first), True
             return _used_at(index, written), False
     return None, False
+
+
+def _failed_part(written: Template, text: str, failed: tuple[int, int]) -> Span | None:
+    """Return where what has failed of an expression stands, None where that is the whole of it.
+
+    One text of Python is marked as such: what it is made of may stand anywhere.
+    """
+    if isinstance(written.span, Argument):
+        return written.span if len(written.parts) == 1 else None
+    begin, end = failed
+    if not text[:begin].strip() and not text[end:].strip():
+        return None
+    spans = list[Span]()
+    for part, first, last in _placed(written, text):
+        if begin < last and first < end:
+            place = (max(begin, first) - first, min(end, last) - first)
+            spans.append(_inside(part, *place) if isinstance(part, Words) else part.span)
+    if not spans:
+        return None
+    return Span(spans[0].file, spans[0].line, spans[0].column, spans[-1].end_line, spans[-1].end_column)
 
 
 def _used_at(index: int, written: Template) -> Span:
@@ -69,7 +88,9 @@ def _range(error: BaseException, text: str) -> tuple[int, int]:
     before = len(text) - len(stripped)
     calls = [call for call in _calls(error.__traceback__) if call.tb_frame.f_code.co_filename == "<string>"]
     if not calls:
-        return before, len(text)
+        return (
+            _range_of_syntax(error, text, before) if isinstance(error, SyntaxError) else (before, len(text))
+        )
     code = calls[0].tb_frame.f_code
     line, end_line, column, end_column = next(
         islice(code.co_positions(), calls[0].tb_lasti // 2, None), (None, None, None, None)
@@ -80,6 +101,16 @@ def _range(error: BaseException, text: str) -> tuple[int, int]:
     end = before + _index(stripped, end_line, _characters(stripped, end_line, end_column))
     name = error.name if isinstance(error, AttributeError) else None
     return (end - len(name) if name and text[begin:end].endswith(name) else begin), end
+
+
+def _range_of_syntax(error: SyntaxError, text: str, before: int) -> tuple[int, int]:
+    """Return first and last character of what cannot be read as Python; all of it where more is wanted."""
+    stripped, whole = text.strip(), (before, len(text))
+    if error.filename != "<string>" or not error.lineno or not error.offset:
+        return whole
+    begin = _index(stripped, error.lineno, error.offset - 1)
+    end = _index(stripped, error.end_lineno or error.lineno, (error.end_offset or 0) - 1)
+    return whole if begin >= len(stripped) else (before + begin, before + max(end, begin + 1))
 
 
 def _calls(traceback: TracebackType | None) -> Iterator[TracebackType]:
