@@ -39,6 +39,8 @@ LoadFile: TypeAlias = Callable[..., Description | None]
 Visit: TypeAlias = Callable[[Sequence[Action], "Resolution"], None]
 
 _MOST_STEPS = 200_000
+# Each level of actions takes some ten calls of the thousand that the interpreter allows.
+_DEEP = 25
 
 
 @dataclass(frozen=True, slots=True)
@@ -138,6 +140,11 @@ class Resolution:
             message = f"the description comes to more than {_MOST_STEPS} actions"
             self.problems.error(Code.INCLUDE_CYCLE, message, self.at(span))
         return self.steps < _MOST_STEPS
+
+    @property
+    def is_deep(self) -> bool:
+        """Whether so many actions stand around this one that it is they who exhaust the stack, if it is exhausted."""
+        return self.depth > _DEEP
 
     def report_endless(self, error: RecursionError) -> None:
         """Report actions in each other without end, or too deep, at the innermost; the visit is out of all of them."""

@@ -283,6 +283,17 @@ def test_what_goes_wrong_is_told_at_the_users_line(tmp_path: Path, name: str) ->
     assert line in text.splitlines()[problem.span.line - 1]
 
 
+@pytest.mark.parametrize("name", ["an action in itself", "a description in itself", "recursion of actions"])
+def test_wherever_the_stack_ends_it_is_told_alike(tmp_path: Path, name: str) -> None:
+    path = tmp_path / "a.launch.py"
+    path.write_text(FAULTS[name][0], "utf-8")
+
+    def codes(deeper: int) -> list[Code]:
+        return codes(deeper - 1) if deeper else [problem.code for problem in _resolve(path)[1].errors]
+
+    assert [codes(deeper) for deeper in range(24)] == [[FAULTS[name][1]]] * 24
+
+
 def test_where_a_module_beside_it_would_be_found_is_told(tmp_path: Path) -> None:
     (tmp_path / "of_users").mkdir()
     (tmp_path / "of_users" / "__init__.py").touch()
