@@ -27,7 +27,7 @@ def user_code(run: Resolution, span: Span) -> Iterator[None]:
             yield
     except KeyboardInterrupt:
         raise
-    except BaseException as error:  # noqa: BLE001 - the boundary of user code
+    except BaseException as error:  # the boundary of user code
         if isinstance(error, RecursionError) and run.is_deep:
             raise
         faults.report(error, run.problems, run.context.included_from, span)

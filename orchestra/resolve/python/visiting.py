@@ -52,7 +52,7 @@ def visit_entity(entity: Any, run: Resolution, place: Place | None = None) -> No
     except ValidationError as error:
         _refuse(entity, error, run)
         visit_entities(_children(entity), run)
-    except Exception as error:  # noqa: BLE001 - what users have given it is only looked at here
+    except Exception as error:  # what users have given it is only looked at here
         if isinstance(error, RecursionError) and run.is_deep:
             raise
         faults.report(error, run.problems, run.context.included_from, _span(entity, run, place))
