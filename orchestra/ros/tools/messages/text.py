@@ -53,7 +53,7 @@ def _dumper() -> Any:  # noqa: ANN401 - a class of PyYAML
         pairs = [(dumper.represent_data(key), dumper.represent_data(value)) for key, value in data.items()]
         return yaml.MappingNode("tag:yaml.org,2002:map", pairs)
 
-    class Dumper(yaml.SafeDumper):  # type: ignore[misc] - of an untyped package
+    class Dumper(yaml.SafeDumper):
         pass
 
     Dumper.add_representer(dict, represented)
