@@ -69,7 +69,8 @@ class Kin:
         del self._own[pid]
         with contextlib.suppress(ChildProcessError):
             ended = os.waitid(os.P_PID, pid, os.WEXITED | os.WNOHANG | os.WNOWAIT)
-            self.struck |= ended is not None and ended.si_code != os.CLD_EXITED
+            if ended is not None and ended.si_code != os.CLD_EXITED:
+                self._strike()
 
     def refresh(self) -> tuple[list[Adopted], list[Adopted]]:
         """Look at our children: return who is new among us, and who has ended. The latter are reaped."""
@@ -124,8 +125,16 @@ class Kin:
             reaped, status = os.waitpid(pid, os.WNOHANG)
         except ChildProcessError:
             return True
-        self.struck |= reaped == pid and os.WIFSIGNALED(status)
+        if reaped == pid and os.WIFSIGNALED(status):
+            self._strike()
         return reaped == pid
+
+    def _strike(self) -> None:
+        """Take note of an end by a signal, and keep those that talked with the dead one from hanging for it."""
+        from orchestra.supervise.keeping.shared_memory import release_dead_readers  # noqa: PLC0415 - few are killed
+
+        self.struck = True
+        release_dead_readers()
 
     def _numbered(self, number: int) -> str | None:
         return next((owner for owner, known in self._numbers.items() if known == number), None)

@@ -7,11 +7,17 @@ its own segments and ports, and those of all whom it talks to. One that ends by 
 They are removed where they are ours, came while the run did, nobody holds their lock, and nobody whom we can see maps
 them: locks also tell of processes in other namespaces. Where there is no lock, they must have been there for a while,
 for whoever makes them maps them a moment later. The lock is held meanwhile, so that nobody can begin to use them.
+
+The locks of dead readers go at once, whoever else maps the port: who sends to a port that is no longer in order, and
+finds its lock free, clears up behind the reader in a way in which it waits for itself, for ever, if that one died while
+it took a message (Fast DDS up to 2.14.6 and 3.6.2, its issue 6485). Without the lock it makes the port anew. The file
+gets another name, which tells at the end of the run that the port had a reader, and that nobody is about to map it.
 """
 
 from __future__ import annotations
 
 import fcntl
+import math
 import os
 import time
 from contextlib import contextmanager, suppress
@@ -25,8 +31,13 @@ if TYPE_CHECKING:
 _FOLDER = "/dev/shm"  # noqa: S108 - where Linux has POSIX shared memory (shm_overview(7))
 # What is removed together has one stem.
 _STEM = r"fastrtps_(?:[0-9a-f]{16}|port[0-9]+)"
-_OURS = pattern(rf"(?:sem\.)?({_STEM})(?:_mutex|_el|_sl)?")
+_OURS = pattern(rf"(?:sem\.)?({_STEM})(?:_mutex|_el|_sl|_el_dead)?")
 _LOCKS = ("_el", "_sl")
+_DEAD = "_el_dead"
+# The lock of the one reader of a port.
+_READER = pattern(r"fastrtps_port[0-9]+_el")
+# A lock that is younger, in seconds, may be about to be taken; nobody knows its port yet.
+_FRESH = 0.1
 # How long a file without a lock must have been there, in seconds.
 _SETTLED = 2.0
 # Time stamps of files are those of the latest tick of the kernel's clock, and may lie a little before the run.
@@ -42,6 +53,34 @@ def remove_leftovers(began: float) -> list[str]:
     return [file for stem in stems if stem not in mapped for file in _remove(stem)]
 
 
+def release_dead_readers() -> list[str]:
+    """Take the locks of ports whose one reader has died out of the way; return their names."""
+    try:
+        names = os.listdir(_FOLDER)  # noqa: PTH208 - few processes are killed
+    except OSError:
+        return []
+    latest = time.time() - _FRESH
+    return [name for name in names if _READER.fullmatch(name) and _released(name, latest)]
+
+
+def _released(name: str, latest: float) -> bool:
+    """Rename a lock of ours that came before `latest` and that nobody holds."""
+    held: list[int] = []
+    path = f"{_FOLDER}/{name}"
+    try:
+        # It is held until it is gone, as by Fast DDS itself where it looks for dead readers.
+        if not (_came_between(name, 0.0, latest) and _lock(path, held) and held):
+            return False
+        os.rename(path, path.removesuffix("_el") + _DEAD)  # noqa: PTH104 - as above
+    except OSError:
+        return False
+    else:
+        return True
+    finally:
+        for descriptor in held:
+            os.close(descriptor)
+
+
 def _stems(began: float) -> set[str]:
     """Return the stems of all files of this user that came since then, or of which a part did."""
     try:
@@ -55,12 +94,16 @@ def _stems(began: float) -> set[str]:
 
 
 def _came_since(name: str, began: float) -> bool:
+    return _came_between(name, began, math.inf)
+
+
+def _came_between(name: str, began: float, latest: float) -> bool:
     """Tell by the time of the latest change through a descriptor: that is the begin, for the rest goes through maps."""
     try:
         status = os.lstat(f"{_FOLDER}/{name}")
     except OSError:
         return False
-    return status.st_uid == os.geteuid() and status.st_mtime >= began
+    return status.st_uid == os.geteuid() and began <= status.st_mtime <= latest
 
 
 def _is_free(stem: str) -> bool:
@@ -83,7 +126,7 @@ def _remove(stem: str) -> list[str]:
     with _locked(stem) as free:
         if not free:
             return []
-        files = (stem, f"sem.{stem}_mutex", *(f"{stem}{suffix}" for suffix in _LOCKS))
+        files = (stem, f"sem.{stem}_mutex", *(f"{stem}{suffix}" for suffix in (*_LOCKS, _DEAD)))
         return [file for file in files if _unlinked(f"{_FOLDER}/{file}")]
 
 
@@ -93,7 +136,8 @@ def _locked(stem: str) -> Iterator[bool]:
     held: list[int] = []
     try:
         free = all(_lock(f"{_FOLDER}/{stem}{suffix}", held) for suffix in _LOCKS)
-        yield free and (bool(held) or not _came_since(stem, time.time() - _SETTLED))
+        settled = held or os.path.exists(f"{_FOLDER}/{stem}{_DEAD}")  # noqa: PTH110 - as above
+        yield free and (bool(settled) or not _came_since(stem, time.time() - _SETTLED))
     finally:
         for descriptor in held:
             os.close(descriptor)
