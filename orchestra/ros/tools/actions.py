@@ -17,6 +17,7 @@ from orchestra.errors import RunError
 from orchestra.ros.tools.graph.asking import Deadline
 from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import Names, absolute, listed, nodes, split, unknown
+from orchestra.ros.tools.graph.seeing import looking
 from orchestra.ros.tools.messages.plain import plain
 from orchestra.ros.tools.messages.reading import fill, mapping_of
 from orchestra.ros.tools.messages.text import yaml_text
@@ -26,7 +27,7 @@ from orchestra.ros.tools.telling import as_json, json_line, lines, tell
 if TYPE_CHECKING:
     from argparse import Namespace
 
-    from orchestra.ros.tools.graph.joining import Graph
+    from orchestra.ros.tools.graph.seeing import Graph
 
 _STATES: Final = {
     GoalStatus.STATUS_UNKNOWN: "UNKNOWN",
@@ -47,7 +48,7 @@ def actions(graph: Graph) -> Names:
 
 def list_actions(options: Namespace) -> int:
     """Write the names of the actions."""
-    with joined(options) as graph:
+    with looking(options) as graph:
         found = graph.whole(lambda: actions(graph))
     if options.count_actions:
         tell(options, f"{len(found)}\n", len(found))
@@ -60,7 +61,7 @@ def list_actions(options: Namespace) -> int:
 def action_type(options: Namespace) -> int:
     """Write the type of an action."""
     name = absolute(options.action)
-    with joined(options) as graph:
+    with looking(options) as graph:
         types = graph.found(lambda: dict(actions(graph)).get(name))
         if not types:
             raise unknown("action", name, (known for known, _ in actions(graph)))
@@ -71,7 +72,7 @@ def action_type(options: Namespace) -> int:
 def info(options: Namespace) -> int:
     """Write which nodes have clients and servers of an action."""
     name = absolute(options.action)
-    with joined(options) as graph:
+    with looking(options) as graph:
         clients, servers = graph.whole(lambda: _ends(graph, name))
         if not (clients or servers):
             raise unknown("action", name, (known for known, _ in actions(graph)))

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.ros.tools.graph.asking import Deadline, ask
 from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import absolute, services, unknown
+from orchestra.ros.tools.graph.seeing import looking
 from orchestra.ros.tools.messages.plain import plain
 from orchestra.ros.tools.messages.reading import fill, mapping_of
 from orchestra.ros.tools.messages.types import service_class
@@ -17,12 +18,12 @@ from orchestra.ros.tools.telling import as_json, json_line, lines, tell
 if TYPE_CHECKING:
     from argparse import Namespace
 
-    from orchestra.ros.tools.graph.joining import Graph
+    from orchestra.ros.tools.graph.seeing import Graph
 
 
 def list_services(options: Namespace) -> int:
     """Write the names of the services."""
-    with joined(options) as graph:
+    with looking(options) as graph:
         found = _theirs(graph, every=options.include_hidden_services)
     if options.count_services:
         tell(options, f"{len(found)}\n", len(found))
@@ -35,7 +36,7 @@ def list_services(options: Namespace) -> int:
 def service_type(options: Namespace) -> int:
     """Write the type of a service."""
     name = absolute(options.service)
-    with joined(options) as graph:
+    with looking(options) as graph:
         types = _types_of(graph, name)
     tell(options, lines(types), types)
     return 0
@@ -44,7 +45,7 @@ def service_type(options: Namespace) -> int:
 def info(options: Namespace) -> int:
     """Write the type of a service, and how many clients and servers it has."""
     name = absolute(options.service)
-    with joined(options) as graph:
+    with looking(options) as graph:
         node = graph.node
         clients, servers = graph.whole(lambda: (node.count_clients(name), node.count_services(name)))
         types = _types_of(graph, name)
@@ -55,7 +56,7 @@ def info(options: Namespace) -> int:
 
 def find(options: Namespace) -> int:
     """Write the services of a type."""
-    with joined(options) as graph:
+    with looking(options) as graph:
         seen = _theirs(graph, every=options.include_hidden_services)
     found = [name for name, types in seen if options.type in types]
     if options.count_services:

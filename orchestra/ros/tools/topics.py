@@ -6,18 +6,18 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import absolute, topics, unknown
-from orchestra.ros.tools.graph.qos import data_of
+from orchestra.ros.tools.graph.seeing import looking
 from orchestra.ros.tools.telling import lines, tell
 
 if TYPE_CHECKING:
     from argparse import Namespace
 
-    from orchestra.ros.tools.graph.joining import Graph
+    from orchestra.ros.tools.graph.seeing import Graph
 
 
 def list_topics(options: Namespace) -> int:
     """Write the names of the topics."""
-    with joined(options) as graph:
+    with looking(options) as graph:
         own = _own_topics(graph)
         found = graph.whole(lambda: _counted(graph, own, every=options.include_hidden_topics))
     if options.count_topics:
@@ -65,7 +65,7 @@ def info(options: Namespace) -> int:
 def topic_type(options: Namespace) -> int:
     """Write the type of a topic."""
     topic = absolute(options.topic)
-    with joined(options) as graph:
+    with looking(options) as graph:
         types = graph.found(lambda: dict(topics(graph)).get(topic))
         if not types:
             raise unknown("topic", topic, (name for name, _ in topics(graph, every=False)))
@@ -75,7 +75,7 @@ def topic_type(options: Namespace) -> int:
 
 def find(options: Namespace) -> int:
     """Write the topics of a type."""
-    with joined(options) as graph:
+    with looking(options) as graph:
         own = _own_topics(graph)
         seen = graph.whole(lambda: _counted(graph, own, every=options.include_hidden_topics))
     found = [name for name, types, *_ in seen if options.type in types]
@@ -137,6 +137,8 @@ def _identities(endpoints: list[Any]) -> list[tuple[bytes, str]]:
 
 
 def _endpoint(endpoint: Any) -> dict[str, Any]:  # noqa: ANN401 - as above
+    from orchestra.ros.tools.graph.qos import data_of  # noqa: PLC0415 - most of rclpy, and only this needs it
+
     return {
         "node": f"{endpoint.node_namespace.rstrip('/')}/{endpoint.node_name}",
         "type": endpoint.topic_type,

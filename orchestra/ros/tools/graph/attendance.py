@@ -12,7 +12,7 @@ import time
 from typing import Any, Final
 
 from orchestra.ros.tools.graph.bare import publishers
-from orchestra.ros.tools.graph.ports import own_port, ports_here
+from orchestra.ros.tools.graph.ports import own_port, ports_here, widen
 from orchestra.ros.tools.graph.rcl import rcl
 from orchestra.ros.tools.graph.rollcall import RollCall
 
@@ -39,6 +39,7 @@ class Attendance:
     """Who is there of those who should be. `exact` tells whether all who should be are counted."""
 
     def __init__(self, node: Any) -> None:  # noqa: ANN401 - of rclpy, or a bare one
+        widen()
         self._news(time.monotonic())
         self._node = node
         self._domain = node.context.get_domain_id()
