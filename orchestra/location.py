@@ -46,12 +46,11 @@ class Span:
     if not TYPE_CHECKING:  # for type checkers there are the fields above and no others
 
         def __getattr__(self, name: str) -> str | int:
+            if name == "file":  # it is asked for by itself, and known without a look at the text
+                return self._offsets[0].file
             if name not in FIELDS:
                 raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
             whole, begin, end = self._offsets
-            if name == "file":  # it is asked for by itself, and known without a look at the text
-                object.__setattr__(self, name, whole.file)
-                return whole.file
             for known, value in zip(
                 FIELDS, (whole.file, *whole.place(begin), *whole.place(end)), strict=True
             ):

@@ -114,18 +114,21 @@ class Entity(Model):
     @property
     def faulty(self) -> bool:
         """Whether a part of the entity was wrong and has been left out."""
-        return "faulty" in self._beside or bool(self.faults)
+        beside = self.__pydantic_private__
+        return beside is not None and ("faulty" in beside or bool(beside.get("faults")))
 
     @property
     def faults(self) -> tuple[Problem, ...]:
         """What was wrong where nobody could report it: in Python code. The visit does."""
-        faults: tuple[Problem, ...] = self._beside.get("faults", ())
+        beside = self.__pydantic_private__
+        faults: tuple[Problem, ...] = () if beside is None else beside.get("faults", ())
         return faults
 
     @property
     def origin(self) -> Any:  # noqa: ANN401 - any object
         """The object of a Python launch file that the entity was made from."""
-        return self._beside.get("origin")
+        beside = self.__pydantic_private__
+        return None if beside is None else beside.get("origin")
 
     def mark_faulty(self) -> None:
         """Say that a part of the entity was wrong and has been left out."""

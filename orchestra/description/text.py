@@ -70,8 +70,14 @@ class Template:
     @property
     def constant(self) -> str | None:
         """The text where nothing needs evaluating, else None."""
-        texts = [part.text for part in self.parts if isinstance(part, Words)]
-        return None if self.faulty or len(texts) < len(self.parts) else "".join(texts)
+        if self.faulty:
+            return None
+        texts = []
+        for part in self.parts:
+            if type(part) is not Words:
+                return None
+            texts.append(part.text)
+        return "".join(texts)
 
 
 @dataclass(frozen=True, slots=True)

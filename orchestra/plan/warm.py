@@ -57,7 +57,7 @@ def wish(wanted: bool | None) -> Warm | None:
 def warmed(plan: Plan, environment: Mapping[str, str]) -> Plan:
     """Return the plan with `warm` in each process; `environment` is the one in which it is started."""
     general = _general(environment)
-    programs: dict[tuple[str, ...], Program | str] = {}
+    programs: dict[tuple[str, ...], tuple[Warm, bool]] = {}
     change = changer(Process, "warm") if len(plan.processes) > _MANY else _changed
     processes = tuple(
         change(process, _of(process, environment, general, programs)) for process in plan.processes
@@ -73,7 +73,7 @@ def _of(
     process: Process,
     environment: Mapping[str, str],
     general: str | None,
-    programs: dict[tuple[str, ...], Program | str],
+    programs: dict[tuple[str, ...], tuple[Warm, bool]],
 ) -> Warm:
     """Decide about one process; `programs` has what is known of programs already."""
     if process.warm is not None and not process.warm.warm:
@@ -86,22 +86,20 @@ def _of(
     key = (path, process.cwd or "", *process.command[:3])
     program = programs.get(key)
     if program is None:
-        program = once(("warm", os.getcwd(), *key), lambda: _program(process.command, process.cwd, path))  # noqa: PTH109 - a word
-        programs[key] = program
-    if isinstance(program, str):
-        return Warm(False, program)
-    if process.kind == "process" and process.warm is None and not program.imports:
+        found = once(("warm", os.getcwd(), *key), lambda: _program(process.command, process.cwd, path))  # noqa: PTH109 - a word
+        program = programs[key] = _decided(found)
+    warm, imports = program
+    if process.kind == "process" and process.warm is None and warm.warm and not imports:
         return Warm(False, "it is no node, and says nothing of rclpy")
-    return Warm(
-        True,
-        None,
-        program.kind,
-        program.target,
-        program.interpreter,
-        program.executable,
-        program.skip,
-        program.comm,
-    )
+    return warm
+
+
+def _decided(program: Program | str) -> tuple[Warm, bool]:
+    """Return whether and how a program is started, and whether it imports what nodes do."""
+    if isinstance(program, str):
+        return Warm(False, program), False
+    how = (program.kind, program.target, program.interpreter, program.executable, program.skip, program.comm)
+    return Warm(True, None, *how), program.imports
 
 
 def _general(environment: Mapping[str, str]) -> str | None:

@@ -7,7 +7,7 @@ from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from orchestra.dataclass import dataclass
+from orchestra.dataclass import dataclass, maker
 from orchestra.description.running import ON_EXIT
 from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Poison, Read, Value
@@ -71,6 +71,9 @@ class Program:
     params_schema: NamedSchema | None = None
     share: str | None = None
     faulty: bool = False
+
+
+new_program = maker(Program)
 
 
 def add_process(action: Running, program: Program, run: Resolution) -> int:

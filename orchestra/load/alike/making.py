@@ -23,8 +23,8 @@ if TYPE_CHECKING:
 def template(text: str, whole: Whole, at: tuple[int, int], quoted: bool, reader: Reader) -> Template:
     """Return a text with substitutions, as `Reader` reads it; `at` is its place without quotes."""
     if "$" not in text and "(" not in text and "\\" not in text and text[-1:] not in _QUOTES:
-        span = stretch(whole, *at)
-        return new_template((new_words(text, span),), text, span, quoted)
+        place = stretch(whole, at[0], at[1])
+        return new_template((new_words(text, place),), text, place, quoted)
     parts = _parts(text, whole, at[0])
     if parts is None:
         return reader.template(_written(text, whole, at, quoted))

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final, TypeAlias
 
-from orchestra.dataclass import dataclass
+from orchestra.dataclass import dataclass, maker
 from orchestra.errors import Code
 from orchestra.resolve.context import Value
 from orchestra.resolve.names import InvalidName, expanded
@@ -36,6 +36,9 @@ class _Use:
     written: Value
     node: str
     namespace: str
+
+
+_new_use = maker(_Use)
 
 
 def check_topics(resolved: Resolved, plan: Plan, problems: Problems) -> None:
@@ -114,4 +117,4 @@ def _remapped(planned: _Planned, written: _Written) -> Iterator[_Use]:
             name = expanded(rule.target.text, namespace, planned.name or "_")
         except InvalidName:
             continue
-        yield _Use(name, rule.target, planned.id, namespace)
+        yield _new_use(name, rule.target, planned.id, namespace)

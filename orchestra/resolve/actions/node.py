@@ -14,7 +14,7 @@ from orchestra.resolve.params_schema import params_schema
 from orchestra.resolve.programs import packaged_words
 from orchestra.resolve.python_programs import module_words, script_words
 from orchestra.resolve.remapping import remaps
-from orchestra.resolve.running import Program, add_process, texts
+from orchestra.resolve.running import add_process, new_program, texts
 from orchestra.resolve.unpackaged import unpackaged_words
 
 if TYPE_CHECKING:
@@ -25,6 +25,7 @@ if TYPE_CHECKING:
     from orchestra.resolve.context import Read
     from orchestra.resolve.model import Kind
     from orchestra.resolve.resolution import Resolution
+    from orchestra.resolve.running import Program
 
 
 def visit(action: Node, run: Resolution) -> None:
@@ -61,7 +62,7 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
     rules, regular = remaps(action.remap, run)
     schema = None if action.params_schema is None else params_schema(action.params_schema, run)
     values = (package, executable, label, words, name, namespace, arguments, ros_arguments, autostart, schema)
-    program = Program(
+    program = new_program(
         kind=kind,
         executable=executable.text if isinstance(executable, Value) else _started(action).raw,
         words=() if isinstance(words, Poison) else words,

@@ -110,9 +110,10 @@ class InstalledPackages:
 
 def has_manifests(resolved: Resolved) -> bool:
     """Tell whether a node or component is of a package that says in a file what it needs, and not of ament's."""
-    return any(map(may_need_definitions, resolved.processes)) or any(
-        component.share is not None and manifest_beside(component.share) is not None
-        for component in resolved.components
+    nodes = [process for process in resolved.processes if process.kind != "process"]
+    shares = {node.share for node in nodes} | {component.share for component in resolved.components}
+    return any(share is not None and manifest_beside(share) is not None for share in shares) or any(
+        node.share is None and may_need_definitions(node) for node in nodes
     )
 
 
