@@ -62,9 +62,9 @@ def widen() -> None:
     of what is lost, some comes again after seconds only. The kernel gives as much of it as it allows (rmem_max), and a
     middleware that was told another size in its profile keeps that where it is more.
     """
-    for descriptor in os.listdir("/proc/self/fd"):
+    for descriptor in list(Path("/proc/self/fd").iterdir()):
         try:
-            with socket.socket(fileno=os.dup(int(descriptor))) as one:
+            with socket.socket(fileno=os.dup(int(descriptor.name))) as one:
                 if one.type == socket.SOCK_DGRAM and one.family in (socket.AF_INET, socket.AF_INET6):
                     _widen(one)
         except OSError:
