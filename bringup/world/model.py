@@ -100,13 +100,13 @@ def moment(data: Any) -> Moment:  # noqa: ANN401 - MjData has no type
 
 def pose(data: Any, robot: Robot) -> Pose:  # noqa: ANN401 - MjData has no type
     """Where the robot is now, in world coordinates."""
-    return placed(data.qpos.tolist(), robot)
+    return placed(moment(data), robot)
 
 
-def placed(qpos: list[float], robot: Robot) -> Pose:
-    """Where the robot is, in world coordinates, by the numbers of a moment."""
+def placed(moment: Moment, robot: Robot) -> Pose:
+    """Where the robot was at a moment, in world coordinates."""
     at = robot.position
-    x, y, _, w, i, j, k = qpos[at : at + 7]
+    x, y, _, w, i, j, k = moment.qpos[at : at + 7]
     return Pose(x, y, yaw_of(w, i, j, k))
 
 
@@ -134,13 +134,13 @@ def wheel_speeds(data: Any, robot: Robot) -> tuple[float, float]:  # noqa: ANN40
 
 def twist(data: Any, robot: Robot, heading: float) -> tuple[Twist, float]:  # noqa: ANN401 - MjData has no type
     """How the robot moves now, in its own frame, and its velocity to the left in m/s."""
-    return moving(data.qvel.tolist(), robot, heading)
+    return moving(moment(data), robot, heading)
 
 
-def moving(qvel: list[float], robot: Robot, heading: float) -> tuple[Twist, float]:
-    """How the robot moves, in its own frame, and its velocity to the left, by the numbers of a moment."""
+def moving(moment: Moment, robot: Robot, heading: float) -> tuple[Twist, float]:
+    """How the robot moved at a moment, in its own frame, and its velocity to the left in m/s."""
     at = robot.velocity
-    vx, vy, _, _, _, turn = qvel[at : at + 6]
+    vx, vy, _, _, _, turn = moment.qvel[at : at + 6]
     cos, sin = math.cos(heading), math.sin(heading)
     return Twist(cos * vx + sin * vy, turn), cos * vy - sin * vx
 

@@ -12,7 +12,8 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, NamedTuple
+from functools import lru_cache
+from typing import TYPE_CHECKING, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -47,6 +48,9 @@ class WheelErrors:
     counts: int = 0
 
 
+Spread: TypeAlias = tuple[float, float, float, float, float, float]
+
+
 class Estimate(NamedTuple):
     """Where the odometry believes the robot is and how it moves.
 
@@ -55,7 +59,7 @@ class Estimate(NamedTuple):
 
     pose: Pose
     twist: Twist
-    pose_spread: tuple[float, float, float, float, float, float]
+    pose_spread: Spread
     twist_spread: tuple[float, float, float]
 
     @property
@@ -71,17 +75,6 @@ class Estimate(NamedTuple):
         return np.array(((ahead, mixed), (mixed, turning)))
 
 
-class _Walk(NamedTuple):
-    """The covariance of all that is random in a pose, entry by entry."""
-
-    xx: float = SMALLEST_VARIANCE
-    xy: float = 0.0
-    xt: float = 0.0
-    yy: float = SMALLEST_VARIANCE
-    yt: float = 0.0
-    tt: float = SMALLEST_VARIANCE
-
-
 class Odometry:
     """The dead reckoning of one robot, which starts at the origin of its own frame; `errors` can be replaced."""
 
@@ -93,7 +86,8 @@ class Odometry:
         # Slip in units of its standard deviation.
         self._slip = self._draws.take(2)
         self._pose = Pose(0.0, 0.0, 0.0)
-        self._walk = _Walk()
+        # The covariance of all that is random in a pose, as its spread.
+        self._walk: Spread = (SMALLEST_VARIANCE, 0.0, 0.0, SMALLEST_VARIANCE, 0.0, SMALLEST_VARIANCE)
         # How x, y and yaw depend on each wheel's radius.
         self._of_left = (0.0, 0.0, 0.0)
         self._of_right = (0.0, 0.0, 0.0)
@@ -116,8 +110,7 @@ class Odometry:
 
     def _counted(self, left: float, right: float, dt: float) -> tuple[float, float]:
         """The travel of each wheel that is counted for so much turning."""
-        errors, keep = self.errors, math.exp(-dt / SLIP_TIME)
-        fresh = math.sqrt(1 - keep * keep)
+        errors, (keep, fresh) = self.errors, _forgetting(dt)
         draws = self._draws.take(4)
         self._slip = [keep * slip + fresh * draw for slip, draw in zip(self._slip, draws, strict=False)]
         return (
@@ -136,14 +129,14 @@ class Odometry:
         self._of_right = (x - dy * yaw + cos * right, y + dx * yaw + sin * right, yaw + turn * right)
         one, other = self._walk_variance(abs(left), dt), self._walk_variance(abs(right), dt)
         both, apart = one + other, other - one
-        old = self._walk
-        self._walk = _Walk(
-            xx=old.xx - 2 * dy * old.xt + dy * dy * old.tt + cos * cos * both,
-            xy=old.xy + dx * old.xt - dy * old.yt - dx * dy * old.tt + cos * sin * both,
-            xt=old.xt - dy * old.tt + cos * turn * apart,
-            yy=old.yy + 2 * dx * old.yt + dx * dx * old.tt + sin * sin * both,
-            yt=old.yt + dx * old.tt + sin * turn * apart,
-            tt=old.tt + turn * turn * both,
+        xx, xy, xt, yy, yt, tt = self._walk
+        self._walk = (
+            xx - 2 * dy * xt + dy * dy * tt + cos * cos * both,
+            xy + dx * xt - dy * yt - dx * dy * tt + cos * sin * both,
+            xt - dy * tt + cos * turn * apart,
+            yy + 2 * dx * yt + dx * dx * tt + sin * sin * both,
+            yt + dx * tt + sin * turn * apart,
+            tt + turn * turn * both,
         )
 
     def _walk_variance(self, way: float, dt: float) -> float:
@@ -151,13 +144,18 @@ class Odometry:
         slip = 2.0 * SLIP_TIME * self.errors.slip**2 * way / dt
         return (self.errors.noise**2 + slip) * way
 
-    def _pose_spread(self) -> tuple[float, float, float, float, float, float]:
+    def _pose_spread(self) -> Spread:
         one, other = (self.errors.left_scale - 1.0) ** 2, (self.errors.right_scale - 1.0) ** 2
-        walk, (lx, ly, lt), (rx, ry, rt) = self._walk, self._of_left, self._of_right
-        xx, yy = walk.xx + one * lx * lx + other * rx * rx, walk.yy + one * ly * ly + other * ry * ry
-        xy, xt = walk.xy + one * lx * ly + other * rx * ry, walk.xt + one * lx * lt + other * rx * rt
-        yt, tt = walk.yt + one * ly * lt + other * ry * rt, walk.tt + one * lt * lt + other * rt * rt
-        return xx, xy, xt, yy, yt, tt
+        (lx, ly, lt), (rx, ry, rt) = self._of_left, self._of_right
+        xx, xy, xt, yy, yt, tt = self._walk
+        return (
+            xx + one * lx * lx + other * rx * rx,
+            xy + one * lx * ly + other * rx * ry,
+            xt + one * lx * lt + other * rx * rt,
+            yy + one * ly * ly + other * ry * ry,
+            yt + one * ly * lt + other * ry * rt,
+            tt + one * lt * lt + other * rt * rt,
+        )
 
     def _twist_spread(self, left: float, right: float, dt: float) -> tuple[float, float, float]:
         errors = self.errors
@@ -172,6 +170,13 @@ class Odometry:
         ) / dt**2
         ahead, mixed = (one + other + 2 * least) / 4, (other - one) / 2 / WHEEL_SEPARATION
         return ahead, mixed, (one + other + 2 * least) / WHEEL_SEPARATION**2
+
+
+@lru_cache(maxsize=16)
+def _forgetting(dt: float) -> tuple[float, float]:
+    """The share of slip that stays over so many seconds, and that of what comes anew."""
+    keep = math.exp(-dt / SLIP_TIME)
+    return keep, math.sqrt(1 - keep * keep)
 
 
 def _stepped(angle: float, counts: int) -> float:

@@ -6,6 +6,7 @@ Parameters and services are served by an executor in a thread of its own (`bring
 
 from __future__ import annotations
 
+import gc
 import threading
 import time
 from contextlib import closing, contextmanager
@@ -154,12 +155,16 @@ def serve(args: list[str] | None, stop: Stop) -> int:
     )
     try:
         run = Run(node, stop)
+        # What stands now stands to the end: going through it for garbage took a twentieth of the time.
+        gc.collect()
+        gc.freeze()
         with served(node), closing(run):
             run.go()
     except REFUSALS as error:
         node.get_logger().fatal(str(error))
         return 1
     finally:
+        gc.unfreeze()
         # Without this the other participants would see the node for 20 s more.
         node.destroy_node()
         rclpy.shutdown()

@@ -2,27 +2,25 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
-from bringup.world.drive import Twist
 from bringup.world.geometry import Pose, relative
 from bringup.world.inertial import Inertial
 from bringup.world.lidar import Lidar, reported
-from bringup.world.model import TICKS_PER_SECOND, Moment, moving, placed, wheel_angles
+from bringup.world.model import TICKS_PER_SECOND, Moment, Robot, moving, placed, wheel_angles
 from bringup.world.odometry import Estimate, Odometry
 
 if TYPE_CHECKING:
     from numpy.typing import NDArray
 
+    from bringup.world.drive import Twist
     from bringup.world.settings import RobotSettings
     from bringup.world.simulation import Simulation
 
 
-@dataclass(frozen=True, slots=True)
-class Truth:
+class Truth(NamedTuple):
     """How the robot moves: pose as seen from where it started, velocity in its own frame, m/s to its left."""
 
     pose: Pose
@@ -38,17 +36,24 @@ class InertialReading(NamedTuple):
 
 
 class Readings(NamedTuple):
-    """What is new at a tick; None for a sensor that says nothing at it.
+    """What is new at a tick; None for a sensor that says nothing at it."""
 
-    `world` is the true pose in the world, `local` as seen from where the robot has started.
-    """
-
-    world: Pose
-    local: Pose
+    robot: Robot
+    moment: Moment
     truth: Truth | None
     odometry: Estimate | None
     inertial: InertialReading | None
     ranges: NDArray[np.float64] | None
+
+    @property
+    def world(self) -> Pose:
+        """The true pose in the world."""
+        return placed(self.moment, self.robot)
+
+    @property
+    def local(self) -> Pose:
+        """The true pose as seen from where the robot has started."""
+        return travelled(self.moment, self.robot)
 
 
 class Sensors:
@@ -90,15 +95,14 @@ class Sensors:
         """What the sensors say at the tick that the simulation has reached; to be called once at every tick."""
         simulation, settings = self._simulation, self._settings
         ticks, now = simulation.ticks, simulation.moment()
-        here = placed(now.qpos, self.robot)
-        local = relative(self.robot.start, here)
         truth = odometry = None
         if due(ticks, settings.odometry_rate):
-            truth = Truth(local, *moving(now.qvel, self.robot, here.yaw))
+            here = placed(now, self.robot)
+            truth = Truth(relative(self.robot.start, here), *moving(now, self.robot, here.yaw))
             odometry = self._odometry.update(wheel_angles(now, self.robot), self._since("odometry", ticks))
         inertial = self._felt(now, ticks) if due(ticks, settings.imu_rate) else None
         ranges = self._seen() if due(ticks, settings.scan_rate) else None
-        return Readings(here, local, truth, odometry, inertial, ranges)
+        return Readings(self.robot, now, truth, odometry, inertial, ranges)
 
     def _felt(self, now: Moment, ticks: int) -> InertialReading:
         values = self._inertial.measure(now.sensordata[self.robot.imu], self._since("inertial", ticks))
@@ -115,6 +119,11 @@ class Sensors:
         passed = (ticks - self._told[sensor]) / TICKS_PER_SECOND
         self._told[sensor] = ticks
         return passed
+
+
+def travelled(moment: Moment, robot: Robot) -> Pose:
+    """Where a robot is, as seen from where it has started."""
+    return relative(robot.start, placed(moment, robot))
 
 
 def due(ticks: int, rate: float) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -18,7 +19,7 @@ from bringup.world.drive import STILL, Twist
 from bringup.world.geometry import Pose, compose, wrap
 from bringup.world.inbox import Inbox
 from bringup.world.model import TICKS_PER_SECOND, wheel_angles, wheel_speeds
-from bringup.world.sensing import Readings, Sensors, due
+from bringup.world.sensing import Readings, Sensors, due, travelled
 from bringup.world.simulation import TICK, Simulation, in_force
 from bringup.world.spoken import InertialOut, JointsOut, OdometryOut, ScanOut
 from bringup.world.track import Recent, Trail
@@ -67,8 +68,8 @@ class RobotTopics:
         self.filter_error: FilterError | None = None
         self.true_trail, self.odometry_trail, self.filtered_trail = Trail(), Trail(), Trail()
         self.sensors.reset(settings)
-        self._recent = Recent(KEPT_TICKS)
-        self._recent.add(Pose(0.0, 0.0, 0.0))
+        self._recent = Recent(KEPT_TICKS, partial(travelled, robot=self.robot))
+        self._recent.add(self._simulation.moment())
         self._believed = Pose(0.0, 0.0, 0.0)
         self._command, self._command_tick = STILL, -1
         self._told_contacts = -1
@@ -110,12 +111,13 @@ class RobotTopics:
             self._scan.publish(ticks, readings.ranges, settings.scan_rate, settings.lidar)
         if ticks % TRAIL_TICKS == 0:
             self._hear_filter()
-            self.true_trail.add(readings.world.x, readings.world.y)
+            here = readings.world
+            self.true_trail.add(here.x, here.y)
             believed = compose(self.robot.start, self._believed)
             self.odometry_trail.add(believed.x, believed.y)
         if due(ticks, JOINTS_RATE):
-            data = self._simulation.data
-            self._joints.publish(ticks, wheel_angles(data, self.robot), wheel_speeds(data, self.robot))
+            now = readings.moment
+            self._joints.publish(ticks, wheel_angles(now, self.robot), wheel_speeds(now, self.robot))
         if ticks % CONTACTS_TICKS == 0 or self._contacts.episodes != self._told_contacts:
             self._publish_contacts()
 
@@ -140,7 +142,7 @@ class RobotTopics:
         self._command_tick = self._simulation.ticks
 
     def _publish_motion(self, ticks: int, readings: Readings) -> None:
-        self._recent.add(readings.local)
+        self._recent.add(readings.moment)
         if readings.truth is not None:
             self._truth.publish_truth(ticks, readings.truth)
         if readings.odometry is not None:

@@ -5,32 +5,41 @@ from __future__ import annotations
 import math
 from collections import deque
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING, Generic, TypeVar
 
-from bringup.world.geometry import Pose, between
+from bringup.world.geometry import between
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from bringup.world.geometry import Pose
+
+Kept = TypeVar("Kept")
 
 MOST_POINTS = 20_000
 
 
-class Recent:
-    """The poses of the last ticks, by tick."""
+class Recent(Generic[Kept]):
+    """The poses of the last ticks, by tick, as what they are `read` from: far more are kept than asked for."""
 
-    def __init__(self, ticks: int) -> None:
-        self._poses: deque[Pose] = deque(maxlen=ticks)
+    def __init__(self, ticks: int, read: Callable[[Kept], Pose]) -> None:
+        self._kept: deque[Kept] = deque(maxlen=ticks)
+        self._read = read
         self._next = 0
 
-    def add(self, pose: Pose) -> None:
-        """Keep the pose of the next tick; the first one is tick 0."""
-        self._poses.append(pose)
+    def add(self, kept: Kept) -> None:
+        """Keep what the pose of the next tick is read from; the first one is tick 0."""
+        self._kept.append(kept)
         self._next += 1
 
     def at(self, tick: float) -> Pose | None:
         """The pose at a tick or between two; None if it is not kept any more or not reached yet."""
-        place = tick - (self._next - len(self._poses))
-        if not 0.0 <= place <= len(self._poses) - 1:
+        place = tick - (self._next - len(self._kept))
+        if not 0.0 <= place <= len(self._kept) - 1:
             return None
         before = int(place)
-        after = min(before + 1, len(self._poses) - 1)
-        return between(self._poses[before], self._poses[after], place - before)
+        after = min(before + 1, len(self._kept) - 1)
+        return between(self._read(self._kept[before]), self._read(self._kept[after]), place - before)
 
 
 @dataclass(slots=True)

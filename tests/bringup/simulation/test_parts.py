@@ -160,9 +160,9 @@ def test_the_schema_says_what_the_table_says() -> None:
 
 
 def test_recent_poses_are_found_by_tick_and_between_ticks() -> None:
-    recent = Recent(ticks=3)
+    recent = Recent(ticks=3, read=lambda x: Pose(x, 0.0, 0.0))
     for tick in range(6):
-        recent.add(Pose(float(tick), 0.0, 0.0))
+        recent.add(float(tick))
     assert recent.at(4) == Pose(4.0, 0.0, 0.0)
     assert recent.at(3.25) == Pose(3.25, 0.0, 0.0)
     assert recent.at(2) is None
