@@ -12,6 +12,7 @@ import _thread
 import ctypes
 import logging
 import signal
+import time
 from ctypes import CFUNCTYPE, PYFUNCTYPE, Structure, c_bool, c_char_p, c_void_p, py_object
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 log = logging.getLogger(__name__)
+_AFTER = 0.002  # seconds in which a thread that has let go of the interpreter is in the kernel
 _HEADER = 4  # bytes of the encapsulation, which the middleware writes itself
 
 _Result = TypeVar("_Result")
@@ -90,14 +92,20 @@ def uninterrupted(convert: Callable[..., _Result], *arguments: object) -> _Resul
     """Call a short function that may be repeated, once more if it is interrupted, and pass the interrupt on.
 
     rclpy does not expect KeyboardInterrupt from a conversion, and would lose it. Another thread sends the signal
-    again, so that it comes when this thread, or the call in which it waits, is out of here.
+    again, so that it comes when this thread is out of here, and has begun with the call in which it may wait: to one
+    that comes between it and the kernel the call would pay no heed.
     """
     try:
         return convert(*arguments)
     except KeyboardInterrupt:
         result = convert(*arguments)
-        _thread.start_new_thread(signal.pthread_kill, (_thread.get_ident(), signal.SIGINT))
+        _thread.start_new_thread(_interrupt, (_thread.get_ident(),))
         return result
+
+
+def _interrupt(thread: int) -> None:
+    time.sleep(_AFTER)
+    signal.pthread_kill(thread, signal.SIGINT)
 
 
 def _capsule_of(function: object) -> object:

@@ -13,7 +13,7 @@ import pytest
 
 from orchestra.supervise.keeping import proc
 from orchestra.supervise.options import RunOptions
-from orchestra.values import Restart
+from orchestra.values import Restart, Stop
 from tests.supervise.plans import (
     PROCESSES,
     alive,
@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
 NODE = str(PROCESSES / "warm_node.py")
 ENVIRONMENT = {"ROS_DOMAIN_ID": "63", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
+# Six nodes that leave at once need some seconds where others are at work too.
+PATIENT = Stop(timeout=30.0, kill_timeout=5.0)
 AGAIN = Restart("on-failure", 0.0, 2.0, 30.0, None, 10.0)
 
 
@@ -47,7 +49,9 @@ def parent(pid: int) -> int:
 
 def test_nodes_are_forked_and_end_as_nodes_do(tmp_path: Path) -> None:
     """They are children of the supervisor, talk with each other, and leave when they are asked."""
-    nodes = [node(f"n{index}", NODE, "--ros-args", "-r", f"__node:=n{index}") for index in range(3)]
+    nodes = [
+        node(f"n{index}", NODE, "--ros-args", "-r", f"__node:=n{index}", stop=PATIENT) for index in range(3)
+    ]
     with launched(tmp_path, both_ways(*nodes), environment=ENVIRONMENT) as run:
         for one in nodes:
             run.await_line(one.id, "heard x", 3)
