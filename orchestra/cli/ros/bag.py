@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from orchestra.cli.ros.asking import answered
-from orchestra.cli.ros.options import positive, seconds, word
+from orchestra.cli.ros.options import natural, positive, seconds, word
 from orchestra.cli.ros.verbs import Verb, VerbParser
 
 if TYPE_CHECKING:
@@ -38,7 +38,23 @@ def _recording(parser: CommandParser) -> None:
     parser.add_argument(
         "--compression", choices=["none", "lz4", "zstd"], default="none", help="of the file (default: none)"
     )
-    parser.add_argument("-d", "--duration", type=positive, metavar="SECONDS", help="end after this time")
+    parser.add_argument("--duration", type=positive, metavar="SECONDS", help="end after this time")
+    parser.add_argument(
+        "-b",
+        "--max-bag-size",
+        type=natural,
+        default=0,
+        metavar="BYTES",
+        help="begin another file when one is so large",
+    )
+    parser.add_argument(
+        "-d",
+        "--max-bag-duration",
+        type=seconds,
+        default=0.0,
+        metavar="SECONDS",
+        help="begin another file when one has so much time in it",
+    )
     parser.add_argument("--include-hidden-topics", action="store_true", help="hidden ones too")
     parser.add_argument("--no-discovery", action="store_true", help="only topics that are there at the begin")
 

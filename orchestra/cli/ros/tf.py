@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from orchestra.cli.parser import CommandParser
 
 _WAIT: Final = 2.0
+_PDF: Final = "frames.pdf"
 
 
 def _echoing(parser: CommandParser) -> None:
@@ -32,6 +33,13 @@ def _drawing(parser: CommandParser) -> None:
     how = parser.add_mutually_exclusive_group()
     how.add_argument("--dot", action="store_true", help="as a graph in the language of Graphviz")
     how.add_argument("--svg", action="store_true", help="as a picture, which Graphviz draws")
+    how.add_argument(
+        "--pdf",
+        nargs="?",
+        const=_PDF,
+        metavar="FILE",
+        help=f"as a PDF, which Graphviz draws (default: {_PDF})",
+    )
     parser.add_argument(
         "--wait",
         type=seconds,

@@ -1,4 +1,4 @@
-"""A graph, as that of a plan, as an SVG image, which Graphviz draws."""
+"""A graph, as that of a plan, as an image in SVG or PDF, which Graphviz draws."""
 
 from __future__ import annotations
 
@@ -23,7 +23,12 @@ def render(plan: Plan, setting: Setting = Setting(), /) -> str:  # noqa: B008 - 
 
 
 def image(source: str) -> str:
-    """Return what Graphviz draws of a text in DOT.
+    """Return the SVG that Graphviz draws of a text in DOT. Raises as `drawn` does."""
+    return drawn(source, "svg").decode()
+
+
+def drawn(source: str, form: str) -> bytes:
+    """Return what Graphviz draws of a text in DOT, in a form as `svg` or `pdf`.
 
     Raises `UsageError` where Graphviz is not installed, `RunError` where it fails.
     """
@@ -34,10 +39,10 @@ def image(source: str) -> str:
         )
     try:
         done = subprocess.run(  # noqa: S603 - the program that was found
-            [program, "-Tsvg"], input=source.encode(), capture_output=True, timeout=_PATIENCE, check=False
+            [program, f"-T{form}"], input=source.encode(), capture_output=True, timeout=_PATIENCE, check=False
         )
     except subprocess.TimeoutExpired:
         raise RunError(f"Graphviz has not drawn this in {_PATIENCE:g} s") from None
     if done.returncode:
         raise RunError(f"Graphviz could not draw this: {done.stderr.decode(errors='replace').strip()}")
-    return done.stdout.decode()
+    return done.stdout

@@ -1,8 +1,9 @@
-"""`tf tree`: all frames, as text, JSON or DOT."""
+"""`tf tree`: all frames, as text, JSON, DOT, SVG or PDF."""
 
 from __future__ import annotations
 
 import time
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.errors import RunError
@@ -36,13 +37,24 @@ def tree(options: Namespace) -> int:
     for child, parents in sorted(frames.parents.items()):
         if len(parents) > 1:
             warn(f"warning: {child} has several parents: {', '.join(sorted(parents))}")
-    text = _dot(frames, heard) if options.dot or options.svg else _text(frames, heard)
-    if options.svg and not as_json(options):
-        from orchestra.plan.render.svg import image  # noqa: PLC0415 - other pictures do not need it
-
-        text = image(text)
+    text = _written(options, frames, heard)
     tell(options, text, [_data(child, edge, heard) for child, edge in sorted(frames.edges.items())])
     return 0
+
+
+def _written(options: Namespace, frames: Frames, heard: float) -> str:
+    """Return the frames as the options say; what is told of a PDF is the file that it is in."""
+    if as_json(options) or not (options.dot or options.svg or options.pdf):
+        return _text(frames, heard)
+    dot = _dot(frames, heard)
+    if options.dot:
+        return dot
+    from orchestra.plan.render.svg import drawn, image  # noqa: PLC0415 - other pictures do not need it
+
+    if options.svg:
+        return image(dot)
+    Path(options.pdf).write_bytes(drawn(dot, "pdf"))
+    return f"{options.pdf}\n"
 
 
 def roots(frames: Frames) -> list[str]:

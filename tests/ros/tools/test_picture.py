@@ -14,6 +14,8 @@ from orchestra.ros.tools.graph.system import End, System
 from orchestra.ros.tools.picture import data, drawn, text
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from tests.ros.tools.conftest import Graph
 
 
@@ -81,7 +83,11 @@ def test_the_running_graph_is_drawn(graph: Graph) -> None:
 
 
 @pytest.mark.skipif(shutil.which("dot") is None, reason="needs Graphviz")
-def test_pictures_are_drawn_by_graphviz(graph: Graph) -> None:
+def test_pictures_are_drawn_by_graphviz(graph: Graph, tmp_path: Path) -> None:
+    file = tmp_path / "frames.pdf"
+    told = graph.told("tf", "tree", "--pdf", str(file), "--wait", "0.5", "--spin-time", "60")
+    assert told == f"{file}\n"
+    assert file.read_bytes().startswith(b"%PDF-")
     for words in (
         ("graph", "--format", "svg"),
         ("tf", "tree", "--svg", "--wait", "0.5", "--spin-time", "60"),

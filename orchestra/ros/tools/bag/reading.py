@@ -21,7 +21,7 @@ from orchestra.dataclass import dataclass
 from orchestra.errors import RunError
 from orchestra.fields import replace
 from orchestra.ros.tools.bag import summary
-from orchestra.ros.tools.bag.summary import Summary, Topic
+from orchestra.ros.tools.bag.summary import Part, Summary, Topic
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -83,7 +83,7 @@ class Bag:
         topics = tuple(topic for _, topic in sorted(self._topics.items()))
         start = min((span[0] for span in self._spans), default=0)
         end = max((span[1] for span in self._spans), default=0)
-        return Summary(tuple(file.name for file in self.files), topics, start, end)
+        return Summary(tuple(Part(file.name) for file in self.files), topics, start, end)
 
     def messages(self, wanted: Callable[[str], bool], since: int = 0) -> Iterator[Recorded]:
         """Yield the messages of topics, from a time on, in the order of recording. Raises `RunError`."""
@@ -162,10 +162,16 @@ def _files(path: Path) -> list[Path]:
         if other is not None:
             raise RunError(f"{other} is no MCAP file, and no other storage can be read")
         return named
-    found = sorted(path.glob(f"*{_SUFFIX}"))
+    found = sorted(path.glob(f"*{_SUFFIX}"), key=_number)
     if not found:
         raise RunError(f"there is no MCAP file in {path}")
     return found
+
+
+def _number(file: Path) -> tuple[int, str]:
+    """Return what files of a bag that was split are in order by: the number at the end of their names."""
+    number = file.stem.rpartition("_")[2]
+    return (int(number) if number.isdecimal() else 0, file.name)
 
 
 def _index(file: Path, stream: BinaryIO) -> Index | None:

@@ -16,7 +16,7 @@ from orchestra.ros.tools.bag.definitions import definition
 from orchestra.ros.tools.bag.selection import selection
 from orchestra.ros.tools.bag.summary import Topic
 from orchestra.ros.tools.bag.taking import Tap
-from orchestra.ros.tools.bag.writing import BagWriter
+from orchestra.ros.tools.bag.writing import BagWriter, Layout
 from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import topics
 from orchestra.ros.tools.graph.qos import data_of
@@ -28,8 +28,8 @@ if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.ros.tools.bag.selection import Selection
+    from orchestra.ros.tools.bag.storing import Message
     from orchestra.ros.tools.bag.summary import Summary
-    from orchestra.ros.tools.bag.writing import Message
     from orchestra.ros.tools.graph.joining import Graph
 
 # How often messages are taken, the graph is looked at for new topics, and known ones for new publishers; in seconds.
@@ -47,7 +47,10 @@ def record(options: Namespace) -> int:
     if folder.exists():
         raise RunError(f"{folder} is there already")
     with joined(options) as graph:
-        writer = BagWriter(folder, options.compression, f"orchestra {version('orchestra')}")
+        layout = Layout(
+            options.compression, options.max_bag_size, int(options.max_bag_duration * _NANOSECONDS)
+        )
+        writer = BagWriter(folder, layout, f"orchestra {version('orchestra')}")
         recorder = _Recorder(graph, writer, chosen, quiet=as_json(options))
         began = time.monotonic()
         try:

@@ -46,16 +46,31 @@ class Topic:
 
 
 @dataclass(frozen=True, slots=True)
+class Part:
+    """One file of a bag, with the times of its first and its last message, 0 where there is none."""
+
+    path: str
+    start: int = 0
+    end: int = 0
+    count: int = 0
+
+
+@dataclass(frozen=True, slots=True)
 class Summary:
     """All of it: `start` and `end` are the times of the first and the last message, 0 where there is none."""
 
-    files: tuple[str, ...]
+    parts: tuple[Part, ...]
     topics: tuple[Topic, ...]
     start: int = 0
     end: int = 0
     distribution: str = "jazzy"
     storage: str = STORAGE
     compression: str = field(default="")
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """The names of its files."""
+        return tuple(part.path for part in self.parts)
 
     @property
     def count(self) -> int:
@@ -65,13 +80,11 @@ class Summary:
 
 def document(summary: Summary) -> dict[str, Any]:
     """Return what stands below the one key of `metadata.yaml`."""
-    span = {"nanoseconds": summary.end - summary.start}
-    start = {"nanoseconds_since_epoch": summary.start}
     return {
         "version": _VERSION,
         "storage_identifier": summary.storage,
-        "duration": span,
-        "starting_time": start,
+        "duration": {"nanoseconds": summary.end - summary.start},
+        "starting_time": {"nanoseconds_since_epoch": summary.start},
         "message_count": summary.count,
         "topics_with_message_count": [
             {
@@ -91,12 +104,12 @@ def document(summary: Summary) -> dict[str, Any]:
         "relative_file_paths": list(summary.files),
         "files": [
             {
-                "path": file,
-                "starting_time": start.copy(),  # YAML would have a reference to the one above
-                "duration": span.copy(),
-                "message_count": summary.count,
+                "path": part.path,
+                "starting_time": {"nanoseconds_since_epoch": part.start},
+                "duration": {"nanoseconds": part.end - part.start},
+                "message_count": part.count,
             }
-            for file in summary.files
+            for part in summary.parts
         ],
         "custom_data": None,
         "ros_distro": summary.distribution,

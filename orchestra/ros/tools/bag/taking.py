@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from rclpy.node import Node
     from rclpy.qos import QoSProfile
 
-    from orchestra.ros.tools.bag.writing import Message
+    from orchestra.ros.tools.bag.storing import Message
 
 _NUMBERS = 0xFFFFFFFF  # what an MCAP has for the number of a message
 

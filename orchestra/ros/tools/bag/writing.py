@@ -1,4 +1,4 @@
-"""Writes a bag: a folder with one MCAP file and `metadata.yaml`.
+"""Writes a bag: a folder with MCAP files, one unless it is split, and `metadata.yaml`.
 
 A thread of its own writes, so that a slow disk stops nobody who hears messages. What is not written yet is bounded:
 whoever adds more is told to wait (`behind`), and the middleware keeps it meanwhile.
@@ -12,48 +12,47 @@ from queue import SimpleQueue
 from threading import Thread
 from typing import TYPE_CHECKING, Final
 
-from mcap.writer import CompressionType, Writer
-
+from orchestra.dataclass import dataclass
 from orchestra.fields import replace
 from orchestra.ros.tools.bag import summary
-from orchestra.ros.tools.bag.definitions import ENCODING
-from orchestra.ros.tools.bag.summary import Summary, Topic
+from orchestra.ros.tools.bag.storing import StorageFile
+from orchestra.ros.tools.bag.summary import Part, Summary, Topic
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
     from pathlib import Path
-    from typing import BinaryIO
 
-    # Topic, log time, publish time, number of the message, its bytes.
-    Message = tuple[str, int, int, int, bytes]
+    from orchestra.ros.tools.bag.storing import Message
 
-COMPRESSIONS: Final = {
-    "none": CompressionType.NONE,
-    "lz4": CompressionType.LZ4,
-    "zstd": CompressionType.ZSTD,
-}
 _MOST_WAITING: Final = 256 * 2**20
 # So much is lost of a recorder that is killed, and so much is read at once by whoever plays from the middle.
 _CHUNK: Final = 768 * 1024
-_METADATA: Final = "rosbag2"
+
+
+@dataclass(frozen=True, slots=True)
+class Layout:
+    """How a bag is written: compressed or not; another file begins after so many bytes or nanoseconds, 0 for never."""
+
+    compression: str = "none"
+    most_bytes: int = 0
+    most_time: int = 0
 
 
 class BagWriter:
     """A bag that is being written to a folder, which must not be there. Raises `OSError`, also for earlier writes."""
 
-    def __init__(self, folder: Path, compression: str, library: str) -> None:
+    def __init__(self, folder: Path, layout: Layout, library: str) -> None:
         folder.mkdir(parents=True)
         self.folder = folder
-        self._path = folder / f"{folder.name}_0.mcap"
-        self._stream: BinaryIO = self._path.open("wb")
-        self._writer = Writer(self._stream, chunk_size=_CHUNK, compression=COMPRESSIONS[compression])
-        self._writer.start(profile="ros2", library=library)
-        self._channels: dict[str, int] = {}
+        self._layout = layout
+        self._library = library
+        self._parts: list[Part] = []
         self._topics: dict[str, Topic] = {}
+        self._definitions: dict[str, str] = {}
         self._counts: dict[str, int] = {}
-        self._start = self._end = 0
         self._added = self._written = 0
         self._failure: OSError | None = None
+        self._file = self._begun()
         self._jobs: SimpleQueue[Callable[[], None] | None] = SimpleQueue()
         self._thread = Thread(target=self._work, name="bag")
         self._thread.start()
@@ -71,7 +70,7 @@ class BagWriter:
     def declare(self, topic: Topic, definition: str) -> None:
         """Make a topic known, before its first message."""
         self._topics[topic.name] = topic
-        self._jobs.put(partial(self._register, topic, definition.encode()))
+        self._jobs.put(partial(self._register, topic, definition))
 
     def learn(self, topic: Topic) -> None:
         """Take what has become known of a topic since."""
@@ -88,20 +87,36 @@ class BagWriter:
         """Write the rest, and return what is in the bag. Raises `OSError`; what was written can be read then too."""
         self._jobs.put(None)
         self._thread.join()
-        topics = tuple(
-            replace(topic, count=self._counts.get(name, 0)) for name, topic in sorted(self._topics.items())
-        )
-        told = Summary((self._path.name,), topics, self._start, self._end)
         if self._failure is None:
-            self._guarded(lambda: self._finish(told))
+            self._guarded(lambda: self._file.finish(self._told()))
         if self._failure is not None:
             with suppress(OSError):  # of what could not be written before
-                self._stream.close()
+                self._file.close()
             raise self._failure
+        told = self._told()
         made = self.folder / f".{summary.FILE}"
         made.write_text(summary.metadata_text(told), "utf-8")
         made.rename(self.folder / summary.FILE)
         return told
+
+    def _begun(self) -> StorageFile:
+        """Return the next file, in which all topics are known. Raises `OSError`."""
+        path = self.folder / f"{self.folder.name}_{len(self._parts)}.mcap"
+        chunk = min(_CHUNK, self._layout.most_bytes or _CHUNK)
+        made = StorageFile(path, self._layout.compression, self._library, chunk)
+        for name, definition in self._definitions.items():
+            made.register(self._topics[name], definition)
+        return made
+
+    def _told(self) -> Summary:
+        """Return what is in the bag by now."""
+        parts = (*self._parts, self._file.part)
+        topics = tuple(
+            replace(topic, count=self._counts.get(name, 0)) for name, topic in sorted(self._topics.items())
+        )
+        filled = [part for part in parts if part.count]
+        start = min((part.start for part in filled), default=0)
+        return Summary(parts, topics, start, max((part.end for part in filled), default=0))
 
     def _work(self) -> None:
         """Do what is to be done until the end; after a failure, nothing more."""
@@ -112,33 +127,35 @@ class BagWriter:
     def _guarded(self, job: Callable[[], None]) -> None:
         try:
             job()
-            if not self._stream.closed:
-                self._stream.flush()  # a recorder that is killed has written what it has heard but for a chunk
+            self._file.flush()
         except OSError as error:
-            error.filename = str(self._path)
+            error.filename = str(self.folder / self._file.part.path)
             self._failure = error
 
-    def _register(self, topic: Topic, definition: bytes) -> None:
-        schema = self._writer.register_schema(topic.type, ENCODING if definition else "", definition)
-        about = {
-            "offered_qos_profiles": summary.profiles_text(topic.profiles),
-            "topic_type_hash": topic.type_hash,
-        }
-        self._channels[topic.name] = self._writer.register_channel(topic.name, "cdr", schema, about)
+    def _register(self, topic: Topic, definition: str) -> None:
+        self._definitions[topic.name] = definition
+        self._file.register(topic, definition)
 
     def _write(self, messages: Sequence[Message]) -> None:
-        for name, log_time, publish_time, number, data in messages:
-            channel = self._channels[name]
-            self._writer.add_message(channel, log_time, data, publish_time, number)
+        for message in messages:
+            name, log_time, *_ = message
+            if self._is_full(log_time):
+                self._file.finish(self._told())
+                self._parts.append(self._file.part)
+                self._file = self._begun()
+            self._file.write(message)
             self._counts[name] = self._counts.get(name, 0) + 1
-            self._start = min(self._start or log_time, log_time)
-            self._end = max(self._end, log_time)
         self._written += _size(messages)
 
-    def _finish(self, told: Summary) -> None:
-        self._writer.add_metadata(_METADATA, {"serialized_metadata": summary.stored_text(told)})
-        self._writer.finish()  # type: ignore[no-untyped-call]  # it has no annotation
-        self._stream.close()
+    def _is_full(self, log_time: int) -> bool:
+        """Tell whether a message of this time begins another file."""
+        most_bytes, most_time = self._layout.most_bytes, self._layout.most_time
+        if not (most_bytes or most_time) or not (part := self._file.part).count:
+            return False
+        return bool(
+            (most_bytes and self._file.size >= most_bytes)
+            or (most_time and log_time - part.start >= most_time)
+        )
 
 
 def _size(messages: Sequence[Message]) -> int:

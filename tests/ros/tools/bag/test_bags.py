@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
+import yaml
 
 from orchestra.testing.domain import free_domain
 from tests.ros.tools.conftest import Graph
@@ -159,6 +160,32 @@ def test_it_is_played_under_another_name_with_its_clock(bag: Path, shell: Graph)
         clock = shell.ask("topic", "echo", "/clock", "rosgraph_msgs/msg/Clock", "--once", "--format", "json")
         stamp = clock.data["clock"]
     assert stamp["sec"] * 1_000_000_000 + stamp["nanosec"] >= start
+
+
+def test_a_bag_is_split_and_told_and_played_as_one(shell: Graph, tmp_path: Path) -> None:
+    """By size and by time; each file is whole, and without `metadata.yaml` they are in their order too."""
+    folder = tmp_path / "split"
+    words = ("bag", "record", "--all", "-o", str(folder), "-b", "20000", "-d", "0.3", "--format", "json")
+    with (
+        shell.asking(*words) as recorder,
+        _counting(shell, "publish", str(_COUNT)) as publisher,
+    ):
+        assert _line(publisher) == "done\n"
+        recorder.send_signal(signal.SIGINT)
+        told = json.loads(_line(recorder))
+    about = yaml.safe_load((folder / "metadata.yaml").read_text("utf-8"))["rosbag2_bagfile_information"]
+    names = [file["path"] for file in about["files"]]
+    assert names == about["relative_file_paths"] == [f"split_{number}.mcap" for number in range(len(names))]
+    assert len(names) > 1
+    assert sum(file["message_count"] for file in about["files"]) == about["message_count"] == told["messages"]
+    for file in about["files"]:
+        with Bag(folder / file["path"]) as one:
+            assert (one.summary().count, one.broken) == (file["message_count"], [])
+    (folder / "metadata.yaml").unlink()
+    with Bag(folder) as whole:
+        assert [message.data[16:].split(b"\0")[0] for message in whole.messages("/late".__eq__)] == [
+            str(number).encode() for number in range(_COUNT)
+        ]
 
 
 def test_a_recorder_that_was_killed_leaves_what_it_has_written(shell: Graph, tmp_path: Path) -> None:

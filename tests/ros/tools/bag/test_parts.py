@@ -22,7 +22,7 @@ from orchestra.ros.tools.bag.offering import offer
 from orchestra.ros.tools.bag.pace import Pace, with_ticks
 from orchestra.ros.tools.bag.reading import Recorded
 from orchestra.ros.tools.bag.selection import selection
-from orchestra.ros.tools.bag.summary import Summary, Topic
+from orchestra.ros.tools.bag.summary import Part, Summary, Topic
 from orchestra.ros.tools.keyboard import keys_of
 
 if TYPE_CHECKING:
@@ -80,7 +80,9 @@ def test_profiles_with_numbers_are_those_of_older_bags() -> None:
 
 
 def test_the_metadata_name_the_files_without_references() -> None:
-    text = summary.metadata_text(Summary(("a_0.mcap",), (Topic("/a", "b/msg/C", "RIHS01_", (), 3),), 5, 9))
+    text = summary.metadata_text(
+        Summary((Part("a_0.mcap", 5, 9, 3),), (Topic("/a", "b/msg/C", "RIHS01_", (), 3),), 5, 9)
+    )
     assert "&" not in text
     assert "message_count: 3" in text
     assert summary.storage_files(text) == ["a_0.mcap"]
