@@ -17,6 +17,8 @@ import rclpy
 from nav_msgs.msg import Odometry
 from rclpy.action import ActionClient
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.parameter import Parameter
+from rclpy.parameter_client import AsyncParameterClient
 from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from bringup.control_node.interfaces import GoToGoal
@@ -70,6 +72,14 @@ class _Operator:
         assert sent.result().accepted
         return sent.result().get_result_async()
 
+    def let_drive(self, robot: str) -> None:
+        """Let a robot drive that was started with no speed at all."""
+        client = AsyncParameterClient(self.node, f"/{robot}/velocity_controller")
+        self.until(client.services_are_ready, f"{robot} has parameters")
+        changed = client.set_parameters([Parameter("max_linear_vel", value=0.5)])
+        self.until(changed.done, f"{robot} has taken its speed")
+        assert changed.result().results[0].successful
+
     def close(self) -> None:
         for client in self.clients:
             client.destroy()
@@ -80,7 +90,13 @@ class _Operator:
 
 @pytest.fixture
 def operator(launch: Callable[..., Run]) -> Iterator[_Operator]:
-    run = launch(str(_BRINGUP / "fleet.yaml"), "robots:=robot1,robot2", "mode:=go_to_goal", "settings:=")
+    """Two robots, of which the first cannot drive yet: it holds its claim until it is let."""
+    run = launch(
+        str(_BRINGUP / "fleet.yaml"),
+        *("robots:=robot1,robot2", "mode:=go_to_goal", "settings:="),
+        "/robot1/velocity_controller:max_linear_vel:=0.0",
+        "/robot1/velocity_controller:progress_timeout:=600.0",
+    )
     run.wait_ready(timeout=60)
     operator = _Operator(run)
     try:
@@ -120,6 +136,7 @@ def test_two_robots_are_not_sent_to_one_place(operator: _Operator) -> None:
     result = refused.result().result
     assert result.outcome == GoToGoal.Result.OVERRULED
     assert "robot1" in result.text
+    operator.let_drive("robot1")
     operator.until(reached.done, "robot1 is there")
     result = reached.result().result
     assert result.outcome == GoToGoal.Result.REACHED, result.text
