@@ -28,13 +28,14 @@ _CLOSED: Final = re.compile(rf"([\]}} ,]*?)({_REST})")
 _BEGINNING: Final = re.compile(r"[^\n:]*:")
 _WORDS: Final = re.compile(r"[\w-]+(?=:[ \n])|[{\[]|\n *- ")
 
-# Values in quotes that have no escapes; plain ones, within a flow collection and outside of one.
+# Values in quotes that have no escapes; plain ones, within a flow collection and outside of one. They have few sets of
+# characters: most of the time that it takes to compile a form goes there.
 _QUOTED: Final = r"[ !#-&(-[\]-~]+"  # of ASCII all but quotes and backslashes
-_FIRST: Final = r"(?![nN]ull\b|NULL\b)(?:[A-Za-z0-9_/.$(+]|-(?=[0-9.]))"
-_FLOW: Final = r"[A-Za-z0-9_/.$()+=~^;@%<>-]"
-_BLOCK: Final = r"(?:[A-Za-z0-9_/.$()+=~^;@%<>,{}\[\]-]|:(?=[A-Za-z0-9_/.=$(]))"
-_IN_FLOW: Final = rf"{_FIRST}{_FLOW}*(?: +{_FLOW}+)*"
-_IN_BLOCK: Final = rf"{_FIRST}{_BLOCK}*(?: +{_BLOCK}+)*"
+_BEGUN: Final = r"(?=[\w/.$(+]|-[0-9.])(?![nN]ull\b|NULL\b)"
+_ENDED: Final = r"(?<! )"
+_IN_FLOW: Final = rf"{_BEGUN}[\w/.$()+=~^;@%<> -]+{_ENDED}"
+_BLOCK: Final = r"\w/.$()+=~^;@%<>,{}\[\]\-"
+_IN_BLOCK: Final = rf"{_BEGUN}[{_BLOCK} ]+(?::[{_BLOCK}][{_BLOCK} ]*)*{_ENDED}"
 _QUOTES: Final = ("'", '"')
 _BRACKET: Final = re.compile(r"[{\[]")
 _DEPTH: Final = 2  # a list that stands behind the key of a mapping
