@@ -22,6 +22,7 @@ from orchestra.patterns import pattern
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
+HERE = "on this machine"  # ends what is told of something that another machine may have
 _BREAKS = pattern(r"\s*[\n\r\x0b\x0c\x85\u2028\u2029]\s*")
 
 

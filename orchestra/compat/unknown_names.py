@@ -12,7 +12,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.borrowed import PACKAGES, ROOM
 from orchestra.compat.explanation import Explanation
+from orchestra.compat.seam import connection
 from orchestra.compat.source_text import word_in
+from orchestra.errors import HERE
 from orchestra.nearest import is_slip, nearest
 
 if TYPE_CHECKING:
@@ -89,11 +91,23 @@ def _no_module(name: str, place: Place) -> Explanation:
     parent, _, last = name.rpartition(".")
     path: Any = getattr(sys.modules.get(parent or ROOM), "__path__", ())
     meant = nearest(last, (module.name for module in iter_modules(path) if parent or module.ispkg))
+    if not parent and (meant is None or not is_slip(last, meant)):
+        meant = _installed(last)
     full = None if meant is None else f"{parent}.{meant}".lstrip(".")
     span = word_in(place.file, place.span, name)
-    notes = (_BESIDE,) if not parent and _is_beside(place, last) else ()
-    message = f"there is no Python module '{name}' here"
-    return Explanation(message, span=span, suggestion=full, notes=notes)
+    if parent or meant is not None:
+        return Explanation(f"there is no Python module '{name}' here", span=span, suggestion=full)
+    if _is_beside(place, last):
+        return Explanation(f"there is no Python module '{name}' here", span=span, notes=(_BESIDE,))
+    severity, _, _ = connection().missing_package(name)  # modules come with packages
+    return Explanation(f"there is no Python module '{name}' {HERE}", span=span, severity=severity)
+
+
+def _installed(name: str) -> str | None:
+    """Return the module of Python or of a package that one which is not there is a slip for."""
+    installed = {module.name for module in iter_modules() if not module.name.startswith("_")}
+    meant = nearest(name, installed | sys.stdlib_module_names)
+    return meant if meant is not None and is_slip(name, meant) else None
 
 
 def _is_beside(place: Place, module: str) -> bool:

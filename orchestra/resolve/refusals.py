@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
 from orchestra.description.source import shortened
-from orchestra.errors import Code, Severity
+from orchestra.errors import HERE, Code, Severity
 from orchestra.location import displayed, is_file, is_python
 from orchestra.nearest import is_slip, nearest
 from orchestra.resolve.context import POISON
@@ -146,7 +146,7 @@ def missing_package(package: str, known: tuple[str, ...], *, launching: bool) ->
     meant = nearest(package, known)
     if launching or (meant is not None and is_slip(package, meant)):
         return MissingPackage(Severity.ERROR, f"there is no package {package!r} here", meant)
-    return MissingPackage(Severity.WARNING, f"there is no package {package!r} on this machine", None)
+    return MissingPackage(Severity.WARNING, f"there is no package {package!r} {HERE}", None)
 
 
 def report_missing_executable(

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from orchestra.cli.look.looker import Looker
+from orchestra.cli.targets import targets
 from orchestra.errors import Code, Problem, Problems
 from orchestra.pipeline import collect, inputs_from
 from tests.load.planning import installed
@@ -66,6 +68,24 @@ def test_a_file_that_needs_a_package_to_be_read_is_refused(tmp_path: Path, launc
     assert (problem.code, problem.severity) == (Code.MISSING_PACKAGE, "error")
     assert "there is no package 'gone'" in problem.message
     assert _marked(tmp_path, problem) == "gone"
+
+
+@pytest.mark.parametrize(
+    ("text", "severity", "suggestion"),
+    [
+        (AT_IMPORT, "warning", None),
+        (f"import nowhere_to_be_found\n{_NOTHING}", "warning", None),
+        (f"import collectoins\n{_NOTHING}", "error", "collections"),
+        (f"import launch.actoins\n{_NOTHING}", "error", "launch.actions"),
+    ],
+)
+def test_a_check_only_warns_of_what_another_machine_may_have(
+    tmp_path: Path, text: str, severity: str, suggestion: str | None
+) -> None:
+    (tmp_path / "a.launch.py").write_text(_HEAD + text, "utf-8")
+    (target,) = targets([str(tmp_path / "a.launch.py")])
+    finding, _ = Looker(inputs_from([], environment=installed(tmp_path))).look(target)
+    assert [(each.severity, each.suggestion) for each in finding.problems] == [(severity, suggestion)]
 
 
 @pytest.mark.parametrize("inside", ["yaml", "py"])

@@ -13,7 +13,7 @@ from orchestra.cli.look.finding import Finding
 from orchestra.cli.look.questions import RecordedPackages
 from orchestra.cli.look.sharing import SharedLoader
 from orchestra.cli.look.standing import Standing
-from orchestra.errors import Code, Problems
+from orchestra.errors import HERE, Code, Problems, Severity
 from orchestra.fields import replace
 from orchestra.location import Location, displayed, point
 from orchestra.resolve.mentions import files_named
@@ -29,6 +29,7 @@ from orchestra.witness.variables import ObservedEnvironment
 if TYPE_CHECKING:
     from orchestra.cli.targets import Target
     from orchestra.description.launch import Description
+    from orchestra.errors import Problem
     from orchestra.location import Span
     from orchestra.pipeline import Isolating
     from orchestra.resolve.inputs import Inputs
@@ -138,7 +139,16 @@ class _Visit:
         """Read a launch file, as `orchestra.load.files.load` does."""
         if chain:
             self.included.add(real(path))
-        return self._loader.load(path, problems, chain, ending)
+        description = self._loader.load(path, problems, chain, ending)
+        if description is None and not chain:
+            problems.amend(_of_this_host)
+        return description
+
+
+def _of_this_host(problem: Problem) -> Problem:
+    """Return a problem as a warning where a file cannot be read for want of what another machine may have."""
+    is_lacking = problem.code in (Code.MISSING_PACKAGE, Code.USER_CODE) and problem.message.endswith(HERE)
+    return replace(problem, severity=Severity.WARNING) if is_lacking else problem
 
 
 def _has_comments(path: str) -> bool:
