@@ -10,6 +10,7 @@ import numpy as np
 
 from bringup.filter.estimator import Estimator, Snapshot
 from bringup.filter.history import History
+from bringup.filter.joining import Joiner
 from bringup.filter.measurement import Measurement
 from bringup.filter.settings import NANOSECONDS, Timing
 from bringup.filter.state import ANGULAR, Array
@@ -26,6 +27,7 @@ class Fusion:
         self._timing = timing
         self._queue: list[tuple[int, int, Measurement]] = []
         self._order = count()
+        self._joiner = Joiner()
         self._history = History()
         self._updated: tuple[int, Array] | None = None
         self.angular_acceleration: Array = np.zeros(3)
@@ -84,6 +86,8 @@ class Fusion:
             self._go_back()
         while queue and queue[0][0] <= now:
             measurement = heapq.heappop(queue)[2]
+            if queue and queue[0][0] == measurement.stamp:
+                measurement = self._of_one_moment(measurement)
             if measurement.command is not None:
                 estimator.command, estimator.commanded_at = measurement.command, measurement.commanded_at
             accepted = estimator.process(measurement)
@@ -94,6 +98,24 @@ class Fusion:
             if self._timing.smooth_lagged_data:
                 self._remember(measurement)
         estimator.command, estimator.commanded_at = command, commanded_at
+
+    def _of_one_moment(self, measurement: Measurement) -> Measurement:
+        """Take the other measurements of the same stamp from the queue as well, if all of them can be joined.
+
+        Who is told of each measurement gets each by itself, and the very first one is taken over alone.
+        """
+        estimator, queue = self._estimator, self._queue
+        if self.trace is not None or estimator.observer is not None or not estimator.initialised:
+            return measurement
+        others = []
+        while queue and queue[0][0] == measurement.stamp:
+            others.append(heapq.heappop(queue))
+        joined = self._joiner.join([measurement, *(other for _, _, other in others)])
+        if len(joined) == 1:
+            return joined[0]
+        for other in others:
+            heapq.heappush(queue, other)
+        return measurement
 
     def _go_back(self) -> None:
         earliest = self._queue[0][0]

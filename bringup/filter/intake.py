@@ -1,7 +1,7 @@
 """Takes messages in: which are accepted, which wait for their transform, what becomes of them."""
 
 from collections import deque
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 
 from bringup.filter.joining import Joiner
 from bringup.filter.measurement import Measurement
@@ -120,4 +120,4 @@ class Intake:
         estimator = self._around.estimator
         if estimator.command is None:
             return measurement
-        return replace(measurement, command=estimator.command, commanded_at=estimator.commanded_at)
+        return measurement._replace(command=estimator.command, commanded_at=estimator.commanded_at)

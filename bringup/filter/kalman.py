@@ -4,6 +4,8 @@ Matrices are 15x15, so that the number of calls counts and not their size: rows 
 `dot`, and what is symmetric is not computed twice.
 """
 
+from functools import lru_cache
+
 import numpy as np
 
 from bringup.filter.motion import advance
@@ -19,7 +21,9 @@ _WELL_APART = 1e-6
 def predict(state: Array, covariance: Array, noise: Array, dt: float) -> tuple[Array, Array]:
     """Move state and covariance on by `dt` seconds; `noise` is the process noise per second (15x15)."""
     moved, jacobian = advance(state, dt)
-    return moved, _symmetric(jacobian.dot(covariance).dot(jacobian.T) + noise * dt)
+    spread = jacobian.dot(covariance).dot(jacobian.T)
+    spread += noise * dt
+    return moved, _symmetric(spread)
 
 
 def correct(
@@ -44,21 +48,30 @@ def correct(
         The corrected state and covariance (Joseph form, kept symmetric), or None if the gate refused it.
     """
     innovation = values - state.take(indices)
-    for place, index in enumerate(indices.tolist()):
-        if _FIRST_ANGLE <= index <= _LAST_ANGLE:
-            innovation[place] = wrap(float(innovation[place]))
+    for place in _angles_among(indices.tobytes()):
+        innovation[place] = wrap(float(innovation[place]))
     rows = covariance.take(indices, 0)
-    inverse = _inverse(rows.take(indices, 1) + noise)
+    spread = rows.take(indices, 1)
+    spread += noise
+    inverse = _inverse(spread)
     if threshold < NEVER_REJECT and float(innovation.dot(inverse).dot(innovation)) >= threshold * threshold:
         return None
-    turned_gain = inverse.dot(rows)
-    gain = turned_gain.T
-    # Joseph's (I - KH) P (I - KH)' + K R K', multiplied out: H only picks rows and columns.
-    half = covariance - gain.dot(rows)
-    updated = half - (half.take(indices, 1) - gain.dot(noise)).dot(turned_gain)
-    corrected = state + innovation.dot(turned_gain)
+    gain = inverse.dot(rows)
+    # Joseph's (I - KH) P (I - KH)' + K R K', multiplied out: H only picks rows and columns; `gain` is K'.
+    updated = covariance - gain.T.dot(rows)
+    rest = updated.take(indices, 1)
+    rest -= gain.T.dot(noise)
+    updated -= rest.dot(gain)
+    corrected = state + innovation.dot(gain)
     wrap_orientation(corrected)
     return corrected, _symmetric(updated)
+
+
+@lru_cache(maxsize=256)
+def _angles_among(indices: bytes) -> tuple[int, ...]:
+    """Tell which of some state variables, given as the bytes of their `Indices`, are angles."""
+    every = np.frombuffer(indices, np.intp).tolist()
+    return tuple(place for place, index in enumerate(every) if _FIRST_ANGLE <= index <= _LAST_ANGLE)
 
 
 def _symmetric(matrix: Array) -> Array:

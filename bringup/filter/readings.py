@@ -1,13 +1,13 @@
 """What messages say, as plain values.
 
 The only place here that knows the layout of ROS messages. They are read by their field names alone, so that rclpy's
-messages and those of a bag reader serve alike; who has them in another form makes a `Heard` of them.
+messages and those of a bag reader serve alike; who has them in another form makes a `Heard` of them. Tuples, because
+they are made for each message, and frozen dataclasses take five times as long to make.
 Stamps are nanoseconds; covariances are 6x6 or 3x3 matrices; frames have no leading slash (REP-105, tf2).
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
@@ -24,8 +24,7 @@ _POSE = 43
 _FULL, _PLAIN = (6, 6), (3, 3)
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class Heard:
+class Heard(NamedTuple):
     """A sensor's message: its stamp, its frames and its numbers in the order of the message's definition."""
 
     stamp: int
@@ -34,8 +33,7 @@ class Heard:
     numbers: Array
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class PoseReading:
+class PoseReading(NamedTuple):
     """Where `child` (empty: the base) stands in `frame`."""
 
     stamp: int
@@ -46,8 +44,7 @@ class PoseReading:
     covariance: Array
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class TwistReading:
+class TwistReading(NamedTuple):
     """The velocity of `frame`, in the axes of `frame`."""
 
     stamp: int
@@ -57,8 +54,7 @@ class TwistReading:
     covariance: Array
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class OrientationReading:
+class OrientationReading(NamedTuple):
     """The attitude of the sensor frame `frame` in the world."""
 
     stamp: int
@@ -67,8 +63,7 @@ class OrientationReading:
     covariance: Array
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class TurningReading:
+class TurningReading(NamedTuple):
     """The angular velocity of the sensor frame `frame`, in its own axes."""
 
     stamp: int
@@ -77,8 +72,7 @@ class TurningReading:
     covariance: Array
 
 
-@dataclass(frozen=True, slots=True, eq=False)
-class AccelerationReading:
+class AccelerationReading(NamedTuple):
     """The specific force at the sensor, in its own axes; the attitude is None where it is not measured."""
 
     stamp: int

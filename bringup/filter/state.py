@@ -56,7 +56,6 @@ def wrap(angle: float) -> float:
 
 def wrap_orientation(state: Array) -> None:
     """Wrap roll, pitch and yaw of a state vector in place."""
-    for index in (ROLL, PITCH, YAW):
-        angle = state[index]
+    for index, angle in enumerate(state[ORIENTATION].tolist(), ROLL):
         if not -math.pi < angle <= math.pi:
-            state[index] = wrap(float(angle))
+            state[index] = wrap(angle)

@@ -16,7 +16,7 @@ from bringup.filter.localization import Estimate
 from bringup.filter.rigid import Transform
 from bringup.filter.rotation import quaternion_from_rpy, rpy_from_matrix
 from bringup.filter.settings import NANOSECONDS, Frames
-from bringup.filter.state import ACCELERATION, POSE, TWIST
+from bringup.filter.state import ACCELERATION, POSE, TWIST, Array
 from orchestra.ros.interfaces import tf_message_type
 
 Message: TypeAlias = Any
@@ -56,15 +56,16 @@ class EstimateMessages:
         self._odometry = Form(odometry, _ODOMETRY)
         self._acceleration = Form(acceleration, _ACCELERATION)
         self._transform = Form(transforms, _TRANSFORM, _AFTER_SEQUENCE_LENGTH)
+        numbers = self._odometry.numbers
+        self._pose_spread, self._twist_spread = numbers[7:43].reshape(6, 6), numbers[49:85].reshape(6, 6)
 
     def odometry(self, estimate: Estimate) -> bytes:
         """Write nav_msgs/Odometry: the pose in the world frame, the velocity in the base's axes."""
         state, covariance, numbers = estimate.state, estimate.covariance, self._odometry.numbers
-        numbers[:3] = state[:3]
-        numbers[3:7] = quaternion_from_rpy(*state[3:6].tolist())
-        numbers[7:43].reshape(6, 6)[:] = covariance[POSE, POSE]
+        numbers[:7] = _place(state)
         numbers[43:49] = state[TWIST]
-        numbers[49:85].reshape(6, 6)[:] = covariance[TWIST, TWIST]
+        self._pose_spread[:] = covariance[POSE, POSE]
+        self._twist_spread[:] = covariance[TWIST, TWIST]
         return self._odometry.stamped(estimate.stamp)
 
     def acceleration(self, estimate: Estimate) -> bytes:
@@ -79,9 +80,7 @@ class EstimateMessages:
 
     def base(self, estimate: Estimate, offset: int) -> bytes:
         """Write tf2_msgs/TFMessage with where the estimate has the base, `offset` (ns) after its stamp."""
-        numbers = self._transform.numbers
-        numbers[:3] = estimate.state[:3]
-        numbers[3:7] = quaternion_from_rpy(*estimate.state[3:6].tolist())
+        self._transform.numbers[:] = _place(estimate.state)
         return self._transform.stamped(estimate.stamp + offset)
 
     def transform(self, place: Transform, stamp: int) -> bytes:
@@ -90,6 +89,12 @@ class EstimateMessages:
         numbers[:3] = place.translation
         numbers[3:7] = quaternion_from_rpy(*rpy_from_matrix(place.rotation))
         return self._transform.stamped(stamp)
+
+
+def _place(state: Array) -> tuple[float, ...]:
+    """Give position and quaternion of a state."""
+    x, y, z, *angles = state[POSE].tolist()
+    return x, y, z, *quaternion_from_rpy(*angles)
 
 
 def set_stamp(stamp: Message, nanoseconds: int) -> None:

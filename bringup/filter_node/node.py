@@ -15,6 +15,7 @@ from bringup.filter_node.debugging import traced
 from bringup.filter_node.diagnostics import Diagnostics
 from bringup.filter_node.inputs import Inputs
 from bringup.filter_node.outputs import Outputs
+from bringup.filter_node.pace import Pace
 from bringup.filter_node.services import Services
 from bringup.filter_node.throttle import Throttle
 from bringup.filter_node.ticks import Ticks
@@ -51,6 +52,7 @@ class FilterNode:
         if not self._localization.enabled:
             self._logger.info("the filter is disabled at start-up; the enable service starts it")
         self._ticks = Ticks(node, settings.timing.frequency)
+        self._pace = Pace()
 
     @property
     def visited_group(self) -> CallbackGroup:
@@ -66,6 +68,12 @@ class FilterNode:
         longest = _VISIT_PERIOD if self._period > _VISIT_PERIOD else _LONGEST_WAIT
         left = self._ticks.left()
         return longest if left is None else min(left, longest)
+
+    def rest(self) -> float:
+        """Tell how long it is no use to look at the clock (s of real time): 0 where no clock message wakes the node."""
+        if not self._clock.ros_time_is_active:
+            return 0.0
+        return self._pace.rest(self._ticks.to_go, perf_counter())
 
     def work(self) -> None:
         """Fuse and publish if an update is due; between rare updates only empty the sensors' queues."""
@@ -83,6 +91,7 @@ class FilterNode:
 
     def _update(self, now: int) -> None:
         began = perf_counter()
+        self._pace.note(now, began)
         self._inputs.visit(now)
         self._inputs.follow_missing_transforms()
         self._localization.update(now)

@@ -1,9 +1,10 @@
 """Runs the filter's node until it is told to end."""
 
+import gc
 from collections.abc import Iterator
 from contextlib import contextmanager
 from threading import Event, Thread
-from time import monotonic
+from time import monotonic, sleep
 
 import rclpy
 from rclpy.node import Node
@@ -51,10 +52,17 @@ def _spin(node: Node) -> int:
     with Waiting(node, running.visited_group) as waiting, running.traced():
         Thread(target=wait_for_the_end, args=(told_to_end, waiting.wake_up), daemon=True).start()
         served = monotonic()
+        # What is there by now stays: the collector need not go through it again and again.
+        gc.freeze()
         while not told_to_end.is_set():
             called = waiting.wait(running.time_left())
             if called or monotonic() - served > _LONGEST_UNSERVED:
                 waiting.serve()
                 served = monotonic()
             running.work()
+            rest = running.rest()
+            if rest > 0.0:
+                sleep(rest)
+                waiting.look_at_the_clock()
+                running.work()
     return 0

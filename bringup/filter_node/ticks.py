@@ -19,16 +19,22 @@ class Ticks:
         self._clock = node.get_clock()
         self._period = round(NANOSECONDS / frequency)
         self._due: int | None = None
+        self._seen = 0
 
     def take(self) -> int | None:
         """Give the time (ns) if an update is due now, and each tick only once."""
-        now = int(self._clock.now().nanoseconds)
+        now = self._seen = int(self._clock.now().nanoseconds)
         if now == 0:  # Simulated, and no clock message has come.
             return None
         if self._due is not None and self._due - self._period <= now < self._due:
             return None
         self._due = next_tick(now if self._due is None else self._due, now, self._period)
         return now
+
+    @property
+    def to_go(self) -> int:
+        """How far the next tick is away by the time of the last look (ns)."""
+        return 0 if self._due is None else self._due - self._seen
 
     def left(self) -> int | None:
         """Tell how long the next tick is away (ns); None if only a clock message can bring it."""

@@ -18,6 +18,8 @@ from rclpy.executors import SingleThreadedExecutor
 from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 
+from bringup.filter_node.clock_messages import clock_setter, sets_the_clock
+
 WaitSet: TypeAlias = Any
 Subscription: TypeAlias = Any
 Waitable: TypeAlias = Any
@@ -30,8 +32,10 @@ class _Waited:
     """What is waited for, as long as the node has the same `entities`."""
 
     entities: Entities
-    subscriptions: tuple[Subscription, ...]
     handles: tuple[Any, ...]
+    # What takes a message, by the pointer under which the wait set knows the subscription.
+    takers: dict[int, Callable[[], None]]
+    clocks: tuple[Callable[[], None], ...]
     clients: tuple[Any, ...]
     services: tuple[Any, ...]
     waitables: tuple[Waitable, ...]
@@ -85,13 +89,17 @@ class Waiting:
         wait_set = waited.fill()
         wait_set.add_guard_condition(self._wake_up.handle)
         wait_set.wait(timeout)
-        ready = wait_set.get_ready_entities("subscription")
-        if ready:
-            for subscription in waited.subscriptions:
-                if subscription.handle.pointer in ready:
-                    _hand_over(subscription)
+        for pointer in wait_set.get_ready_entities("subscription"):
+            # Waitables have subscriptions of their own, and take from them themselves.
+            if (take := waited.takers.get(pointer)) is not None:
+                take()
         called = any(waitable.is_ready(wait_set) for waitable in waited.waitables)
         return bool(called or wait_set.get_ready_entities("service") or wait_set.get_ready_entities("client"))
+
+    def look_at_the_clock(self) -> None:
+        """Take the time from /clock without waiting for it."""
+        for take in self._present().clocks:
+            take()
 
     def serve(self) -> None:
         """Let the executor answer one call, or do whatever else rclpy has put on the node."""
@@ -113,10 +121,15 @@ class Waiting:
         sizes = [len(subscriptions), 1, 0, len(clients), len(services), 0]
         for waitable in waitables:
             sizes = [one + more for one, more in zip(sizes, _sizes(waitable), strict=True)]
+        clock = self._node.get_clock()
+        clocks = {
+            each.handle.pointer: clock_setter(each, clock) for each in subscriptions if sets_the_clock(each)
+        }
         return _Waited(
             entities,
-            subscriptions,
             tuple(each.handle for each in subscriptions),
+            {each.handle.pointer: _taker(each) for each in subscriptions} | clocks,
+            tuple(clocks.values()),
             tuple(each.handle for each in clients),
             tuple(each.handle for each in services),
             waitables,
@@ -136,7 +149,10 @@ def _sizes(waitable: Waitable) -> tuple[int, ...]:
     )
 
 
-def _hand_over(subscription: Subscription) -> None:
-    taken = subscription.handle.take_message(subscription.msg_type, False)
-    if taken is not None:
-        subscription.callback(taken[0])
+def _taker(subscription: Subscription) -> Callable[[], None]:
+    def take() -> None:
+        taken = subscription.handle.take_message(subscription.msg_type, subscription.raw)
+        if taken is not None:
+            subscription.callback(taken[0])
+
+    return take
