@@ -24,6 +24,8 @@ if TYPE_CHECKING:
     from orchestra.ros.tools.graph.joining import Graph
 
 _TELL_AGAIN = 1.0
+# A long message, or one on a busy machine, needs more time to arrive than the ROS 2 tools give it.
+_ARRIVAL = 2.0
 
 
 def publish(options: Namespace) -> int:
@@ -47,8 +49,8 @@ def publish(options: Namespace) -> int:
             if options.print and count % options.print == 0:
                 _say(options, f"publishing #{count}: {message!r}\n\n", message)
             publisher.publish(message)
-        if profile.reliability == ReliabilityPolicy.RELIABLE:
-            publisher.wait_for_all_acked(Duration(seconds=options.keep_alive))
+        if profile.reliability != ReliabilityPolicy.BEST_EFFORT:  # what is not said is reliable
+            publisher.wait_for_all_acked(Duration(seconds=max(options.keep_alive, _ARRIVAL)))
         graph.wait(lambda: False, options.keep_alive)
     return 0
 
