@@ -7,10 +7,11 @@ from __future__ import annotations
 
 import json
 import os
-import subprocess
-import sys
-from typing import TYPE_CHECKING, Any, Final
+import signal
+from importlib import import_module
+from typing import TYPE_CHECKING, Any, Final, NoReturn
 
+from orchestra.cli.commands import COMMANDS
 from orchestra.cli.completing.candidates import Candidate
 from orchestra.cli.completing.paths import paths
 from orchestra.cli.interfaces.index import Interfaces
@@ -24,7 +25,7 @@ if TYPE_CHECKING:
     from orchestra.cli.parser import CommandParser
 
 # Whoever waits at a prompt and does not want to any more presses Ctrl-C.
-_PATIENCE: Final = 60.0
+_PATIENCE: Final = 60
 # What lists the words that a word of this name can be, and the key of a name in what it lists.
 _LISTED: Final = {
     "TOPIC": (("topic", "list"), "name"),
@@ -75,14 +76,30 @@ def _words(command: str, metavar: str, before: Sequence[str], begun: str) -> Ite
 
 def _names(words: Sequence[str], key: str | None) -> Iterator[Candidate]:
     """Yield the names that a command lists; none where it cannot."""
-    command = [sys.executable, "-m", "orchestra", *words, "--format", "json"]
-    try:
-        done = subprocess.run(  # noqa: S603 - a program of ours
-            command, stdin=subprocess.DEVNULL, capture_output=True, timeout=_PATIENCE, check=True
-        )
-    except (subprocess.SubprocessError, OSError):
+    reading, writing = os.pipe()
+    child = os.fork()
+    if child == 0:
+        _list(words, writing)
+    os.close(writing)
+    with os.fdopen(reading, "rb") as stream:
+        told = stream.read()
+    if os.waitpid(child, 0)[1]:
         return
-    found: Any = json.loads(done.stdout)
+    found: Any = json.loads(told)
     items = [item for below in found.values() for item in below] if isinstance(found, dict) else found
     for item in items:
         yield Candidate(item if key is None else item[key])
+
+
+def _list(words: Sequence[str], writing: int) -> NoReturn:
+    """Become the command in this forked process: a new one would first import what is here already."""
+    try:
+        nowhere = os.open(os.devnull, os.O_RDWR)
+        for stream, instead in enumerate((nowhere, writing, nowhere)):
+            os.dup2(instead, stream)
+        signal.alarm(_PATIENCE)
+        name, *rest = words
+        module = import_module(COMMANDS[name].module)
+        module.run(module.parser().read([*rest, "--format", "json"]))
+    finally:
+        os._exit(1)  # it ends by itself where it can list anything

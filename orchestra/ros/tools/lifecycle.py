@@ -87,7 +87,11 @@ def set_state(options: Namespace) -> int:
             )
         request = ChangeState.Request()
         request.transition.id, request.transition.label = wanted[0].id, wanted[0].label
-        answer = ask(graph, ChangeState, f"{full}/change_state", request, deadline, repeat=False)
+        answer = ask(
+            *(graph, ChangeState, f"{full}/change_state", request, deadline),
+            repeat=False,
+            asking=lambda: _state(graph, full, options),
+        )
         if not answer.success:
             state = _state(graph, full, options)
             because = consequence(there[0].start_state.label, state.label)

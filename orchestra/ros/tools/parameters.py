@@ -63,10 +63,16 @@ class Asked:
             for present in self.values([one.name]):
                 one.value = retyped(one.value, present)
         request = SetParameters.Request(parameters=list(parameters))
-        return list(self._ask(SetParameters, "set_parameters", request, repeat=False).results)
+        name = f"{self.node}/set_parameters"
+        answer = ask(
+            *(self._graph, SetParameters, name, request, self._deadline),
+            repeat=False,
+            asking=lambda: self.values([]),
+        )
+        return list(answer.results)
 
-    def _ask(self, kind: Any, service: str, request: Any, *, repeat: bool = True) -> Any:  # noqa: ANN401 - untyped package
-        return ask(self._graph, kind, f"{self.node}/{service}", request, self._deadline, repeat=repeat)
+    def _ask(self, kind: Any, service: str, request: Any) -> Any:  # noqa: ANN401 - untyped package
+        return ask(self._graph, kind, f"{self.node}/{service}", request, self._deadline)
 
 
 @contextmanager

@@ -7,12 +7,8 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from orchestra.ros.tools.graph.asking import Deadline, ask
-from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import absolute, services, unknown
 from orchestra.ros.tools.graph.seeing import looking
-from orchestra.ros.tools.messages.plain import plain
-from orchestra.ros.tools.messages.reading import fill, mapping_of
-from orchestra.ros.tools.messages.types import service_class
 from orchestra.ros.tools.telling import as_json, json_line, lines, tell
 
 if TYPE_CHECKING:
@@ -68,6 +64,12 @@ def find(options: Namespace) -> int:
 
 def call(options: Namespace) -> int:
     """Call a service, and write what it answers."""
+    # All of rclpy and of messages, and only this needs it.
+    from orchestra.ros.tools.graph.joining import joined  # noqa: PLC0415
+    from orchestra.ros.tools.messages.plain import plain  # noqa: PLC0415
+    from orchestra.ros.tools.messages.reading import fill, mapping_of  # noqa: PLC0415
+    from orchestra.ros.tools.messages.types import service_class  # noqa: PLC0415
+
     name = absolute(options.service)
     kind = service_class(options.type)
     request = kind.Request()

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import absolute, topics, unknown
 from orchestra.ros.tools.graph.seeing import looking
 from orchestra.ros.tools.telling import lines, tell
@@ -40,6 +39,8 @@ def list_topics(options: Namespace) -> int:
 
 def info(options: Namespace) -> int:
     """Write type and endpoints of a topic."""
+    from orchestra.ros.tools.graph.joining import joined  # noqa: PLC0415 - as in `_endpoint`
+
     topic = absolute(options.topic)
     with joined(options) as graph:
         graph.whole(lambda: tuple(_identities(endpoints) for endpoints in _endpoints(graph, topic)))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.errors import RunError
 from orchestra.ros.observer.service import Service
@@ -12,7 +12,9 @@ from orchestra.ros.tools.graph.names import absolute, nodes, services, unknown
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from orchestra.ros.tools.graph.joining import Graph
+    from orchestra.ros.tools.graph.seeing import Graph
+
+_LOOK: Final = 0.005  # nobody tells when a server is there
 
 
 class Deadline:
@@ -39,16 +41,20 @@ def ask(
     deadline: Deadline,
     *,
     repeat: bool = True,
-    asking: Callable[[], None] = lambda: None,
+    asking: Callable[[], object] = lambda: None,
 ) -> Any:  # noqa: ANN401 - as above
     """Return the response of a service; `repeat` says that a question does no harm twice, `asking` is told before it.
+
+    The answer to a question that comes before the server has discovered the reader of the answer is lost. So what must
+    not be asked twice follows, by `asking`, something harmless that the same node answers: readers are discovered in
+    the order in which they were made.
 
     Raises `RunError` where the service is not there, or does not answer, in time.
     """
     client = Service(graph.node, kind, service)
     answers: list[Any] = []
     try:
-        if not graph.wait(lambda: client.ready, deadline.left):
+        if not graph.wait(lambda: client.ready, deadline.left, _LOOK):
             if graph.node.count_services(service):
                 raise RunError(f"the service {service} was not reached within {deadline}")
             known = {name for name, _ in services(graph, every=False)} - {

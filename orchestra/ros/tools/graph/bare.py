@@ -9,6 +9,7 @@ import time
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.dataclass import dataclass
+from orchestra.errors import RunError
 from orchestra.ros.tools.graph.rcl import rcl
 
 if TYPE_CHECKING:
@@ -88,23 +89,19 @@ class BareNode:
 
     def count_publishers(self, topic: str) -> int:
         """Return how many publishers a topic has."""
-        with self.handle:
-            return int(self.handle.get_count_publishers(topic))
+        return _counted(self.handle.get_count_publishers, topic, service=False)
 
     def count_subscribers(self, topic: str) -> int:
         """Return how many subscriptions a topic has."""
-        with self.handle:
-            return int(self.handle.get_count_subscribers(topic))
+        return _counted(self.handle.get_count_subscribers, topic, service=False)
 
     def count_services(self, service: str) -> int:
         """Return how many servers a service has."""
-        with self.handle:
-            return int(self.handle.get_count_services(service))
+        return _counted(self.handle.get_count_services, service, service=True)
 
     def count_clients(self, service: str) -> int:
         """Return how many clients a service has."""
-        with self.handle:
-            return int(self.handle.get_count_clients(service))
+        return _counted(self.handle.get_count_clients, service, service=True)
 
     def create_client(self, kind: Any, name: str) -> BareClient:  # noqa: ANN401 - a class of an untyped package
         """Return a client of a service. Raises `ValueError` where its libraries are not to be found."""
@@ -200,6 +197,26 @@ class BareClient:
             reply = self._waiting.pop(header.request_id.sequence_number, None)
             if reply is not None:
                 reply.come(response)
+
+
+def _counted(count: Callable[[str], int], name: str, *, service: bool) -> int:
+    """Return how many there are. Raises `RunError` for what is no name."""
+    try:
+        return int(count(name))
+    except rcl.RCLError:
+        from rclpy.exceptions import NameValidationException  # noqa: PLC0415 - most of rclpy, for a mistake
+        from rclpy.validate_full_topic_name import validate_full_topic_name  # noqa: PLC0415 - as above
+
+        try:
+            validate_full_topic_name(name, is_service=service)
+        except NameValidationException as error:
+            raise RunError(one_line(error)) from None
+        raise
+
+
+def one_line(error: Exception) -> str:
+    """Return what rclpy says of a name, without the caret with which it points."""
+    return " ".join(str(error).replace("^", "").split())
 
 
 def publishers(node: Any, topic: str, *, of_middleware: bool = False) -> list[Endpoint]:  # noqa: ANN401 - of either kind

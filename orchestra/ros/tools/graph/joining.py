@@ -12,6 +12,7 @@ from rclpy.parameter import Parameter
 from rclpy.signals import SignalHandlerOptions
 
 from orchestra.errors import RunError
+from orchestra.ros.tools.graph.bare import one_line
 from orchestra.ros.tools.graph.ending import Ending
 from orchestra.ros.tools.graph.seeing import ARGUMENTS, Graph, own_name, told
 
@@ -37,9 +38,7 @@ def joined(options: Namespace) -> Iterator[Graph]:
             try:
                 yield graph
             except NameValidationException as error:
-                raise RunError(
-                    " ".join(str(error).replace("^", "").split())
-                ) from None  # it points with a caret
+                raise RunError(one_line(error)) from None
             except ValueError as error:
                 raise told(error) from None
             finally:

@@ -24,6 +24,7 @@ _LOOK: Final = 0.005
 _MEETING: Final = 0.02
 _CHANGING: Final = 6
 _NO_SUPPORT: Final = "Type support not from this implementation"
+_NO_NAME: Final = "' is invalid: "
 # No log file: it would be a new one for each command.
 ARGUMENTS: Final = ("--ros-args", "--disable-external-lib-logs")
 
@@ -147,9 +148,11 @@ def own_name(options: Namespace) -> str:
 
 
 def told(error: ValueError) -> Exception:
-    """Return what tells the user of libraries that are not there; any other error as it is."""
-    if _NO_SUPPORT not in str(error):
-        return error
+    """Return what tells the user of libraries that are not there, or of what is no name; any other error as it is."""
     lines = [line.strip() for line in str(error).splitlines()]
-    reason = next((line for line in lines if "dlopen" in line), lines[0])
-    return RunError(f"the libraries of a type are not to be found: {reason}")
+    if _NO_SUPPORT in str(error):
+        reason = next((line for line in lines if "dlopen" in line), lines[0])
+        return RunError(f"the libraries of a type are not to be found: {reason}")
+    if _NO_NAME in str(error):
+        return RunError(lines[0].partition(", at /")[0])
+    return error
