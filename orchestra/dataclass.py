@@ -13,7 +13,7 @@ from __future__ import annotations
 from operator import attrgetter, ge, gt, le, lt
 from reprlib import recursive_repr
 
-from orchestra.fields import UNWRITTEN, ForLibrary, fields, own_fields
+from orchestra.fields import UNWRITTEN, ForLibrary, fields, getstate, own_fields, refusals, setstate
 
 __all__ = ["changer", "dataclass", "maker"]
 
@@ -91,9 +91,9 @@ def _made(cls: type, *, frozen: bool, eq: bool, order: bool, slots: bool, kw_onl
         values = _values([item.name for item in items if item.compare])
         methods.update((f"__{name}__", _ordered(values, compare)) for name, compare in _ORDER.items())
     if frozen:
-        methods["__setattr__"], methods["__delattr__"] = _refusals(made, frozenset(known))
+        methods["__setattr__"], methods["__delattr__"] = refusals(made, frozenset(known))
         if slots:
-            methods["__getstate__"], methods["__setstate__"] = _getstate, _setstate
+            methods["__getstate__"], methods["__setstate__"] = getstate, setstate
     for name, method in methods.items():
         if name not in own:
             setattr(made, name, method)
@@ -227,54 +227,53 @@ def _hash(values: Callable[[Any], tuple[Any, ...]]) -> Any:
     return __hash__
 
 
-def _refusals(cls: Any, names: frozenset[str]) -> tuple[Any, Any]:
-    """Return what keeps values from being changed."""
-
-    def __setattr__(self: Any, name: str, value: Any) -> None:
-        if type(self) is cls or name in names:
-            raise _frozen(f"cannot assign to field {name!r}")
-        super(cls, self).__setattr__(name, value)
-
-    def __delattr__(self: Any, name: str) -> None:
-        if type(self) is cls or name in names:
-            raise _frozen(f"cannot delete field {name!r}")
-        super(cls, self).__delattr__(name)
-
-    return __setattr__, __delattr__
-
-
-def _frozen(message: str) -> AttributeError:
-    from dataclasses import FrozenInstanceError  # noqa: PLC0415 - nobody should ever see it
-
-    return FrozenInstanceError(message)
-
-
-def _getstate(self: Any) -> list[Any]:
-    return [getattr(self, item.name) for item in fields(self)]
-
-
-def _setstate(self: Any, state: list[Any]) -> None:
-    for item, value in zip(fields(self), state, strict=True):
-        object.__setattr__(self, item.name, value)
-
-
 def maker(cls: Callable[P, T]) -> Callable[P, T]:
     """Return what makes objects of a frozen class with slots as calling it does, in a third of the time.
 
     Fields that nobody may change are slow to set. They are set here in an open object of the same layout, which then
     becomes one of the class. For classes of which a launch makes thousands; without `__post_init__`.
     """
-    frozen: Any = cls
-    slots = {"__slots__": frozen.__slots__, "__setattr__": object.__setattr__}
-    known: dict[str, Any] = {"_unwritten": UNWRITTEN, "_new": object.__new__, "_cls": cls}
-    known["_open"] = type(f"_Open{frozen.__name__}", frozen.__bases__, slots)
-    items: Any = fields(frozen)
-    lines = ["self = _new(_open)", *(_assignment(item, known, frozen=False) for item in items)]
-    lines += ["self.__class__ = _cls", "return self"]
-    words = [_parameter(item, known) for item in items if item.init]
-    exec("\n ".join([f"def make({', '.join(words)}):", *lines]), known)  # noqa: S102 - names of fields, which are identifiers
-    made: Callable[P, T] = known["make"]
+    made: Callable[P, T] = _Maker(cls).made
     return made
+
+
+class _Maker:
+    """Has the code of a maker compiled for those who make more than a few objects; until then it calls the class."""
+
+    __slots__ = ("_cls", "_known", "_left", "made")
+
+    def __init__(self, cls: Any) -> None:
+        self._cls = cls
+        self._left = _FEW
+        self._known: dict[str, Any] = {"_maker": self}
+        copy: Any = type(_called)
+        self.made: Any = copy(_called.__code__, self._known, "make")
+
+    def make(self, *args: Any, **named: Any) -> Any:
+        self._left -= 1
+        if self._left >= 0:
+            return self._cls(*args, **named)
+        self._compile()
+        return self.made(*args, **named)
+
+    def _compile(self) -> None:
+        known = self._known
+        items: Any = fields(self._cls)
+        slots = {"__slots__": self._cls.__slots__, "__setattr__": object.__setattr__}
+        known.update(_unwritten=UNWRITTEN, _new=object.__new__, _cls=self._cls)
+        known["_open"] = type(f"_Open{self._cls.__name__}", self._cls.__bases__, slots)
+        lines = ["self = _new(_open)", *(_assignment(item, known, frozen=False) for item in items)]
+        lines += ["self.__class__ = _cls", "return self"]
+        words = [_parameter(item, known) for item in items if item.init]
+        text = "\n ".join([f"def make({', '.join(words)}):", *lines])
+        exec(compile(text, _MADE, "exec"), known)  # noqa: S102 - names of fields, which are identifiers
+        compiled = known["make"]
+        self.made.__code__, self.made.__defaults__ = compiled.__code__, compiled.__defaults__
+
+
+def _called(*args: Any, **named: Any) -> Any:
+    """Call the maker that stands among the names of this function: each is a copy with names of its own."""
+    return globals()["_maker"].make(*args, **named)
 
 
 def changer(cls: Callable[..., T], name: str) -> Callable[[T, Any], T]:

@@ -121,3 +121,36 @@ class ForLibrary:
         for name in ("__dataclass_fields__", "__dataclass_params__"):
             setattr(self._cls, name, getattr(twin, name))
         return getattr(twin, self._name)
+
+
+def refusals(cls: Any, names: frozenset[str]) -> tuple[Any, Any]:
+    """Return what keeps values from being changed."""
+
+    def __setattr__(self: Any, name: str, value: Any) -> None:
+        if type(self) is cls or name in names:
+            raise _frozen(f"cannot assign to field {name!r}")
+        super(cls, self).__setattr__(name, value)
+
+    def __delattr__(self: Any, name: str) -> None:
+        if type(self) is cls or name in names:
+            raise _frozen(f"cannot delete field {name!r}")
+        super(cls, self).__delattr__(name)
+
+    return __setattr__, __delattr__
+
+
+def _frozen(message: str) -> AttributeError:
+    from dataclasses import FrozenInstanceError  # noqa: PLC0415 - nobody should ever see it
+
+    return FrozenInstanceError(message)
+
+
+def getstate(self: Any) -> list[Any]:
+    """Return the values of an object whose class has slots, to be copied."""
+    return [getattr(self, item.name) for item in fields(self)]
+
+
+def setstate(self: Any, state: list[Any]) -> None:
+    """Set the values of an object whose class has slots."""
+    for item, value in zip(fields(self), state, strict=True):
+        object.__setattr__(self, item.name, value)
