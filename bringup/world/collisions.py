@@ -27,6 +27,11 @@ class Collisions:
         self._publisher = node.create_publisher(Contacts, "contacts", LATCHED)
         self._told: tuple[Touch, ...] | None = None
 
+    @property
+    def changed(self) -> bool:
+        """Whether something else touches now than what was told last."""
+        return self._simulation.touching() != self._told
+
     def publish(self) -> None:
         """Tell what touches now, if it is not what was told last."""
         touches = self._simulation.touching()

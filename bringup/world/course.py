@@ -10,7 +10,7 @@ from bringup.world import messages
 from bringup.world.body import CAMERAS, FOOTPRINT_RADIUS
 from bringup.world.collisions import Collisions
 from bringup.world.layout import LayoutError, lay_out, room
-from bringup.world.model import load, pose
+from bringup.world.model import Moment, load, pose
 from bringup.world.script import Script, read_script
 from bringup.world.simulation import Simulation
 from bringup.world.spoken import ClockOut
@@ -94,20 +94,48 @@ class Course:
                 raise LayoutError(f"{robot} has no room there: {other.name} stands in the way")
         self.simulation.teleport(number, target)
 
-    def tick(self) -> bool:
-        """Advance by one tick and publish what is due; False if a command that has to come first is missing."""
-        commands = self._commands()
-        if commands is None:
-            return False
-        self.simulation.tick(commands)
-        self.tell_time()
-        for robot in self.robots:
-            robot.publish()
+    def tick(self, most: int = 1) -> bool:
+        """Advance by a tick, or by up to `most` in a row, and then publish what is due at each of them.
+
+        False if a command that has to come first is missing. Commands are heard before the first.
+        """
+        moments = self._advance(most)
+        last = self.simulation.ticks
+        for ticks, moment in enumerate(moments, last - len(moments) + 1):
+            self._clock.publish(ticks)
+            for robot in self.robots:
+                robot.publish(ticks, moment)
         self._collisions.publish()
-        while self._steps and self._steps[0][0] <= self.simulation.ticks:
+        while self._steps and self._steps[0][0] <= last:
             _, done = self._steps.pop(0)
-            done.set_result(self.simulation.ticks)
-        return True
+            done.set_result(last)
+        return bool(moments)
+
+    def _advance(self, most: int) -> list[Moment]:
+        """The moments of the ticks to come; the last is one at which somebody looks at the world, if there is one."""
+        simulation, moments = self.simulation, list[Moment]()
+        if self.settings.lockstep_ticks is None:
+            for robot in self.robots:
+                robot.hear()
+        while len(moments) < most:
+            commands = self._commands()
+            if commands is None:
+                break
+            simulation.tick(commands)
+            moments.append(simulation.moment())
+            if self._stays():
+                break
+        return moments
+
+    def _stays(self) -> bool:
+        """Whether this tick is published before the next one: something ends with it or looks at it."""
+        ticks = self.simulation.ticks
+        return (
+            self.finished
+            or bool(self._steps and self._steps[0][0] <= ticks)
+            or self._collisions.changed
+            or any(robot.looks(ticks) for robot in self.robots)
+        )
 
     def tell_time(self) -> None:
         """Publish the clock as it is."""

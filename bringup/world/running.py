@@ -115,12 +115,18 @@ class Run:
         due = 0.0 if course.stepping else metronome.wait(now, reached, speed)
         if due > 0.0:
             return min(due, PATIENCE)
-        if not course.tick():
+        if not course.tick(self._in_a_row()):
             self._stand(metronome, now)
             return LOCKSTEP_PATIENCE
         self._sights.tick()
         metronome.ticked(now)
         return 0.0
+
+    def _in_a_row(self) -> int:
+        """How many ticks may follow one another before they are published."""
+        settings = self.course.settings
+        unthrottled = settings.speed == 0.0 or self.course.stepping
+        return settings.unthrottled_ticks if unthrottled and not self._sights.watching else 1
 
     def _stand(self, metronome: pace.Metronome, now: float) -> None:
         """Let time stand still, and say so now and then to those who have come meanwhile."""

@@ -91,10 +91,17 @@ class Sensors:
         self._odometry.errors = settings.wheels
         self._inertial.noise = settings.inertial
 
+    def looks(self, ticks: int) -> bool:
+        """Whether a sensor looks at the world itself at a tick, rather than at the numbers of its moment."""
+        return due(ticks, self._settings.scan_rate)
+
     def read(self) -> Readings:
         """What the sensors say at the tick that the simulation has reached; to be called once at every tick."""
-        simulation, settings = self._simulation, self._settings
-        ticks, now = simulation.ticks, simulation.moment()
+        return self.read_at(self._simulation.ticks, self._simulation.moment())
+
+    def read_at(self, ticks: int, now: Moment) -> Readings:
+        """What they say at a tick that may have passed, unless one of them looks at it."""
+        settings = self._settings
         truth = odometry = None
         if due(ticks, settings.odometry_rate):
             here = placed(now, self.robot)

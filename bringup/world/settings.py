@@ -64,6 +64,7 @@ class Settings:
     headless: bool
     duration: float
     speed: float
+    unthrottled_ticks: int
     paused: bool
     lockstep_ticks: int | None
     script: str
@@ -92,6 +93,7 @@ def settings(values: Mapping[str, Any], described: Sequence[Robot] = ()) -> Sett
         headless=values["headless"],
         duration=values["duration"],
         speed=values["speed"],
+        unthrottled_ticks=values["unthrottled_ticks"],
         paused=values["paused"],
         lockstep_ticks=values["lockstep_ticks"] if values["lockstep"] else None,
         script=values["script"],

@@ -44,6 +44,11 @@ class Sights:
         """Whether there was a window that somebody has closed."""
         return self.window is not None and not self.window.is_running()
 
+    @property
+    def watching(self) -> bool:
+        """Whether each tick may have to be seen."""
+        return self._recording is not None or self._cameras is not None
+
     def tick(self) -> None:
         """Take the pictures that are due at this tick."""
         if self._recording is not None:

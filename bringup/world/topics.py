@@ -27,6 +27,7 @@ from bringup.world.track import Recent, Trail
 if TYPE_CHECKING:
     from rclpy.node import Node
 
+    from bringup.world.model import Moment
     from bringup.world.settings import RobotSettings, Settings
 
 # What happens so often in a simulated second. The trails have a point at each of a trail's ticks.
@@ -74,11 +75,14 @@ class RobotTopics:
         self._command, self._command_tick = STILL, -1
         self._told_contacts = -1
 
-    def command(self) -> Twist:
-        """The velocity command that is in force at the tick to come."""
+    def hear(self) -> None:
+        """Take the newest command that has come."""
         message = self._commands.newest()
         if message is not None:
             self._obey(message)
+
+    def command(self) -> Twist:
+        """The velocity command that is in force at the tick to come."""
         age = (self._simulation.ticks - self._command_tick) * TICK
         return in_force(self._command, age, self.sensors.settings.command_timeout)
 
@@ -99,10 +103,13 @@ class RobotTopics:
         """The last command that was taken, whatever its age."""
         return self._command
 
-    def publish(self) -> None:
-        """Publish what is due at this tick."""
-        ticks, settings = self._simulation.ticks, self.sensors.settings
-        readings = self.sensors.read()
+    def looks(self, ticks: int) -> bool:
+        """Whether this tick has to be published while the world still stands at it."""
+        return self.sensors.looks(ticks) or self._contacts.episodes != self._told_contacts
+
+    def publish(self, ticks: int, now: Moment) -> None:
+        """Publish what is due at a tick."""
+        settings, readings = self.sensors.settings, self.sensors.read_at(ticks, now)
         if readings.inertial is not None:
             self._imu.publish(ticks, readings.inertial)
         self._publish_motion(ticks, readings)
@@ -116,9 +123,10 @@ class RobotTopics:
             believed = compose(self.robot.start, self._believed)
             self.odometry_trail.add(believed.x, believed.y)
         if due(ticks, JOINTS_RATE):
-            now = readings.moment
             self._joints.publish(ticks, wheel_angles(now, self.robot), wheel_speeds(now, self.robot))
-        if ticks % CONTACTS_TICKS == 0 or self._contacts.episodes != self._told_contacts:
+        # Of several ticks in a row the last is the one at which a robot has touched something.
+        touched = ticks == self._simulation.ticks and self._contacts.episodes != self._told_contacts
+        if touched or ticks % CONTACTS_TICKS == 0:
             self._publish_contacts()
 
     def _open(self, node: Node, settings: Settings, number: int) -> None:
