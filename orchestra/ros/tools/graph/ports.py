@@ -20,7 +20,7 @@ _LAST: Final = 101  # beyond it are ports that the kernel hands out to anybody
 # The columns of /proc/net/udp (proc(5)): local address, inode.
 _LOCAL, _INODE = 1, 9
 _DIGITS: Final = 4
-_ROOM: Final = 1 << 22
+ROOM: Final = 1 << 22
 
 
 def participants_ports(domain: int, table: str) -> dict[int, str]:
@@ -72,8 +72,8 @@ def widen() -> None:
 
 
 def _widen(one: socket.socket) -> None:
-    if one.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF) < _ROOM:
-        one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, _ROOM)
+    if one.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF) < ROOM:
+        one.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, ROOM)
 
 
 def own_port(ports: dict[int, str]) -> int | None:
