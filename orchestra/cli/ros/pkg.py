@@ -95,17 +95,20 @@ def _xml(packages: InstalledPackages, options: Namespace) -> tuple[str, object]:
     if not path.is_file():
         raise RunError(f"package {options.package} has no package.xml in {share}")
     text = path.read_text("utf-8")
-    if options.tag is None:
-        return text if text.endswith("\n") else f"{text}\n", text
-    from xml.etree import ElementTree as ET  # noqa: PLC0415 - heavy, and only a tag needs it
+    from xml.etree import ElementTree as ET  # noqa: PLC0415 - heavy, and only this verb needs it
 
     try:
-        found = ET.fromstring(text).findall(f".//{options.tag}")  # noqa: S314 - a file of this installation
+        root = ET.fromstring(text)  # noqa: S314 - a file of this installation
     except ET.ParseError as error:
         raise RunError(f"{path}: {error}") from None
+    if options.tag is None:
+        return ET.tostring(
+            root, "unicode"
+        ) + "\n", text  # as the ROS 2 tools: without what stands before the root
+    found = root.findall(options.tag) or root.findall(f".//{options.tag}")
     if not found:
         raise RunError(f"{path} has no element {options.tag}")
-    values = ["".join(element.itertext()).strip() for element in found]
+    values = [element.text or "" for element in found]
     return "".join(f"{value}\n" for value in values), values
 
 
