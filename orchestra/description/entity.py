@@ -108,7 +108,10 @@ class Entity(Model):
     @property
     def span(self) -> Span:
         """Where the entity stands."""
-        span: Span = self._beside["span"]
+        beside: Any = (
+            self.__pydantic_private__
+        )  # where there is none, nobody has said where the entity stands
+        span: Span = beside["span"]
         return span
 
     @property

@@ -80,8 +80,10 @@ def path(process: Process) -> str:
 
 def path_of(identity: str) -> str:
     """Return where the parameter file of the process with an id lies in a plan."""
-    parts = identity.strip("/").split("/")
-    return f"{FOLDER}/{'.'.join(_UNFIT.sub(_percent, part) for part in parts)}.yaml"
+    name = identity.strip("/")
+    if _UNFIT.search(name.replace("/", "_")) is not None:
+        return f"{FOLDER}/{'.'.join(_UNFIT.sub(_percent, part) for part in name.split('/'))}.yaml"
+    return f"{FOLDER}/{name.replace('/', '.')}.yaml"
 
 
 def _percent(found: re.Match[str]) -> str:

@@ -16,6 +16,9 @@ def check_remaps(process: ResolvedProcess | ResolvedComponent, problems: Problem
     """Report rules that an earlier one, often of an outer scope, keeps from acting: the first that matches counts."""
     if len(process.remaps) < 2:  # noqa: PLR2004 - nothing stands before it
         return
+    sources = {rule.source.text for rule in process.remaps}
+    if len(sources) == len(process.remaps) and all(map(_is_apart, sources)):
+        return
     rules = [read_rule(rule.source.text, rule.target.text) for rule in process.remaps]
     namespace = process.namespace.text if process.namespace is not None else None
     for dead in dead_rules(rules, namespace, process.name.text if process.name is not None else None):
@@ -28,3 +31,8 @@ def check_remaps(process: ResolvedProcess | ResolvedComponent, problems: Problem
             rule.source.location,
             notes=(f"the rule that counts is at {earlier.source.location}",),
         )
+
+
+def _is_apart(source: str) -> bool:
+    """Tell whether a name is a plain relative one, which no other one of that kind stands for."""
+    return source.isidentifier() and not source.startswith("__")

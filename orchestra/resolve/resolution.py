@@ -16,7 +16,15 @@ from orchestra.fields import field, replace
 from orchestra.location import Location, Span
 from orchestra.nearest import nearest
 from orchestra.resolve.booleans import boolean
-from orchestra.resolve.context import POISON, Context, Evaluated, Poison, Value
+from orchestra.resolve.context import (
+    POISON,
+    Context,
+    Evaluated,
+    Poison,
+    Value,
+    new_location,
+    new_value,
+)
 from orchestra.resolve.evaluate import evaluate
 from orchestra.resolve.found import Found
 from orchestra.resolve.impossible.held import Held
@@ -165,7 +173,13 @@ class Resolution:
 
     def evaluate(self, template: Template | None) -> Evaluated | None:
         """Evaluate a text in the current scope; None stays None."""
-        return None if template is None else evaluate(template, self.context)
+        if template is None:
+            return None
+        parts, context = template.parts, self.context
+        # As `evaluate` does it, for most texts.
+        if len(parts) == 1 and type(parts[0]) is Words and not template.faulty:
+            return new_value(parts[0].text, new_location(template.span, context.included_from), verbatim=True)
+        return evaluate(template, context)
 
     def text(self, template: Template | None) -> str | Poison | None:
         """Return what a text comes to."""

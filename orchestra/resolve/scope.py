@@ -38,7 +38,8 @@ _Names: TypeAlias = set[str]
 class Variable:
     """A variable's value; `leaked_from` is the include that set it where that include has ended.
 
-    `settled` is where a file declared or set it with no condition around that.
+    `settled` is where a file declared or set it with no condition around that. `noted` has what is noted where it is
+    read, once that is asked for: it is the same each time.
     """
 
     value: Evaluated
@@ -46,6 +47,7 @@ class Variable:
     leaked_from: Span | None = None
     setter: Setter = "let"
     settled: Location | None = None
+    noted: list[Read] = field(default_factory=list, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +94,9 @@ class Scope:
         if variable.leaked_from is not None:
             self._warn_of_leak(name, variable, reader)
         if self._reads is not None and isinstance(variable.value, Value):
-            self._reads.append(read_of(name, variable.value, variable))
+            if not variable.noted:
+                variable.noted.append(read_of(name, variable.value, variable))
+            self._reads.append(variable.noted[0])
         return variable.value
 
     def note(self, kind: ReadKind, name: str, value: str) -> None:
