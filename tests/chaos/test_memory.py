@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 # The interpreter with all that the supervisor imports, and what its writer, screen and streams may hold: texts of many
 # short lines take several times their bytes. Measured at most: 77 MB.
-_MOST_MEMORY = 80_000_000 + 12 * MOST
+_MOST_MEMORY = 80_000_000 + 4 * MOST
 # In seconds: writing so much takes its time.
 _PATIENCE = 300.0
 _MILLION = 1_000_000

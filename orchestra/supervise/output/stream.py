@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 # read and the round that leads to it take as long as writing some hundred lines.
 _READ_SIZE = 65536
 _LARGE = 262144
+# Where lines are shorter than the first on average, the second is enough of them: each becomes a record of more than a
+# hundred bytes, and the records of what is read at a time are made together.
+_SHORT = 32
+_FEW = 16384
 # More than anything that is made of what is read at a time. The allocator of glibc maps what is larger than 128 KiB
 # anew each time, and the kernel fills it with zeros, which takes as long as all of our own work; once something of this
 # size has been given back it keeps as much (mallopt(3), M_MMAP_THRESHOLD).
@@ -49,7 +53,7 @@ class Stream:
         self._deliver = deliver
         self._tapped = tapped
         self._intake = intake
-        self._size = _READ_SIZE
+        self._size = self._next_size = _READ_SIZE
         self._lines = Lines()
         self._timer: Timer | None = None
         self._open = True
@@ -99,7 +103,7 @@ class Stream:
     def _read(self) -> int:
         """Read once; return how many bytes there were."""
         try:
-            data = os.read(self._descriptor, self._size)
+            data = os.read(self._descriptor, self._next_size)
         except BlockingIOError:
             return 0
         except OSError:  # a terminal whose other side is closed says EIO where a pipe has an end (pty(7))
@@ -107,8 +111,9 @@ class Stream:
         if not data:
             self._end()
             return 0
-        if 2 * len(data) >= self._size:
+        if 2 * len(data) >= self._next_size:
             self._enlarge()
+            self._next_size = self._size if data.count(b"\n") * _SHORT <= len(data) else _FEW
         lines = self._lines.feed(data)
         if lines:
             self._deliver(lines)
