@@ -10,7 +10,7 @@ from bringup.world import messages
 from bringup.world.body import CAMERAS, FOOTPRINT_RADIUS
 from bringup.world.collisions import Collisions
 from bringup.world.layout import LayoutError, lay_out, room
-from bringup.world.model import Moment, load, pose
+from bringup.world.model import TICKS_PER_SECOND, Moment, load, pose
 from bringup.world.script import Script, read_script
 from bringup.world.simulation import Simulation
 from bringup.world.spoken import ClockOut
@@ -60,6 +60,18 @@ class Course:
     def stepping(self) -> bool:
         """Whether a step is under way: it does not wait for real time."""
         return bool(self._steps)
+
+    @property
+    def unthrottled(self) -> bool:
+        """Whether ticks follow one another as fast as they can."""
+        return self.settings.speed == 0.0 or self.stepping
+
+    def lagging(self) -> list[RobotTopics]:
+        """The robots whose filters an unthrottled world should wait for."""
+        most = self.settings.filter_lag * TICKS_PER_SECOND
+        if not most or self.settings.speed or self.stepping:
+            return []
+        return [robot for robot in self.robots if robot.lagging(most)]
 
     def apply(self, settings: Settings) -> None:
         """Go on with other settings."""

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from bringup.world.draws import Draws
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable
 
     import numpy as np
 
@@ -54,7 +54,7 @@ class Inertial:
         self._walk = [noise.gyro_walk] * 3 + [noise.accelerometer_walk] * 3
         self._strays = any(self._walk)
 
-    def measure(self, true: Sequence[float], dt: float = PERIOD) -> list[float]:
+    def measure(self, true: Iterable[float], dt: float = PERIOD) -> list[float]:
         """What it reports for true turning rates (three, rad/s) and accelerations (three, m/s^2), `dt` s later."""
         if self._strays:
             root = math.sqrt(dt)

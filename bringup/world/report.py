@@ -34,6 +34,13 @@ def behind(factor: float, speed: float, lag: float, lost: float) -> str:
     return f"behind real time: factor {factor:.3f} instead of {speed:g}, {lag:.1f} s late{given_up}"
 
 
+def given_up(robot: str, seconds: float) -> str:
+    """That a robot's filter has said nothing for so long (real seconds)."""
+    return (
+        f"the filter of {robot} has said nothing for {seconds:g} s: the world does not wait for it any more"
+    )
+
+
 def summary(simulated: float, real: float) -> str:
     """How the run went against real time, both in seconds."""
     factor = simulated / real if real > 0.0 else 0.0

@@ -53,8 +53,10 @@ REFUSALS = (
 PATIENCE = 0.04
 SHOW_PERIOD = 0.04
 CLOCK_PERIOD = 0.2
-# While a command is waited for in lockstep.
+# While a command is waited for in lockstep, or a filter.
 LOCKSTEP_PATIENCE = 0.001
+# For one that says nothing.
+LONGEST_WAIT = 3.0
 
 
 class Ending(Protocol):
@@ -76,6 +78,8 @@ class Run:
         parameters.follow(lambda settings: self._orders.leave(lambda: self.course.apply(settings)))
         self._services = Services(node, self.course, self._orders)
         self._next_show = self._next_clock = 0.0
+        self._last_heard: list[float | None] = []
+        self._waiting_since = 0.0
 
     @property
     def over(self) -> bool:
@@ -115,7 +119,7 @@ class Run:
         due = 0.0 if course.stepping else metronome.wait(now, reached, speed)
         if due > 0.0:
             return min(due, PATIENCE)
-        if not course.tick(self._in_a_row()):
+        if self._must_wait(now) or not course.tick(self._in_a_row()):
             self._stand(metronome, now)
             return LOCKSTEP_PATIENCE
         self._sights.tick()
@@ -124,9 +128,21 @@ class Run:
 
     def _in_a_row(self) -> int:
         """How many ticks may follow one another before they are published."""
-        settings = self.course.settings
-        unthrottled = settings.speed == 0.0 or self.course.stepping
-        return settings.unthrottled_ticks if unthrottled and not self._sights.watching else 1
+        alone = self.course.unthrottled and not self._sights.watching
+        return self.course.settings.unthrottled_ticks if alone else 1
+
+    def _must_wait(self, now: float) -> bool:
+        """Whether a filter is so far behind that it would lose what the world says; one that is silent is given up."""
+        lagging = self.course.lagging()
+        heard = [robot.estimated for robot in lagging]
+        if heard != self._last_heard:
+            self._last_heard, self._waiting_since = heard, now
+        if now - self._waiting_since < LONGEST_WAIT:
+            return bool(lagging)
+        for robot in lagging:
+            self._telling.given_up(robot.robot.name, LONGEST_WAIT)
+            robot.give_up()
+        return False
 
     def _stand(self, metronome: pace.Metronome, now: float) -> None:
         """Let time stand still, and say so now and then to those who have come meanwhile."""

@@ -65,6 +65,7 @@ class Settings:
     duration: float
     speed: float
     unthrottled_ticks: int
+    filter_lag: float
     paused: bool
     lockstep_ticks: int | None
     script: str
@@ -94,6 +95,7 @@ def settings(values: Mapping[str, Any], described: Sequence[Robot] = ()) -> Sett
         duration=values["duration"],
         speed=values["speed"],
         unthrottled_ticks=values["unthrottled_ticks"],
+        filter_lag=values["filter_lag"],
         paused=values["paused"],
         lockstep_ticks=values["lockstep_ticks"] if values["lockstep"] else None,
         script=values["script"],

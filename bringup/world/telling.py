@@ -46,6 +46,10 @@ class Telling:
             self._log.warning(report.behind(factor, settings.speed, metronome.lag, metronome.lost))
         self._publish(factor, metronome, late=late)
 
+    def given_up(self, robot: str, seconds: float) -> None:
+        """Tell that a filter has been waited for so long (real seconds) in vain."""
+        self._log.warning(report.given_up(robot, seconds))
+
     def end(self, real: float) -> None:
         """What the run came to, after so many real seconds."""
         self._log.info(report.summary(self._course.simulation.time, real))

@@ -67,6 +67,8 @@ class RobotTopics:
         """Begin anew, as at the first tick."""
         self.nearest = math.inf
         self.filter_error: FilterError | None = None
+        self.estimated: float | None = None
+        self._given_up = False
         self.true_trail, self.odometry_trail, self.filtered_trail = Trail(), Trail(), Trail()
         self.sensors.reset(settings)
         self._recent = Recent(KEPT_TICKS, partial(travelled, robot=self.robot))
@@ -102,6 +104,18 @@ class RobotTopics:
     def last_command(self) -> Twist:
         """The last command that was taken, whatever its age."""
         return self._command
+
+    def lagging(self, ticks: float) -> bool:
+        """Whether this robot's newest estimate is for more than so many ticks ago; False if it has never had one."""
+        now = self._simulation.ticks
+        if self._given_up or self.estimated is None or now - self.estimated <= ticks:
+            return False
+        self._hear_filter()
+        return now - self.estimated > ticks
+
+    def give_up(self) -> None:
+        """Expect no estimates any more."""
+        self._given_up = True
 
     def looks(self, ticks: int) -> bool:
         """Whether this tick has to be published while the world still stands at it."""
@@ -166,6 +180,7 @@ class RobotTopics:
         if message is None:
             return
         estimate, tick = messages.pose_of(message), messages.ticks_of(message.header.stamp)
+        self.estimated = tick
         believed = compose(self.robot.start, estimate)
         self.filtered_trail.add(believed.x, believed.y)
         true = self._recent.at(tick)

@@ -160,7 +160,7 @@ def test_the_schema_says_what_the_table_says() -> None:
 
 
 def test_recent_poses_are_found_by_tick_and_between_ticks() -> None:
-    recent = Recent(ticks=3, read=lambda x: Pose(x, 0.0, 0.0))
+    recent: Recent[float] = Recent(ticks=3, read=lambda x: Pose(x, 0.0, 0.0))
     for tick in range(6):
         recent.add(float(tick))
     assert recent.at(4) == Pose(4.0, 0.0, 0.0)
