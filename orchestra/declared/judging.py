@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from itertools import product
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
 from orchestra.declared.common import COMMON, is_common
@@ -14,6 +14,7 @@ from orchestra.declared.rules import objections
 from orchestra.declared.texts import shown, types_of
 from orchestra.declared.typing_of_values import is_taken, rewritten, type_of
 from orchestra.fields import replace
+from orchestra.nearest import is_slip, nearest
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -21,6 +22,10 @@ if TYPE_CHECKING:
     from orchestra.values import ParameterValue
 
 _EMPTY_PARAMETER = Parameter("")
+# Words of a regular expression, what begins with a backslash in it, and parts of a name.
+_WORD: Final = re.compile(r"[A-Za-z]{3,}")
+_ESCAPE: Final = re.compile(r"\\.")
+_PART: Final = re.compile(r"[A-Za-z]+|[^A-Za-z]+")
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,6 +48,8 @@ class DeclaredParameters:
                 continue
             if not is_common(name) and not _is_below(name, groups) and self.declared.undeclared != "allowed":
                 fault = misnamed(name, known)
+                if fault.meant is None and fault.name == name:
+                    fault = replace(fault, meant=self._meant_by_pattern(name))
                 meant.add(fault.meant or fault.name.rpartition(".")[0])
                 yield replace(fault, certain=self.declared.undeclared == "refused")
         for name, parameter in known.items():
@@ -51,6 +58,19 @@ class DeclaredParameters:
 
     def _by_pattern(self, name: str) -> list[Parameter]:
         return [item for pattern, item in self.declared.patterns if re.search(pattern, name)]
+
+    def _meant_by_pattern(self, name: str) -> str | None:
+        """Return a name that a pattern takes and this one is a slip for, word by word: `imu0_config`."""
+        words = {
+            word for pattern, _ in self.declared.patterns for word in _WORD.findall(_ESCAPE.sub(" ", pattern))
+        }
+        parts = _PART.findall(name)
+        for index, part in enumerate(parts):
+            near = nearest(part, words)
+            meant = "".join([*parts[:index], near or part, *parts[index + 1 :]])
+            if near is not None and is_slip(part, near) and self._by_pattern(meant):
+                return meant
+        return None
 
 
 def expanded(

@@ -23,7 +23,12 @@ def written_list(key: str, content: Any) -> str | None:  # noqa: ANN401 - a tree
     """Return how what stands behind a key is written as a list; None where it is no mapping to make one of."""
     if key not in _LISTS or not isinstance(content, Keyed) or not content:
         return None
-    return shortened(f"{key}: [{_items(content, _LISTS[key])}]", _LONGEST)
+    pair = _LISTS[key]
+    if content.keys() == set(pair):  # one item, without its dash
+        return shortened(
+            f"{key}: [{{{', '.join(f'{name}: {_value(content[name])}' for name in pair)}}}]", _LONGEST
+        )
+    return shortened(f"{key}: [{_items(content, pair)}]", _LONGEST)
 
 
 def written_as_list(content: Any) -> str | None:  # noqa: ANN401 - a tree

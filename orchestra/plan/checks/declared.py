@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from orchestra.declared.beside import schema_of_package
 from orchestra.declared.common import COMMON
 from orchestra.errors import Code, Problem, Problems, Severity
+from orchestra.fields import replace
 from orchestra.location import is_python
 from orchestra.plan.written import Written, written_of
 from orchestra.resolve.command_line import COMMAND_LINE
@@ -131,4 +132,19 @@ def _place(
         return written.items[fault.item], fault.meant, ()
     if fault.meant is not None and not written.is_whole:
         return written.value, None, (f"did you mean '{fault.meant}'?",)
-    return written.value, fault.meant, ()
+    place = _with_quotes(written.value) if fault.kind == "type" else written.value
+    return place, fault.meant, ()
+
+
+def _with_quotes(at: Location) -> Location:
+    """Return the place of a text in YAML with its quotes: what stands in them is no number, whatever it says."""
+    span = at.span
+    if span.line != span.end_line or not span.file.endswith((".yaml", ".yml")):
+        return at
+    import linecache  # noqa: PLC0415 - slow, and only mistakes need it
+
+    line = linecache.getline(span.file, span.line)
+    around = line[span.column - 2 : span.column - 1], line[span.end_column - 1 : span.end_column]
+    if around not in {("'", "'"), ('"', '"')}:
+        return at
+    return replace(at, span=replace(span, column=span.column - 1, end_column=span.end_column + 1))

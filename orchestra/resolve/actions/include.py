@@ -72,8 +72,11 @@ def _include(action: Include, path: str, description: Description, run: Resoluti
         return
     with run.inside(frame) as ledger:
         visit_file(description, run)
+    missing = list(ledger.missing)
+    if action.faulty and not action.arg:  # what was given is not known
+        ledger.missing.clear()
     settle([item for item in given if item.name not in used], description, ledger, run, location)
-    for name in ledger.missing:
+    for name in missing:
         run.scope.forget(name)
     if path not in run.found.endless:
         run.scope.mark_leaks(before, action.span, wanted=run.found.size == begun)
