@@ -27,6 +27,9 @@ _PATIENCE = 6.0
 
 # Domains of ROS that stand in tests, each in one module. Whoever looks for a free one takes none of them.
 _DOMAINS = range(20, 81)
+# Files of tests that take half a minute or more in all, or have a test that does: they come first, so that no worker is
+# still at one of them when the others have nothing left to do.
+_SLOWEST = Path(__file__).with_name("slowest.txt").read_text("utf-8").split()
 _HELD = pytest.StashKey[ExitStack]()
 
 # How long an example takes says more of what else the machine does.
@@ -51,9 +54,18 @@ def pytest_configure(config: pytest.Config) -> None:
     os.environ["ORCHESTRA_CACHE"] = f"{os.environ['XDG_RUNTIME_DIR']}/cache"
     # Hundreds of commands are started: without bytecode each of them would compile all that it imports.
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    if hasattr(
+        config.option, "loadscopereorder"
+    ):  # else pytest-xdist begins with the files that have the most tests
+        config.option.loadscopereorder = False
     config.stash[_HELD] = ExitStack()
     if not hasattr(config, "workerinput"):
         _hold_domains(config.stash[_HELD])
+
+
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    order = {Path(__file__).parent / name: number for number, name in enumerate(_SLOWEST)}
+    items.sort(key=lambda item: order.get(item.path, len(order)))
 
 
 def _hold_domains(held: ExitStack) -> None:

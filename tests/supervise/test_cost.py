@@ -34,6 +34,7 @@ _KEPT_AT_MOST = 400 * 1024
 _ALWAYS = Restart("always", min_uptime=0.0)
 
 
+@pytest.mark.timeout(300)  # strace(1) stops a program twice for each call
 @pytest.mark.skipif(shutil.which("strace") is None, reason="counts system calls with strace(1)")
 def test_a_start_and_an_end_take_few_calls(tmp_path: Path) -> None:
     calls = {count: _calls(tmp_path / str(count), count) for count in (_FEW, _MANY)}
