@@ -37,7 +37,7 @@ def behind(factor: float, speed: float, lag: float, lost: float) -> str:
 def given_up(robot: str, seconds: float) -> str:
     """That a robot's filter has said nothing for so long (real seconds)."""
     return (
-        f"the filter of {robot} has said nothing for {seconds:g} s: the world does not wait for it any more"
+        f"the filter of {robot} has said nothing new for {seconds:g} s: the world does not wait for it any more"
     )
 
 
