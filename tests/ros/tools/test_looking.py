@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
+import os
 import signal
-from typing import TYPE_CHECKING
 
 import pytest
 
-if TYPE_CHECKING:
-    from tests.ros.tools.conftest import Graph
+from tests.ros.tools.conftest import Graph
 
 _ACTOR = "/robot1/actor"
 
@@ -129,6 +128,20 @@ def test_a_frame_that_nobody_knows_ends_the_wait_in_time(graph: Graph) -> None:
     done = graph.ask("tf", "echo", "odom", "lasr", "--timeout", "1.5")
     assert done.status == 1
     assert done.errors.endswith("there is no frame lasr; did you mean laser?\n")
+
+
+@pytest.mark.parametrize("words", [("node", "list"), ("topic", "echo", "/a", "std_msgs/msg/String")])
+def test_a_domain_that_is_none_is_the_user_s_error(words: tuple[str, ...]) -> None:
+    """Of a command that has a bare node, and of one that has a whole one."""
+    done = Graph({**os.environ, "ROS_DOMAIN_ID": "abc", "NO_COLOR": "1"}).ask(*words)
+    assert done.status == 1
+    assert done.errors.startswith("error: the graph cannot be joined: ")
+    assert done.errors.endswith("ROS_DOMAIN_ID is not an integral number\n")
+
+
+def test_a_profile_by_its_name_gives_way_to_what_publishers_offer(graph: Graph) -> None:
+    words = ("topic", "echo", "/robot1/scan", "--once", "--field", "angle_min")
+    assert graph.told(*words, "--qos-profile", "services_default").endswith("\n---\n")
 
 
 def test_names_in_the_graph_are_completed(graph: Graph) -> None:

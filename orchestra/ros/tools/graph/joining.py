@@ -14,7 +14,7 @@ from rclpy.signals import SignalHandlerOptions
 from orchestra.errors import RunError
 from orchestra.ros.tools.graph.bare import one_line
 from orchestra.ros.tools.graph.ending import Ending
-from orchestra.ros.tools.graph.seeing import ARGUMENTS, Graph, own_name, told
+from orchestra.ros.tools.graph.seeing import ARGUMENTS, Graph, entering, own_name, told
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -28,10 +28,12 @@ __all__ = ["Graph", "joined"]
 @contextmanager
 def joined(options: Namespace) -> Iterator[Graph]:
     """Join the graph with a hidden node."""
-    rclpy.init(args=list(ARGUMENTS), signal_handler_options=SignalHandlerOptions.NO)
+    with entering():
+        rclpy.init(args=list(ARGUMENTS), signal_handler_options=SignalHandlerOptions.NO)
     try:
         with Ending() as ending:
-            node = _node(options)
+            with entering():
+                node = _node(options)
             executor = SingleThreadedExecutor(context=node.context)
             executor.add_node(node)
             graph = Graph(node, float(options.spin_time), ending, executor.spin_once)

@@ -37,7 +37,10 @@ _DEEP: Final = 1000  # nothing is lost while the process that hears does somethi
 
 
 def chosen(options: Namespace, default: QoSProfile = qos_profile_sensor_data) -> tuple[QoSProfile, bool]:
-    """Return the profile that the options say, and whether they say any."""
+    """Return the profile that the options say, and whether they say a policy of it.
+
+    A profile by its name says none: as in the ROS 2 tools, what publishers offer counts for more.
+    """
     named = options.qos_profile
     given = {policy: getattr(options, f"qos_{policy}") for policy in _POLICIES}
     depth, lease = options.qos_depth, getattr(options, _LEASE)
@@ -51,7 +54,7 @@ def chosen(options: Namespace, default: QoSProfile = qos_profile_sensor_data) ->
         profile.depth = 1
     if lease is not None:
         profile.liveliness_lease_duration = Duration(seconds=lease)
-    return profile, bool(named) or depth is not None or lease is not None or any(given.values())
+    return profile, depth is not None or lease is not None or any(given.values())
 
 
 def matched(endpoints: Sequence[Any], profile: QoSProfile) -> tuple[QoSProfile, list[str]]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import time
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final, TypeVar
@@ -24,6 +25,8 @@ _LOOK: Final = 0.005
 _MEETING: Final = 0.02
 _CHANGING: Final = 6
 _NO_SUPPORT: Final = "Type support not from this implementation"
+_REFUSAL: Final = "RCLError"  # of a module that not all who join have imported
+_AT: Final = re.compile(r", at /.*")
 _NO_NAME: Final = "' is invalid: "
 # No log file: it would be a new one for each command.
 ARGUMENTS: Final = ("--ros-args", "--disable-external-lib-logs")
@@ -127,10 +130,12 @@ class Graph:
 @contextmanager
 def looking(options: Namespace) -> Iterator[Graph]:
     """Look at the graph with a hidden bare node."""
-    context = BareContext(ARGUMENTS)
+    with entering():
+        context = BareContext(ARGUMENTS)
     try:
         with Ending() as ending:
-            node = BareNode(own_name(options), context)
+            with entering():
+                node = BareNode(own_name(options), context)
             graph = Graph(node, float(options.spin_time), ending, node.hear)
             try:
                 yield graph
@@ -140,6 +145,18 @@ def looking(options: Namespace) -> Iterator[Graph]:
                 graph.close()
     finally:
         context.close()
+
+
+@contextmanager
+def entering() -> Iterator[None]:
+    """Tell the user what rcl refuses of his environment: the domain, the middleware, security."""
+    try:
+        yield
+    except RuntimeError as error:
+        if type(error).__name__ != _REFUSAL:
+            raise
+        reason = _AT.sub("", str(error).partition("\n")[0])
+        raise RunError(f"the graph cannot be joined: {reason}") from None
 
 
 def own_name(options: Namespace) -> str:
