@@ -130,6 +130,70 @@ def test_a_message_of_three_parts_costs_one_correction_and_its_covariance_is_jud
     assert len(judgements) == 3, "one for each part"
 
 
+@pytest.mark.parametrize("two_d_mode", [True, False])
+def test_sensors_of_one_stamp_are_fused_together_and_give_what_each_by_itself_gives(
+    filter_of: Callable[..., Localization], config: Make, imu: Make, twist: Make, *, two_d_mode: bool
+) -> None:
+    """Who observes a filter gets each measurement by itself."""
+    estimates, together = [], []
+    for observed in (True, False):
+        localization = filter_of(
+            imu0="i",
+            imu0_config=config("vyaw", "ax"),
+            twist0="t",
+            twist0_config=config("vx", "vy"),
+            twist1="other",
+            twist1_config=config("vz"),
+            two_d_mode=two_d_mode,
+        )
+        if observed:
+            localization.observe(lambda _measurement, _state, _covariance: together.append(1))
+        for number in range(1, 15):
+            stamp = number * SECOND // 10
+            speed, turning = (1.0, 0.1, 0.2 * number, 0.0, 0.0, 0.0), (0.0, 0.0, 0.1 * number)
+            localization.receive("twist0", twist(stamp, speed, variance=1e-3), stamp)
+            localization.receive("imu0", imu(stamp, omega=turning, force=(0.1, 0.0, 0.0)), stamp)
+            if number % 2:
+                localization.receive("twist1", twist(stamp, speed, variance=1e-2), stamp)
+            localization.update(stamp)
+        estimate = localization.estimate()
+        assert estimate is not None
+        estimates.append(estimate)
+    assert len(together) == 14 * 2 + 7 - 1, "all but the very first, which is taken over"
+    assert estimates[0].state == pytest.approx(estimates[1].state, abs=1e-10)
+    assert estimates[0].covariance == pytest.approx(estimates[1].covariance, abs=1e-10)
+
+
+def test_what_is_measured_twice_at_one_moment_counts_twice(
+    filter_of: Callable[..., Localization], config: Make, twist: Make
+) -> None:
+    localization = filter_of(
+        twist0="a", twist0_config=config("vx"), twist1="b", twist1_config=config("vx", "vy")
+    )
+    for second in (1, 2):
+        for sensor, speed in (("twist0", 1.0), ("twist1", 3.0)):
+            message = twist(second * SECOND, (speed, 0.0, 0.0, 0.0, 0.0, 0.0), variance=1e-4)
+            localization.receive(sensor, message, second * SECOND)
+    localization.update(2 * SECOND)
+    estimate = localization.estimate()
+    assert estimate is not None
+    assert estimate.state[6] == pytest.approx(2.0, abs=0.01)
+
+
+def test_covariances_that_always_change_are_not_remembered_for_ever(
+    filter_of: Callable[..., Localization], config: Make, imu: Make, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("bringup.filter.joining._KEPT", 2)
+    localization = filter_of(imu0="i", imu0_config=config("yaw", "vyaw"))
+    for number in range(1, 8):
+        message = imu(number * SECOND, rpy=(0.0, 0.0, 0.5), omega=(0.0, 0.0, 0.1), variance=1e-4 * number)
+        localization.receive("imu0", message, number * SECOND)
+        localization.update(number * SECOND)
+    estimate = localization.estimate()
+    assert estimate is not None
+    assert estimate.state[11] == pytest.approx(0.1, abs=1e-3)
+
+
 @given(st.integers(0, 2**32 - 1), st.integers(1, 6), st.sampled_from([0.0, -1.0, 1e-12, 1.0, 1e6]))
 def test_any_covariance_can_be_used(seed: int, size: int, scale: float) -> None:
     """Whatever a driver writes into it, what is used is symmetric and positive."""

@@ -66,6 +66,31 @@ def test_measurements_are_fused_in_the_order_of_their_stamps(
     assert _state(localization.estimate())[VX] == pytest.approx(3.0, abs=1e-3)
 
 
+@pytest.mark.parametrize("missed", [1, 7, 400])
+def test_an_update_that_comes_late_gives_what_punctual_ones_would_have_given(
+    filter_of: FilterOf, config: Make, twist: Make, imu: Make, missed: int
+) -> None:
+    """Nothing of what has come in the meantime is lost, whatever the clock jumped over."""
+    estimates = []
+    for punctual in (True, False):
+        localization = filter_of(
+            twist0="t", twist0_config=config("vx", "vy"), imu0="i", imu0_config=config("vyaw"), frequency=50
+        )
+        for number in range(1, missed + 20):
+            stamp = SECOND + number * SECOND // 50
+            wave = np.sin(number / 9)
+            localization.receive("twist0", twist(stamp, (wave, 0, 0, 0, 0, 0), variance=1e-3), stamp)
+            localization.receive("imu0", imu(stamp, omega=(0.0, 0.0, 1.0 - wave), variance=1e-4), stamp)
+            if punctual or not 10 <= number < 10 + missed:
+                localization.update(stamp)
+        estimate = localization.estimate()
+        assert estimate is not None
+        estimates.append(estimate)
+    assert estimates[0].stamp == estimates[1].stamp
+    assert estimates[0].state == pytest.approx(estimates[1].state, abs=1e-12)
+    assert estimates[0].covariance == pytest.approx(estimates[1].covariance, abs=1e-12)
+
+
 def test_silence_is_bridged_by_prediction(driving: FilterOf, speed: Make) -> None:
     localization = driving(sensor_timeout=0.5)
     _at(localization, 1.0, speed(1.0, 2.0))
