@@ -58,7 +58,7 @@ def read_part(whole: Source, begin: int, end: int, depth: int) -> Any | None:  #
     """Return the tree of what stands between two offsets, so deep in a file, if it is a whole value; None as `read`."""
     try:
         parser = PARSER(whole.text[begin:end])
-        return _Events(whole, parser.get_event, begin).document(depth)
+        return _Events(whole, parser.get_event, begin).document(depth, part=True)
     except (_NotPlainError, yaml.YAMLError):
         return None
 
@@ -75,12 +75,14 @@ class _Events:
         self.following = following
         self.marked = any(map(whole.text.__contains__, "&*!"))  # there may be anchors or tags
 
-    def document(self, depth: int = 1) -> Any:  # noqa: ANN401 - a tree
-        """Return the tree of the one document that there is."""
+    def document(self, depth: int = 1, *, part: bool = False) -> Any:  # noqa: ANN401 - a tree
+        """Return the tree of the one document that there is; what ends one ends no `part` of a document."""
         self.following()  # the stream begins
         self.expect(DocumentStartEvent)
         tree = self.value(self.following(), None, depth)
-        self.expect(DocumentEndEvent)
+        end = self.following()
+        if type(end) is not DocumentEndEvent or (part and end.explicit):
+            raise _NotPlainError
         self.expect(StreamEndEvent)
         return tree
 

@@ -8,6 +8,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from orchestra.description.entity import Entity
+from orchestra.description.text import Items
 from orchestra.errors import Problems
 from orchestra.load import xml_file, yaml_file
 from orchestra.load.alike import xml_items, yaml_items
@@ -18,9 +20,10 @@ from orchestra.load.offsets import source
 from orchestra.load.reader import Reader
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from orchestra.description.entity import Action
+    from orchestra.location import Span
 
 _YAML = (
     "- node:\n    pkg: {0}\n    exec: {1}\n    name: '{2}'\n    output: screen\n    param:\n"
@@ -75,7 +78,17 @@ def _compare(text: str, items: Any, module: Any) -> bool:
     assert sound
     assert found == ordinary
     assert [repr(action) for action in found] == [repr(action) for action in ordinary or ()]
+    assert list(_lists(found)) == list(_lists(ordinary))
     return True
+
+
+def _lists(value: Any) -> Iterator[Span]:
+    """Yield the places of lists, which are compared by their items alone."""
+    if isinstance(value, Items):
+        yield value.span
+    elif isinstance(value, Entity | tuple):
+        for inner in value.__dict__.values() if isinstance(value, Entity) else value:
+            yield from _lists(inner)
 
 
 def _written(template: str, values: Sequence[tuple[str, ...]]) -> str:
@@ -120,6 +133,13 @@ def test_forms_are_learned(
     assert _compare(text, items, module)
 
 
+@pytest.mark.parametrize("behind", ["", "\n\n", "  ", "   # c\n\n # c", "\n  - log: {message: a}\n"])
+def test_lists_in_block_form_end_where_the_next_thing_begins(behind: str) -> None:
+    item = "  - arg:\n      name: {0}\n      choices:\n        - {0}\n"
+    text = "launch:\n" + "".join(item.format(name) for name in "abcdef").rstrip("\n") + behind
+    assert _compare(text, yaml_items, yaml_file)
+
+
 @pytest.mark.parametrize(
     "text",
     [
@@ -134,6 +154,7 @@ def test_forms_are_learned(
         "launch: [{node: {exec: a}}]\n",
         "launch:\n- node: {exec: a}\r- node: {exec: b}\n",
         "launch:\n- node: {exec: a, name: (var a)}\n",
+        "launch:\n- node: {exec: a}\n...\n- node: {exec: b}\n",
         "launch:\n- a\n",
         "launch:\n",
         "",
@@ -152,6 +173,8 @@ def test_what_takes_a_closer_look_is_left_alone(text: str) -> None:
         "<launch><node exec='a'></launch>",
         "<launch><nod exec='a'/></launch>",
         "<launch><node exec='a' exec='b'/></launch>",
+        '<?xml version="1.0" encoding="-x"?><launch/>',
+        '<?xml version="1.0" encoding="é"?><launch></launch>',
         "<launch><group><group></group></group></launch>",
         "<launch><node exec='a'><!-- </node> --></node></launch>",
         "<launch><node exec='a'/>",

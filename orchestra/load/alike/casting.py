@@ -198,10 +198,11 @@ class _Cast:
             else:
                 found.append(f"({inside})")
                 at = last
-        while opened:
+        while opened and opened[-1] < self.end:
             take(opened.pop())
             found.append(")")
-        return "".join([*found, self.manner.ending(self.whole.text[at : self.end])])
+        # Lists in block form end where the next thing begins: behind all that may stand there.
+        return "".join([*found, self.manner.ending(self.whole.text[at : self.end]), ")" * len(opened)])
 
 
 def _offsets(span: Span) -> tuple[int, int]:

@@ -17,9 +17,10 @@ if TYPE_CHECKING:
 
 _BLANK: Final = "[ \t\r\n]"
 _BETWEEN: Final = rf"(?:{_BLANK}+|<!--(?:(?!--)[\t\r\n -~\xa0-\xff])*-->)*"
-_HEAD: Final = re.compile(
-    rf"""(?:<\?xml version=(?:"1.0"|'1.0')(?: encoding=(?:"[\w.-]+"|'[\w.-]+'))? ?\?>)?{_BETWEEN}<launch>{_BETWEEN}"""
-)
+_NAME: Final = "[A-Za-z][A-Za-z0-9._-]*"
+_ENCODING: Final = rf"""encoding=(?:"{_NAME}"|'{_NAME}')"""
+_DECLARED: Final = rf"""<\?xml version=(?:"1.0"|'1.0')(?: {_ENCODING})? ?\?>"""
+_HEAD: Final = re.compile(f"(?:{_DECLARED})?{_BETWEEN}<launch>{_BETWEEN}")
 _SPACE: Final = re.compile(_BETWEEN)
 _ATTRIBUTE: Final = rf"""{_BLANK}+[\w.:-]+{_BLANK}*={_BLANK}*(?:"[^"<]*"|'[^'<]*')"""
 _TAG: Final = re.compile(rf"<([A-Za-z][\w-]*)(?:{_ATTRIBUTE})*{_BLANK}*(/?)>")

@@ -1,7 +1,8 @@
 """The actions of a YAML launch file, each by itself.
 
-An item of a list in block form ends where a line begins that is indented no more than it. The text of each is read as
-a document of its own, which is complete if the item is: what is left open, as a quote or a bracket, is a fault there.
+An item of a list in block form ends where the next one begins, behind its indentation, as lists in it do. The text of
+each is read as a document of its own, with its own indentation, which is complete if the item is: what is left open, as
+a quote or a bracket, is a fault there.
 """
 
 from __future__ import annotations
@@ -50,7 +51,7 @@ def items(whole: Source) -> list[Item] | None:
     if head is None:
         return None
     begins = [
-        found.start() for found in re.finditer(rf"^ {{{len(head[1])}}}- ", text[head.end() :], re.MULTILINE)
+        found.end() for found in re.finditer(rf"^ {{{len(head[1])}}}(?=- )", text[head.end() :], re.MULTILINE)
     ]
     begins = [head.end() + begin for begin in begins]
     found = []
@@ -63,7 +64,7 @@ def items(whole: Source) -> list[Item] | None:
 def tree(whole: Source, item: Item, reader: Reader) -> Any | None:  # noqa: ANN401 - a tree
     """Return the tree of an item; None where the text does not end with it."""
     del reader
-    listed = read_part(whole, item.begin, item.end, _DEPTH)
+    listed = read_part(whole, whole.text.rfind("\n", 0, item.begin) + 1, item.end, _DEPTH)
     return listed[0] if isinstance(listed, list) and len(listed) == 1 else None
 
 
