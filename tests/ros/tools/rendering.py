@@ -104,7 +104,8 @@ def _between_commas(value: Any, length: int | None) -> str:
         return as_csv(value, length)
     if isinstance(value, bytes | str):
         cut = length is not None and len(value) > length
-        return str(value[:length] + ("..." if isinstance(value, str) else b"...") if cut else value)
+        end: Any = "..." if isinstance(value, str) else b"..."
+        return str(value[:length] + end if cut else value)
     if not hasattr(value, "__len__"):
         return str(value)
     written = ""
