@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from random import Random
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -94,6 +95,116 @@ def _lists(value: Any) -> Iterator[Span]:
 def _written(template: str, values: Sequence[tuple[str, ...]]) -> str:
     plain = ("a", "b", "c", "true")
     return "".join(template.format(*item) for item in [*[plain] * FEW, *values])
+
+
+_PIECES = (
+    *" \n\t\r-:#,'\"\\[]{}()$&*!|>%@`~=?.<;\x85\u2028\xa0\ufeff😀\x00",
+    *(
+        "\n  ",
+        "\n\n",
+        "# c\n",
+        ": ",
+        "- ",
+        "\n- ",
+        "\n---\n",
+        "\n...\n",
+        "$(",
+        "null",
+        " #",
+        "\r\n",
+        "<!-- c -->",
+    ),
+    *(
+        "&amp;",
+        "/>",
+        "<a/>",
+        "''",
+        '""',
+        "on",
+        "012",
+        "!!str a",
+        "&a b",
+        "*a",
+        "<<",
+        "a: b",
+        "a #b",
+        "|\n      a",
+    ),
+    *(
+        "$(var a)",
+        "$(eval '1')",
+        "$(var",
+        "(var a)",
+        "${a}",
+        "$(env A b)",
+        "\\x41",
+        "it's",
+        "a\n    name: z",
+        "x:=y",
+    ),
+)
+
+
+def _changed(rnd: Random, text: str) -> str:
+    """Return a text of which one character or one line is another, or lacks."""
+    at, lines = rnd.randrange(len(text)), text.split("\n")
+    line = rnd.randrange(len(lines))
+    match rnd.randrange(6):
+        case 0:
+            lines[line] = f" {lines[line]}" if rnd.random() < 0.5 else lines[line][1:]
+        case 1:
+            lines.insert(line, lines.pop(rnd.randrange(len(lines))))
+        case 2:
+            return text[:at] + text[at + 1 :]
+        case _:
+            return text[:at] + rnd.choice(_PIECES) + text[at + rnd.randrange(2) :]
+    return "\n".join(lines)
+
+
+def _attack(written: str, templates: Sequence[str], items: Any, module: Any, rnd: Random) -> bool:
+    """Learn a form, perhaps an odd one, and compare what is written nearly so; return whether the form was tried."""
+    template = rnd.choice(templates)
+    base = template.format("a", "b", "c", "true")
+    base = _changed(rnd, base) if rnd.random() < 0.5 else base
+    values = [rnd.choice([*_PIECES, "a", "b c", "$(var x)/y"]) for _ in range(4)]
+    other = template.format(*values) if rnd.random() < 0.5 else base
+    other = _changed(rnd, other) if rnd.random() < 0.7 else other
+    indent = rnd.choice(("", "  "))
+    text = "".join([*[base] * FEW, other, *rnd.choice(((), (base,)))]).replace("\n", f"\n{indent}")
+    return _compare(written.format(indent + text), items, module)
+
+
+def _attacks(number: int, monkeypatch: pytest.MonkeyPatch) -> int:
+    """Attack each format so many times; return how often a form was tried."""
+    tried = 0
+    for seed in range(number):
+        for items in (yaml_items, xml_items):
+            _forgetful(items, monkeypatch)
+        rnd = Random(seed)  # noqa: S311 - the same every time
+        tried += _attack("launch:\n{}", _YAML, yaml_items, yaml_file, rnd)
+        tried += _attack("<launch>{}</launch>", _XML, xml_items, xml_file, rnd)
+    return tried
+
+
+def test_hostile_files_are_read_alike(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert _attacks(40, monkeypatch) > 10
+
+
+@pytest.mark.long
+def test_thousands_of_hostile_files_are_read_alike(monkeypatch: pytest.MonkeyPatch) -> None:
+    assert _attacks(20_000, monkeypatch) > 5_000
+
+
+@pytest.mark.parametrize("head", ["", "<?xml version='1.0'?>", "<!-- a -->", "<launch>"])
+def test_blanks_are_matched_in_one_way(head: str) -> None:
+    blanks = " \n" * 10_000
+    assert xml_items.items(source("a", f"{head}{blanks}<robot>{blanks}")) is None
+
+
+def test_long_words_are_gone_through_once() -> None:
+    word = "a" * 300_000
+    assert yaml_items.words(f"a: {word}") == ["a"]
+    assert xml_items.words(f"<a b='{word}'/>") == ["<a", "b"]
 
 
 @settings(deadline=None)  # a busy machine is no fault

@@ -109,7 +109,7 @@ class _Cast:
         names = _names(type(entity))
         values = [(names[spelled(key)], value) for key, value in mapping.items()]
         words = [f"{name!r}: {self.value(entity, name, value)}" for name, value in values]
-        kept = self.keep(dict(entity.__dict__))
+        kept = self.keep({**entity.__dict__, **dict.fromkeys(name for name, _ in values)})
         return (
             f"entity({self.keep(type(entity))}, {{**{', '.join([kept, *words])}}}, {self.place(entity.span)})"
         )

@@ -16,7 +16,8 @@ if TYPE_CHECKING:
     from orchestra.load.reader import Reader
 
 _BLANK: Final = "[ \t\r\n]"
-_BETWEEN: Final = rf"(?:{_BLANK}+|<!--(?:(?!--)[\t\r\n -~\xa0-\xff])*-->)*"
+# Nothing here can be matched in two ways: what has no end would take for ever.
+_BETWEEN: Final = rf"{_BLANK}*(?:<!--(?:(?!--)[\t\r\n -~\xa0-\xff])*-->{_BLANK}*)*"
 _NAME: Final = "[A-Za-z][A-Za-z0-9._-]*"
 _ENCODING: Final = rf"""encoding=(?:"{_NAME}"|'{_NAME}')"""
 _DECLARED: Final = rf"""<\?xml version=(?:"1.0"|'1.0')(?: {_ENCODING})? ?\?>"""
@@ -25,7 +26,7 @@ _SPACE: Final = re.compile(_BETWEEN)
 _ATTRIBUTE: Final = rf"""{_BLANK}+[\w.:-]+{_BLANK}*={_BLANK}*(?:"[^"<]*"|'[^'<]*')"""
 _TAG: Final = re.compile(rf"<([A-Za-z][\w-]*)(?:{_ATTRIBUTE})*{_BLANK}*(/?)>")
 _END: Final = re.compile(rf"</launch{_BLANK}*>{_BETWEEN}\Z")
-_WORDS: Final = re.compile(r"""[\w.:-]+(?==["'])|</?[\w-]+""")
+_WORDS: Final = re.compile(r"""(?<![\w.:-])[\w.:-]+(?==["'])|</?[\w-]+""")
 # Values of ASCII, of no character that means something to XML, to YAML as the beginning of a list, or to substitutions.
 _VALUE: Final = r"[ !#-%(-;=-Z\]-~]+"
 

@@ -25,9 +25,9 @@ _COMMENT: Final = r"#[\t -~\xa0-\xff]*"
 _REST: Final = rf"(?: +{_COMMENT}| *)(?:\n *(?:{_COMMENT})?)*"
 _EMPTY: Final = rf"(?: *(?:{_COMMENT})?\n)*"
 _HEAD: Final = re.compile(rf"{_EMPTY}(?:--- *\n{_EMPTY})?launch: *(?: {_COMMENT})?\n{_EMPTY}(?=( *)- )")
-_CLOSED: Final = re.compile(rf"([\]}} ,]*?)({_REST})")
+_CLOSED: Final = re.compile(rf"((?:[ ,]*[\]}}])*)({_REST})")
 _BEGINNING: Final = re.compile(r"[^\n:]*:")
-_WORDS: Final = re.compile(r"[\w-]+(?=:[ \n])|[{\[]|\n *- ")
+_WORDS: Final = re.compile(r"(?<![\w-])[\w-]+(?=:[ \n])|[{\[]|\n *- ")
 
 # Values in quotes that have no escapes; plain ones, within a flow collection and outside of one. They have few sets of
 # characters: most of the time that it takes to compile a form goes there.
