@@ -95,8 +95,9 @@ def _why(frames: Frames, source: str, target: str) -> str:
 def _text(when: float, transform: Transform) -> str:
     place, turn = transform.translation, transform.rotation
     radians = angles(turn)
+    seconds, _, rest = f"{when:.9f}".partition(".")
     rows = [
-        f"At time {when:.9f}".rstrip("0").rstrip("."),
+        f"At time {seconds}.{rest.rstrip('0') or '0'}",
         f"- Translation: {_row(place)}",
         f"- Rotation: in Quaternion (xyzw) {_row(turn)}",
         f"- Rotation: in RPY (radian) {_row(radians)}",
