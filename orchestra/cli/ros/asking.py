@@ -12,7 +12,6 @@ import os
 import sys
 import tempfile
 from importlib import import_module
-from io import TextIOWrapper
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final, NoReturn
 
@@ -65,8 +64,6 @@ def _answer_here(question: dict[str, Any], environment: Mapping[str, str]) -> No
         del os.environ[name]
     os.environ.update(environment)
     faulthandler.enable()  # as PYTHONFAULTHANDLER has it
-    if isinstance(sys.stdout, TextIOWrapper):
-        sys.stdout.reconfigure(line_buffering=True)  # as near as can be to PYTHONUNBUFFERED
     if not sys.flags.safe_path:
         del sys.path[0]  # the working directory, or that of the start script
     sys.path.append(str(_SOURCES))

@@ -35,6 +35,7 @@ def answer(question: dict[str, Any]) -> NoReturn:
 
 def _status(question: dict[str, Any]) -> int:
     postpone()
+    _keep_apart()
     signal.signal(signal.SIGTERM, _leave)
     module, _, function = question["tool"].partition(":")
 
@@ -44,6 +45,20 @@ def _status(question: dict[str, Any]) -> int:
 
     as_json = question["options"].get("format") == "json"
     return guarded(act, Telling(question["command"], "json" if as_json else "text"))
+
+
+def _keep_apart() -> None:
+    """Have what others write on standard output come on standard error, so that the answer is all there is on it.
+
+    Fast DDS writes its own troubles there, as with files of shared memory that a killed process has left.
+    """
+    stream = sys.stdout
+    stream.flush()
+    descriptor = os.dup(stream.fileno())
+    sys.stdout = open(  # noqa: SIM115, PTH123 - for as long as the process lives
+        descriptor, "w", encoding=stream.encoding, errors=stream.errors, buffering=1
+    )
+    os.dup2(sys.stderr.fileno(), stream.fileno())
 
 
 def _leave(_signal: int, _frame: FrameType | None) -> NoReturn:

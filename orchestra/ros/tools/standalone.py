@@ -49,7 +49,11 @@ def _started(options: Namespace, name: str) -> Iterator[subprocess.Popen[bytes]]
     """Have a container, which ends with this process in any case."""
     command = [*_container_for(options), "--ros-args", "-r", f"__node:={name}"]
     ends_with_us = partial(kernel.die_with_parent, signal.SIGTERM, os.getpid())
-    with subprocess.Popen(command, preexec_fn=ends_with_us) as process:  # noqa: S603, PLW1509 - ours; no thread yet
+    with subprocess.Popen(  # noqa: S603 - a program of ours
+        command,
+        stdout=sys.stdout,
+        preexec_fn=ends_with_us,  # noqa: PLW1509 - no thread yet
+    ) as process:
         try:
             yield process
         finally:

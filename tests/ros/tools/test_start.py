@@ -93,3 +93,23 @@ def test_sockets_have_room_for_the_answers_of_all() -> None:
             socket.SOL_SOCKET, socket.SO_RCVBUF
         )
         assert stream.getsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF) == before
+
+
+_NOISY = """
+import os, sys
+from types import SimpleNamespace
+from orchestra.ros.tools.answering import answer
+
+def tell(_):
+    os.write(1, b"noise\\n")
+    sys.stdout.write("answer\\n")
+    return 0
+
+sys.modules["orchestra.ros.tools.noisy"] = SimpleNamespace(tell=tell)
+answer({"command": "noisy", "tool": "noisy:tell", "options": {}})
+"""
+
+
+def test_what_the_middleware_writes_on_standard_output_is_no_part_of_the_answer() -> None:
+    told = subprocess.run([sys.executable, "-c", _NOISY], capture_output=True, text=True, check=True)
+    assert (told.stdout, told.stderr) == ("answer\n", "noise\n")
