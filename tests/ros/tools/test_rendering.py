@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from argparse import Namespace
+from array import array
 from typing import Any
 
 import pytest
@@ -37,6 +38,16 @@ def test_messages_of_all_types_are(package: str) -> None:
             _hold(message_class(name), OddChance(f"{name}{seed}"), (None, 128, 1, 0))
 
 
+@pytest.mark.parametrize("csv", [False, True])
+def test_a_single_value_is_written_as_it_is_with_what_is_known_of_its_message(*, csv: bool) -> None:
+    about = {"source_timestamp": 1, "received_timestamp": 2}
+    options = _options(128, flow_style=False, csv=csv)
+    assert renderer(options)(array("d", [1.0]), about) == "array('d', [1.0])\n---\n"
+    options.include_message_info = True
+    told = renderer(options)("a", about)
+    assert told == f"---Got new message, message info:---\n{about}\n---Message data:---\na\n---\n"
+
+
 def _hold(kind: Any, chance: OddChance, lengths: tuple[int | None, ...]) -> None:
     message = filled(kind, chance)
     for length in lengths:
@@ -49,7 +60,11 @@ def _hold(kind: Any, chance: OddChance, lengths: tuple[int | None, ...]) -> None
 
 
 def _echoed(message: Any, length: int | None, *, flow_style: bool = False, csv: bool = False) -> str:
-    options = Namespace(
+    return renderer(_options(length, flow_style=flow_style, csv=csv))(message, {})
+
+
+def _options(length: int | None, *, flow_style: bool, csv: bool) -> Namespace:
+    return Namespace(
         full_length=length is None,
         truncate_length=length,
         truncate_given=None,
@@ -60,4 +75,3 @@ def _echoed(message: Any, length: int | None, *, flow_style: bool = False, csv: 
         include_message_info=False,
         format="text",
     )
-    return renderer(options)(message, {})

@@ -159,6 +159,7 @@ Parameter name: fixed
 def test_what_is_dumped_can_be_loaded(graph: Graph, tmp_path: Path) -> None:
     """Every type; what is read-only fails, and is told."""
     text = graph.told("param", "dump", _ACTOR)
+    assert text.endswith("\n\n")  # as the ROS 2 tools end it
     values = yaml.safe_load(text)[_ACTOR]["ros__parameters"]
     assert values["data"] == [b"\x01", b"\xff"]
     assert values["limits"] == {"max": 2.0}

@@ -19,7 +19,7 @@ from orchestra.ros.tools.frames import Frames, Transform, angles, interpolated, 
 from orchestra.ros.tools.graph.ports import participants_ports
 from orchestra.ros.tools.graph.rollcall import RollCall, announcement, farewell
 from orchestra.ros.tools.measuring import Intervals, Window, bandwidth_text, rate_text
-from orchestra.ros.tools.parameter_values import plain_value, value_of, value_of_text
+from orchestra.ros.tools.parameter_values import is_empty, plain_value, retyped, value_of, value_of_text
 
 
 @pytest.mark.parametrize(
@@ -91,6 +91,15 @@ def test_sizes_are_told_in_the_unit_that_fits() -> None:
     assert bandwidth_text(summary, 2.0) == (
         "2.00 KB/s from 2 messages\n\tMessage size mean: 2.00 KB min: 1.00 KB max: 3.00 KB\n"
     )
+    assert bandwidth_text(summary, 8.0).startswith("500 B/s from 2 messages\n\tMessage size mean: 2000 B min")
+
+
+def test_an_empty_list_is_of_the_type_that_the_parameter_has() -> None:
+    empty, words, number = value_of([]), value_of(["a"]), value_of(1)
+    assert is_empty(empty)
+    assert not is_empty(words)
+    assert retyped(empty, words).type == ParameterType.PARAMETER_STRING_ARRAY
+    assert retyped(empty, number) == empty
 
 
 _UNITS = st.floats(-1, 1)
