@@ -251,6 +251,19 @@ def test_lists_in_block_form_end_where_the_next_thing_begins(behind: str) -> Non
     assert _compare(text, yaml_items, yaml_file)
 
 
+def test_actions_of_very_many_values_are_no_forms(monkeypatch: pytest.MonkeyPatch) -> None:
+    forms = _forgetful(yaml_items, monkeypatch)
+    action = "- arg:\n    name: a\n    choices:\n" + "    - b\n" * 1_000
+    assert _compare(f"launch:\n{action * (FEW + 1)}", yaml_items, yaml_file)
+    assert not forms.known
+
+
+def test_a_form_has_its_indentation(monkeypatch: pytest.MonkeyPatch) -> None:
+    _forgetful(yaml_items, monkeypatch)
+    assert _compare("launch:\n" + "- log:\n    message: a\n" * (FEW + 1), yaml_items, yaml_file)
+    assert not _compare("launch:\n    - log:\n    message: a\n", yaml_items, yaml_file)
+
+
 @pytest.mark.parametrize(
     "text",
     [

@@ -32,6 +32,8 @@ if TYPE_CHECKING:
 
 # The file of code that is written here: who watches what code does knows by it that it is ours.
 _MADE: Final = f"{__file__}: written"
+# Each value takes as long to be learned as a hundred to be read: lists of very many are no forms.
+_MOST_VALUES: Final = 100
 # How the text of a key is read: with substitutions, without, or as the key has it.
 _TEXT, _LITERAL, _OWN = "template", "literal", ""
 # In the code that is written, a group by its offsets.
@@ -138,7 +140,7 @@ class _Cast:
         """Return the code for a text, None for what is none."""
         if not isinstance(made, Template):
             return None
-        if type(written) is not Verbatim:
+        if type(written) is not Verbatim or len(self.lines) >= _MOST_VALUES:
             raise UnlikeError
         first, last = _offsets(written.span)
         first, last = first + written.quoted, last - written.quoted

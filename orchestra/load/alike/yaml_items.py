@@ -1,8 +1,8 @@
 """The actions of a YAML launch file, each by itself.
 
 An item of a list in block form ends where the next one begins, behind its indentation, as lists in it do. The text of
-each is read as a document of its own, with its own indentation, which is complete if the item is: what is left open, as
-a quote or a bracket, is a fault there.
+each, with the indentation of both, is read as a document of its own, which is complete if the item is: what is left
+open, as a quote or a bracket, is a fault there.
 """
 
 from __future__ import annotations
@@ -51,11 +51,12 @@ def items(whole: Source) -> list[Item] | None:
     if head is None:
         return None
     begins = [
-        found.end() for found in re.finditer(rf"^ {{{len(head[1])}}}(?=- )", text[head.end() :], re.MULTILINE)
+        found.start() for found in re.finditer(rf"^ {{{len(head[1])}}}- ", text[head.end() :], re.MULTILINE)
     ]
     begins = [head.end() + begin for begin in begins]
+    ends = [begin + len(head[1]) for begin in begins[1:]]
     found = []
-    for begin, end in zip(begins, [*begins[1:], len(text)], strict=True):
+    for begin, end in zip(begins, [*ends, len(text)], strict=True):
         beginning = _BEGINNING.match(text, begin, end)
         found.append(Item(begin, end, beginning[0] if beginning is not None else ""))
     return found
@@ -64,7 +65,7 @@ def items(whole: Source) -> list[Item] | None:
 def tree(whole: Source, item: Item, reader: Reader) -> Any | None:  # noqa: ANN401 - a tree
     """Return the tree of an item; None where the text does not end with it."""
     del reader
-    listed = read_part(whole, whole.text.rfind("\n", 0, item.begin) + 1, item.end, _DEPTH)
+    listed = read_part(whole, item.begin, item.end, _DEPTH)
     return listed[0] if isinstance(listed, list) and len(listed) == 1 else None
 
 
