@@ -36,9 +36,7 @@ def behind(factor: float, speed: float, lag: float, lost: float) -> str:
 
 def given_up(robot: str, seconds: float) -> str:
     """That a robot's filter has said nothing for so long (real seconds)."""
-    return (
-        f"the filter of {robot} has said nothing new for {seconds:g} s: the world does not wait for it any more"
-    )
+    return f"the filter of {robot} has said nothing new for {seconds:g} s: the world does not wait for it any more"
 
 
 def summary(simulated: float, real: float) -> str:

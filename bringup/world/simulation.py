@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 
 TICK = 1.0 / TICKS_PER_SECOND
 _step = mujoco.mj_step
+_NO_SENSORS = int(mujoco.mjtDisableBit.mjDSBL_SENSOR)
 
 
 class Simulation:
@@ -86,8 +87,13 @@ class Simulation:
         """Advance by one tick (10 ms); one command per robot, in m/s and rad/s, already timed out where it has to."""
         for number, command in zip(range(len(self.limits)), commands, strict=True):
             self._steer(number, command)
-        physics, data = self.model.physics, self.data
+        physics, data, options = self.model.physics, self.data, self.model.physics.opt
+        # Sensors change nothing in the world, and only those of a tick's last step are ever read.
+        flags = options.disableflags
+        options.disableflags = flags | _NO_SENSORS
         for step in range(1, STEPS_PER_TICK + 1):
+            if step == STEPS_PER_TICK:
+                options.disableflags = flags
             _step(physics, data)
             # A graze can be shorter than a tick: whenever the number of contacts changes they are looked at.
             if step == STEPS_PER_TICK or data.ncon != self._seen.count:
