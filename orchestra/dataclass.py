@@ -112,7 +112,8 @@ class _Late:
 
     def __get__(self, instance: object, owner: type | None = None) -> Any:
         self._made += 1
-        if instance is None or self._made > _FEW:
+        # Whoever asks for a signature gives the class itself (Python 3.13).
+        if instance is None or instance is self._cls or self._made > _FEW:
             return self._compiled(instance, owner)
         return lambda *args, **named: self._fill(instance, args, named)
 
