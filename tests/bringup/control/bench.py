@@ -108,13 +108,20 @@ class Bench:
         scan.ranges[175:186] = type(scan.ranges)("f", [self.ahead] * 11)
         return scan
 
-    def call(self, kind: Any, name: str, request: Any) -> Any:
+    def call(self, kind: Any, name: str, request: Any, *, again: bool = True) -> Any:
+        """Ask, and where it does no harm ask again: an answer that comes before both sides know each other is lost."""
         client = self.node.create_client(kind, name)
+        asked: list[tuple[float, Any]] = []
+
+        def answered() -> bool:
+            if not asked or (again and time.monotonic() > asked[-1][0] + 5.0):
+                asked.append((time.monotonic(), client.call_async(request)))
+            return any(answer.done() for _, answer in asked)
+
         try:
             self.until(client.service_is_ready, f"{name} is there")
-            answer = client.call_async(request)
-            self.until(answer.done, f"{name} answers")
-            return answer.result()
+            self.until(answered, f"{name} answers")
+            return next(answer.result() for _, answer in asked if answer.done())
         finally:
             self.node.destroy_client(client)
 

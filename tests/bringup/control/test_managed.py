@@ -32,7 +32,7 @@ def _localhost() -> Iterator[None]:
 
 def change(bench: Bench, transition: int) -> bool:
     request = ChangeState.Request(transition=Transition(id=transition))
-    return bool(bench.call(ChangeState, f"{NODE}/change_state", request).success)
+    return bool(bench.call(ChangeState, f"{NODE}/change_state", request, again=False).success)
 
 
 def state(bench: Bench) -> int:
