@@ -24,6 +24,7 @@ MEASUREMENTS: Final = (
     "restarts",
     "checked_tree",
     "graph_questions",
+    "simulation",
 )
 
 
