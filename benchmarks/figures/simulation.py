@@ -1,7 +1,7 @@
 """The simulation of two robots, as fast as it goes: real seconds for a simulated one, alone and with both filters.
 
 The floor is the same physics step by step, without sensors, messages or anything else. Filters are heard before the
-world begins.
+world begins. The bars are 20 and 8 times real time on a processor that does the bare physics 80 times as fast.
 """
 
 from __future__ import annotations
@@ -20,11 +20,11 @@ _FLOOR_TITLE = "500 bare steps of the same physics"
 FIGURES = (
     Figure(
         "simulation", "a simulated second of two robots, unthrottled", _FLOOR_TITLE,
-        "value", 1 / 20, "s", 40, (10, 20, 40), 2,
+        "ratio", 4.0, "s", 40, (10, 20, 40), 2,
     ),
     Figure(
         "simulation-filters", "the same with both filters", _FLOOR_TITLE,
-        "value", 1 / 8, "s", 40, (10, 20, 40), 2,
+        "ratio", 10.0, "s", 40, (10, 20, 40), 2,
     ),
 )  # fmt: skip
 
