@@ -137,6 +137,8 @@ class _Player:
                         pace.step(since, time.monotonic())
                     self._wait(pace, recorded)
                     self._send(recorded, message)
+                    if (due := pace.due(recorded)) is not None:  # a busy machine may hold up the sending too
+                        self.late = max(self.late, time.monotonic() - due)
         for publisher in self.topics.values():
             if publisher.qos_profile.reliability == ReliabilityPolicy.RELIABLE:
                 publisher.wait_for_all_acked(Duration(seconds=_ACKNOWLEDGED))
@@ -154,7 +156,6 @@ class _Player:
             left = _LOOK if due is None else min(due - now, _LOOK)
             self._graph.pause(max(left, 0.0))
             if left <= 0:
-                self.late = max(self.late, -left)
                 return
 
     def _heed(self, key: str, pace: Pace, now: float) -> None:
