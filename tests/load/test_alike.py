@@ -192,7 +192,7 @@ def test_hostile_files_are_read_alike(monkeypatch: pytest.MonkeyPatch) -> None:
 
 @pytest.mark.long
 def test_thousands_of_hostile_files_are_read_alike(monkeypatch: pytest.MonkeyPatch) -> None:
-    assert _attacks(20_000, monkeypatch) > 5_000
+    assert _attacks(5_000, monkeypatch) > 1_500
 
 
 @pytest.mark.parametrize("head", ["", "<?xml version='1.0'?>", "<!-- a -->", "<launch>"])
