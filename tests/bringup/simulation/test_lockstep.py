@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+import pytest
 from geometry_msgs.msg import Twist
 from nav_msgs.msg import Odometry
 from rclpy.qos import HistoryPolicy, QoSProfile
@@ -75,6 +76,7 @@ def stands(clock: list[Clock]) -> list[float]:
     return ticks[1:] if len(ticks) > 1 and ticks[0] == ticks[1] > 0 else []
 
 
+@pytest.mark.long
 def test_an_unthrottled_world_waits_for_a_filter_that_is_behind_and_gives_up_a_silent_one(
     start: Start, listen: Listen
 ) -> None:
