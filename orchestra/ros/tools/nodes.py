@@ -21,7 +21,7 @@ _TWICE: Final = (
 def list_nodes(options: Namespace) -> int:
     """Write the names of the nodes."""
     with looking(options) as graph:
-        found = graph.whole(lambda: nodes(graph, every=options.all), named=True)
+        found = graph.whole(lambda: nodes(graph, every=options.all))
     twice = [name for name, count in Counter(found).items() if count > 1]
     if twice:
         warn(f"{_TWICE}: {', '.join(twice)}")

@@ -36,7 +36,7 @@ _PREFIX, _HOST = 12, 4
 
 
 class Attendance:
-    """Who is there of those who should be. `exact` tells whether all who should be are counted."""
+    """Who is there of those who should be."""
 
     def __init__(self, node: Any) -> None:  # noqa: ANN401 - of rclpy, or a bare one
         widen()
@@ -45,8 +45,7 @@ class Attendance:
         self._domain = node.context.get_domain_id()
         self._counted = rcl.rclpy_get_rmw_implementation_identifier() == "rmw_fastrtps_cpp"
         alone = os.environ.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").upper() == "LOCALHOST"
-        self.exact = self._counted and alone
-        self._quiet = _QUIET if self.exact else _QUIET_UNCOUNTED
+        self._quiet = _QUIET if self._counted and alone else _QUIET_UNCOUNTED
         self._seen: Any = None
         self._own = b""
         self._found: frozenset[bytes] = frozenset()

@@ -96,15 +96,10 @@ class Graph:
                 return look()
         return seen
 
-    def whole(self, look: Callable[[], _SeenT], *, named: bool = False) -> _SeenT:
-        """Return what is seen once all of the graph is, and it stays as it is.
-
-        Names of nodes are all there as soon as everybody has `named` them: nothing more is waited for then.
-        """
-        while not (late := self._is_late()) and not self._attendance.complete():
+    def whole(self, look: Callable[[], _SeenT]) -> _SeenT:
+        """Return what is seen once all of the graph is, and it stays as it is."""
+        while not self._is_late() and not self._attendance.complete():
             self._rest()
-        if late or (named and self._attendance.exact):
-            return look()
         while True:
             seen = look()
             if self._is_whole(lambda seen=seen: seen):  # type: ignore[misc]
