@@ -8,10 +8,10 @@ They are removed where they are ours, came while the run did, nobody holds their
 them: locks also tell of processes in other namespaces. Where there is no lock, they must have been there for a while,
 for whoever makes them maps them a moment later. The lock is held meanwhile, so that nobody can begin to use them.
 
-The locks of dead readers go at once, whoever else maps the port: who sends to a port that is no longer in order, and
-finds its lock free, clears up behind the reader in a way in which it waits for itself, for ever, if that one died while
-it took a message (Fast DDS up to 2.14.6 and 3.6.2, its issue 6485). Without the lock it makes the port anew. The file
-gets another name, which tells at the end of the run that the port had a reader, and that nobody is about to map it.
+The ports of dead readers go at once, with their locks, whoever else maps them. Who sends to a port that is no longer in
+order, and finds its lock free, clears up behind the reader in a way in which it waits for itself, for ever, if that one
+died while it took a message (Fast DDS up to 2.14.6 and 3.6.2, its issue 6485). Where nothing is left it makes the port
+anew. Without its lock alone the port would be taken for one in order, and the next reader would hear nothing.
 """
 
 from __future__ import annotations
@@ -31,11 +31,10 @@ if TYPE_CHECKING:
 _FOLDER = "/dev/shm"  # noqa: S108 - where Linux has POSIX shared memory (shm_overview(7))
 # What is removed together has one stem.
 _STEM = r"fastrtps_(?:[0-9a-f]{16}|port[0-9]+)"
-_OURS = pattern(rf"(?:sem\.)?({_STEM})(?:_mutex|_el|_sl|_el_dead)?")
+_OURS = pattern(rf"(?:sem\.)?({_STEM})(?:_mutex|_el|_sl)?")
 _LOCKS = ("_el", "_sl")
-_DEAD = "_el_dead"
 # The lock of the one reader of a port.
-_READER = pattern(r"fastrtps_port[0-9]+_el")
+_READER = pattern(r"(fastrtps_port[0-9]+)_el")
 # A lock that is younger, in seconds, may be about to be taken; nobody knows its port yet.
 _FRESH = 0.1
 # How long a file without a lock must have been there, in seconds.
@@ -54,28 +53,25 @@ def remove_leftovers(began: float) -> list[str]:
 
 
 def release_dead_readers() -> list[str]:
-    """Take the locks of ports whose one reader has died out of the way; return their names."""
+    """Remove the ports whose one reader has died; return the names of their files."""
     try:
         names = os.listdir(_FOLDER)  # noqa: PTH208 - few processes are killed
     except OSError:
         return []
     latest = time.time() - _FRESH
-    return [name for name in names if _READER.fullmatch(name) and _released(name, latest)]
+    ports = [match[1] for name in names if (match := _READER.fullmatch(name))]
+    return [file for port in ports for file in _released(port, latest)]
 
 
-def _released(name: str, latest: float) -> bool:
-    """Rename a lock of ours that came before `latest` and that nobody holds."""
+def _released(port: str, latest: float) -> list[str]:
+    """Remove a port whose lock is ours, came before `latest` and is held by nobody."""
     held: list[int] = []
-    path = f"{_FOLDER}/{name}"
+    lock = f"{port}_el"
     try:
-        # It is held until it is gone, as by Fast DDS itself where it looks for dead readers.
-        if not (_came_between(name, 0.0, latest) and _lock(path, held) and held):
-            return False
-        os.rename(path, path.removesuffix("_el") + _DEAD)  # noqa: PTH104 - as above
-    except OSError:
-        return False
-    else:
-        return True
+        if not (_came_between(lock, 0.0, latest) and _lock(f"{_FOLDER}/{lock}", held) and held):
+            return []
+        # The lock is held until all is gone, as by Fast DDS itself where it looks for dead readers.
+        return [file for file in (port, f"sem.{port}_mutex", lock) if _unlinked(f"{_FOLDER}/{file}")]
     finally:
         for descriptor in held:
             os.close(descriptor)
@@ -126,7 +122,7 @@ def _remove(stem: str) -> list[str]:
     with _locked(stem) as free:
         if not free:
             return []
-        files = (stem, f"sem.{stem}_mutex", *(f"{stem}{suffix}" for suffix in (*_LOCKS, _DEAD)))
+        files = (stem, f"sem.{stem}_mutex", *(f"{stem}{suffix}" for suffix in _LOCKS))
         return [file for file in files if _unlinked(f"{_FOLDER}/{file}")]
 
 
@@ -136,8 +132,7 @@ def _locked(stem: str) -> Iterator[bool]:
     held: list[int] = []
     try:
         free = all(_lock(f"{_FOLDER}/{stem}{suffix}", held) for suffix in _LOCKS)
-        settled = held or os.path.exists(f"{_FOLDER}/{stem}{_DEAD}")  # noqa: PTH110 - as above
-        yield free and (bool(settled) or not _came_since(stem, time.time() - _SETTLED))
+        yield free and (bool(held) or not _came_since(stem, time.time() - _SETTLED))
     finally:
         for descriptor in held:
             os.close(descriptor)
