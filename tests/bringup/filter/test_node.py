@@ -31,6 +31,7 @@ from bringup.filter_node.ticks import next_tick
 from bringup.filter_node.visits import VisitedSubscriptions
 from orchestra.ros.interfaces import tf_message_type
 from orchestra.ros.interfaces.definitions import provide
+from orchestra.supervise.keeping.shared_memory import release_dead_readers
 
 # lark, which the ROS wheels load, still imports a module that Python 3.11 has renamed.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
@@ -114,7 +115,10 @@ class Ekf:
 
     def end(self, number: signal.Signals = signal.SIGTERM) -> int:
         self.process.send_signal(number)
-        return self.process.wait(DEADLINE)
+        status = self.process.wait(DEADLINE)
+        if status == -signal.SIGKILL:
+            release_dead_readers()
+        return status
 
 
 @pytest.fixture(scope="module")

@@ -13,6 +13,7 @@ import pytest
 
 from orchestra.plan.model import Component, Provenance
 from orchestra.plan.reactions import ChangeStateAction, LoadAction, TriggerEvent
+from orchestra.supervise.keeping.shared_memory import release_dead_readers
 from orchestra.supervise.options import RunOptions
 from orchestra.values import Restart
 from tests.supervise.plans import HERE, PROCESSES, finished, launched, plan, process, shutdown, when
@@ -222,6 +223,7 @@ def test_a_container_that_is_none_of_the_plan_is_filled(tmp_path: Path) -> None:
     finally:
         outside.kill()
         outside.wait()
+        release_dead_readers()
 
 
 def test_a_component_may_be_a_lifecycle_node(tmp_path: Path) -> None:

@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import pytest
 import yaml
 
+from orchestra.supervise.keeping.shared_memory import release_dead_readers
 from orchestra.testing.domain import free_domain
 from tests.ros.tools.conftest import Graph
 
@@ -198,8 +199,12 @@ def test_a_recorder_that_was_killed_leaves_what_it_has_written(shell: Graph, tmp
         while not file.exists() or file.stat().st_size < _SOME_CHUNKS:
             assert publisher.poll() is recorder.poll() is None
             time.sleep(0.01)
+        # It stands meanwhile: whoever sends to a reader that died over a message may wait for ever.
+        publisher.send_signal(signal.SIGSTOP)
         recorder.kill()
         recorder.wait()
+        release_dead_readers()
+        publisher.send_signal(signal.SIGCONT)
     assert not (folder / "metadata.yaml").exists()
     done = shell.ask("bag", "info", str(folder), "--format", "json")
     counts = {topic["name"]: topic["messages"] for topic in done.data["topics"]}
