@@ -17,6 +17,7 @@ import pytest
 from orchestra.supervise.environment import node_environment
 from orchestra.supervise.host import this_host
 from orchestra.supervise.keeping import proc, shared_memory
+from orchestra.values import Restart
 from tests.supervise.plans import PROCESSES, alive, launched, plan, process, wait_for
 
 if TYPE_CHECKING:
@@ -28,6 +29,38 @@ SHM = Path("/dev/shm")  # noqa: S108 - it is
 OURS, OTHER = "75", "76"
 PUBLISHER = (sys.executable, str(PROCESSES / "publisher.py"))
 TOPIC = "/topic,RELIABLE,VOLATILE,0"
+
+
+# Says as much as it can, and hears, in one process each.
+TALKER = """
+import rclpy
+from std_msgs.msg import String
+rclpy.init()
+node = rclpy.create_node("talker")
+publisher = node.create_publisher(String, "said", 10)
+node.create_timer(0.001, lambda: publisher.publish(String(data="x" * 300)))
+try:
+    rclpy.spin(node)
+except (KeyboardInterrupt, rclpy.executors.ExternalShutdownException):
+    pass
+"""
+LISTENER = """
+import rclpy
+from std_msgs.msg import String
+rclpy.init()
+node = rclpy.create_node("listener")
+heard = []
+def hear(message):
+    heard.append(message)
+    if len(heard) == 50:
+        print("hears", flush=True)
+node.create_subscription(String, "said", hear, 10)
+try:
+    rclpy.spin(node)
+except (KeyboardInterrupt, rclpy.executors.ExternalShutdownException):
+    pass
+"""
+ROUNDS = 6
 
 
 def files() -> set[str]:
@@ -113,6 +146,24 @@ def test_nobody_hangs_for_a_dead_reader(tmp_path: Path) -> None:
         wait_for(lambda: not left_of(locks), "the end of the locks of the one that was killed")
         assert left_of(kept) == set(kept)
         assert alive(living)
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+
+
+def test_who_was_killed_among_many_messages_hears_again(tmp_path: Path) -> None:
+    """Whatever it was doing: its next start takes over nothing of what the dead one has left."""
+    talker, listener = (
+        process(name, command=(sys.executable, "-c", code), restart=restart)
+        for name, code, restart in (
+            ("talker", TALKER, None),
+            ("listener", LISTENER, Restart("always", delay=0.0, max_delay=0.0, growth=1.0)),
+        )
+    )
+    with launched(tmp_path, plan(talker, listener), environment={"ROS_DOMAIN_ID": OURS}) as run:
+        for start in range(1, ROUNDS + 1):
+            run.await_line("listener", "hears", start)
+            if start < ROUNDS:
+                os.kill(run.of_kind("process_running", "listener")[-1].pid or 0, signal.SIGKILL)
         run.send(signal.SIGINT)
         assert run.wait() == 130
 
