@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 from orchestra.cli.look.looker import Looker
 from orchestra.cli.targets import targets
 from orchestra.pipeline import inputs_from
+from orchestra.witness.observing import observer
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -44,6 +45,8 @@ class Checker:
         """Return what is told of a case when a file of it is checked."""
         inputs = inputs_from(case.words, environment=self.environment)
         (target,) = targets([str(self.folder / main)])
+        # Another test may have had this process watched, which keeps what files hold; here they change.
+        observer().kept.clear()
         finding, _ = Looker(inputs).look(target)
         return finding.problems
 

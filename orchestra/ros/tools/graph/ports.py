@@ -63,12 +63,11 @@ def widen() -> None:
     middleware that was told another size in its profile keeps that where it is more.
     """
     for descriptor in list(Path("/proc/self/fd").iterdir()):
-        try:
-            with socket.socket(fileno=os.dup(int(descriptor.name))) as one:
-                if one.type == socket.SOCK_DGRAM and one.family in (socket.AF_INET, socket.AF_INET6):
-                    _widen(one)
-        except OSError:
-            continue  # no socket, or closed since
+        with suppress(OSError):  # closed since
+            if str(descriptor.readlink()).startswith("socket:"):
+                with socket.socket(fileno=os.dup(int(descriptor.name))) as one:
+                    if one.type == socket.SOCK_DGRAM and one.family in (socket.AF_INET, socket.AF_INET6):
+                        _widen(one)
 
 
 def _widen(one: socket.socket) -> None:
