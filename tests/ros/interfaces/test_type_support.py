@@ -235,7 +235,8 @@ def test_an_interrupt_during_a_conversion_is_neither_lost_nor_in_the_way() -> No
     def send() -> None:
         sent.append(serialize_message(TFMessage(transforms=_Interrupting(_message(2).transforms))))
         end = time.monotonic() + 30.0
-        while time.monotonic() < end:  # not one long sleep: that begins without a look at what came just before it
+        # Not one long sleep: that begins without a look at what came just before it.
+        while time.monotonic() < end:
             time.sleep(0.01)
 
     with pytest.raises(KeyboardInterrupt):
