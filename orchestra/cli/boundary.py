@@ -80,13 +80,23 @@ def guarded(work: Callable[[], _ResultT], telling: Telling) -> _ResultT | int:
         return BROKEN_PIPE
     except OSError as error:
         # The machine says no: no space, no permission. That is the user's to know, and no bug.
-        _say("error", f"{error.strerror or error}" + (f": {error.filename}" if error.filename else ""))
+        _say("error", _refusal(error))
         _forget_output()
         return FAILED
     except Exception as error:  # noqa: BLE001 - whatever else ends a command is a bug, and this is where it is shown
         _show_bug(error, debug=telling.debug)
         return BUG
     return result
+
+
+def _refusal(error: OSError) -> str:
+    """Return what the machine says."""
+    if isinstance(error, FileNotFoundError) and not error.filename:
+        try:
+            os.getcwd()  # noqa: PTH109 - pathlib is slow to import
+        except FileNotFoundError:
+            return "the folder in which this was started is not there any more"
+    return f"{error.strerror or error}" + (f": {error.filename}" if error.filename else "")
 
 
 def show_problems(

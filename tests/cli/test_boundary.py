@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 from typing import TYPE_CHECKING, NoReturn
 
 import pytest
@@ -55,6 +56,17 @@ def _plain(monkeypatch: pytest.MonkeyPatch, home: Path) -> None:
 def test_statuses(error: BaseException, status: int, told: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert guarded(_raising(error), Telling("plan", command_line="a:=1 wrld:=2")) == status
     assert capsys.readouterr() == ("", told)
+
+
+def test_a_working_directory_that_is_gone_is_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    gone = tmp_path / "gone"
+    gone.mkdir()
+    monkeypatch.chdir(gone)
+    gone.rmdir()
+    assert guarded(lambda: len(os.getcwd()), Telling("plan")) == 1  # noqa: PTH109 - as the product looks at it
+    assert capsys.readouterr().err == "error: the folder in which this was started is not there any more\n"
 
 
 def test_work_that_ends_well_keeps_its_status() -> None:
