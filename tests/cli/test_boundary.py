@@ -59,14 +59,14 @@ def test_statuses(error: BaseException, status: int, told: str, capsys: pytest.C
 
 
 def test_a_working_directory_that_is_gone_is_told(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
     gone = tmp_path / "gone"
     gone.mkdir()
     monkeypatch.chdir(gone)
     gone.rmdir()
     assert guarded(lambda: len(os.getcwd()), Telling("plan")) == 1  # noqa: PTH109 - as the product looks at it
-    assert capsys.readouterr().err == "error: the folder in which this was started is not there any more\n"
+    assert capfd.readouterr().err == "error: the folder in which this was started is not there any more\n"
 
 
 def test_work_that_ends_well_keeps_its_status() -> None:
