@@ -66,12 +66,13 @@ class Goals:
 
     def due(self, settings: Settings, odometry: Odometry | None, frame: str) -> Goal | None:
         """The goal to drive to from now on, if one has come and nothing speaks against it; the one before ends."""
+        self._connect(settings.claim_service)
         handle = self._waiting
         if handle is None:
             return None
         goal = _goal(handle.request, settings)
         refusal = CANCELED if handle.is_cancel_requested else _objection(handle.request, odometry, frame)
-        if refusal is None and (text := self._claimed_by_others(handle.request, settings)) != "":
+        if refusal is None and (text := self._claimed_by_others(handle.request)) != "":
             if text is None:
                 return None
             refusal = Result(Outcome.OVERRULED, text)
@@ -120,16 +121,18 @@ class Goals:
         if not handle.is_cancel_requested:
             handle._update_state(EXECUTE)  # noqa: SLF001 - see EXECUTE
 
-    def _claimed_by_others(self, request: Message, settings: Settings) -> str | None:
-        """Why the place is taken, '' if it is free, None as long as that is not known."""
-        service = settings.claim_service
+    def _connect(self, service: str) -> None:
+        """Have the service of claims known before a goal comes: on a busy machine that takes seconds."""
         if self._claims is not None and self._claims.service != service:
             self._claims.close()
             self._claims = None
-        if not service:
-            return ""
+        if self._claims is None and service:
+            self._claims, self._asked = Claims(self._node, service), False
+
+    def _claimed_by_others(self, request: Message) -> str | None:
+        """Why the place is taken, '' if it is free, None as long as that is not known."""
         if self._claims is None:
-            self._claims = Claims(self._node, service)
+            return ""
         if not self._asked:
             self._asked = True
             self._claims.ask(request.pose)

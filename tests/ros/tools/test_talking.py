@@ -11,7 +11,7 @@ import yaml
 if TYPE_CHECKING:
     from pathlib import Path
 
-    from tests.ros.tools.conftest import Graph
+    from tests.ros.tools.conftest import Done, Graph
 
 _ACTOR, _MACHINE = "/robot1/actor", "/robot1/machine"
 
@@ -84,17 +84,23 @@ def test_how_much_comes_in_is_measured(graph: Graph) -> None:
     assert second.startswith("\tMessage size mean: 1.50 KB min: 1.50 KB")
 
 
+def _called(graph: Graph, *words: str, given: str = "") -> Done:
+    """Call a service that may be called again: DDS loses an answer whose reader its writer has not found yet."""
+    for _ in range(3):
+        done = graph.ask("service", "call", *words, "--timeout", "20", given=given)
+        if done.status == 0:
+            break
+    return done
+
+
 def test_a_service_is_called(graph: Graph) -> None:
-    told = graph.told("service", "call", "/robot1/switch", "std_srvs/srv/SetBool", "{data: true}")
-    assert told.endswith(
+    done = _called(graph, "/robot1/switch", "std_srvs/srv/SetBool", "{data: true}")
+    assert done.output.endswith(
         "requester: making request: std_srvs.srv.SetBool_Request(data=True)\n\n"
         "response:\nstd_srvs.srv.SetBool_Response(success=True, message='it is so')\n\n"
-    )
-    done = graph.ask(
-        *("service", "call", "/robot1/switch", "std_srvs/srv/SetBool", "--stdin", "--format", "json"),
-        given="data: false",
-    )
-    assert done.data == {"success": False, "message": "it is so"}
+    ), done.errors
+    words = ("/robot1/switch", "std_srvs/srv/SetBool", "--stdin", "--format", "json")
+    assert _called(graph, *words, given="data: false").data == {"success": False, "message": "it is so"}
 
 
 def test_a_service_that_is_not_there_is_waited_for_no_longer_than_said(graph: Graph) -> None:
