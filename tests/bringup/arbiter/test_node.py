@@ -23,6 +23,7 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Bool, String
 
 import bringup
+from tests.killing import kill
 
 # What rclpy imports to find its types still uses the old name of a standard module.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
@@ -134,7 +135,7 @@ def arbiter(*arguments: str) -> Iterator["subprocess.Popen[str]"]:
     try:
         yield process
     finally:
-        process.kill()
+        kill(process)
         process.communicate()
 
 

@@ -20,6 +20,8 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import String
 
+from tests.killing import kill
+
 DEADLINE = 40.0
 NODE = "/robot1/velocity_controller"
 TICK = 0.02
@@ -172,7 +174,7 @@ def controller(
     try:
         yield process
     finally:
-        process.kill()
+        kill(process)
         process.communicate()
 
 

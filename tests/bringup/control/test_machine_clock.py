@@ -17,6 +17,7 @@ from rclpy.qos import QoSProfile, ReliabilityPolicy
 from sensor_msgs.msg import LaserScan
 
 from bringup.control_node.run import longest_wait
+from tests.killing import kill
 
 # What rclpy imports to find its types still uses the old name of a standard module.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
@@ -97,7 +98,7 @@ def robot(*parameters: str) -> Iterator[Robot]:
         finally:
             surroundings.close()
     finally:
-        process.kill()
+        kill(process)
         process.communicate()
 
 

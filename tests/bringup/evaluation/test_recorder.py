@@ -22,6 +22,7 @@ from std_msgs.msg import UInt32
 from bringup.evaluation.recording import CONTACTS, TRUTH, WHEELS, Recording, RecordingError, read
 from bringup.evaluation.tracks import tracks
 from orchestra.testing.domain import free_domain
+from tests.killing import kill
 
 PATIENCE = 60.0
 STEP = 20_000_000
@@ -62,7 +63,7 @@ def recorder(domain: int, file: Path, *parameters: str) -> Iterator["subprocess.
             yield process
         finally:
             if process.poll() is None:
-                process.kill()
+                kill(process)
 
 
 class Driver:
@@ -121,7 +122,7 @@ def test_a_killed_recorder_leaves_all_but_its_last_second(domain: int, robot: No
         # The simulation starts again: its clock goes back, and what was before does not count any more.
         driver.stamp = 0
         drive_until(driver, 2.0, file, has_rows(2.0))
-        process.kill()
+        kill(process)
         process.wait()
     (track,) = tracks(read(file))
     assert track.robot == "r"

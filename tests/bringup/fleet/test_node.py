@@ -11,6 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from tests.killing import kill
+
 pytest.importorskip("rclpy", reason="needs ROS")
 
 import rclpy
@@ -140,7 +142,7 @@ def world() -> Iterator[_World]:
             monitor.send_signal(signal.SIGINT)
             assert monitor.wait(_PATIENCE) == 0
         finally:
-            monitor.kill()
+            kill(monitor)
             monitor.wait()
 
 

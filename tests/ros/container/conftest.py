@@ -15,6 +15,7 @@ import pytest
 
 from orchestra.supervise.graph.discovery import quick_discovery
 from orchestra.testing.domain import free_domain
+from tests.killing import kill
 from tests.supervise.plans import PATIENCE, PROCESSES, wait_for
 
 if TYPE_CHECKING:
@@ -140,7 +141,7 @@ def asking(domain: dict[str, str]) -> Iterator[Asking]:
             assert popen.stdout.readline() == '"ready"\n'
             yield Asking(popen)
         finally:
-            popen.kill()
+            kill(popen)
 
 
 @contextmanager
@@ -165,7 +166,7 @@ def container(
             popen.send_signal(signal.SIGINT)  # one that is killed stays in the graphs of others for 20 s
             popen.wait(PATIENCE)
         finally:
-            popen.kill()
+            kill(popen)
 
 
 @pytest.fixture(scope="module", params=EXECUTABLES)

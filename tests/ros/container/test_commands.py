@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.cli.main import main
+from tests.killing import kill
 from tests.ros.container.conftest import Asking, Box, container
 from tests.supervise.plans import PATIENCE, wait_for
 
@@ -95,7 +96,7 @@ def test_a_component_runs_in_a_container_of_its_own(domain: dict[str, str], aski
             assert popen.stdout.read() == "good-bye\n"
             assert popen.wait(PATIENCE) == 130
         finally:
-            popen.kill()
+            kill(popen)
     wait_for(lambda: not [one for one in asking.graph() if "sole" in one or "stubborn" in one], "its end")
 
 

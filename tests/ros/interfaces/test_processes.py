@@ -10,6 +10,8 @@ from pathlib import Path
 
 import pytest
 
+from tests.killing import kill
+
 _FOLDER = Path(__file__).parent
 _HASH = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
 
@@ -34,7 +36,7 @@ def _end(process: subprocess.Popen[str]) -> str:
     try:
         output, errors = process.communicate(timeout=90)
     finally:
-        process.kill()
+        kill(process)
     assert (process.returncode, errors) == (0, "")
     return output
 

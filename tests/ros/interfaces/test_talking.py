@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
+from tests.killing import kill
 from tests.ros.interfaces import own
 
 _FOLDER = Path(__file__).parent
@@ -30,7 +31,7 @@ def _end(process: subprocess.Popen[str]) -> str:
     try:
         output, errors = process.communicate(timeout=90)
     finally:
-        process.kill()
+        kill(process)
     assert (process.returncode, errors) == (0, "")
     return output
 

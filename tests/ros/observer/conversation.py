@@ -11,6 +11,7 @@ import threading
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from orchestra.supervise.graph.discovery import quick_discovery
+from tests.killing import kill
 from tests.supervise.plans import PROCESSES, wait_for
 
 if TYPE_CHECKING:
@@ -120,4 +121,4 @@ def _piped(domain: Domain, *words: str) -> Iterator[subprocess.Popen[str]]:
         try:
             yield popen
         finally:
-            popen.kill()
+            kill(popen)

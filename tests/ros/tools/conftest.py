@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import pytest
 
 from orchestra.testing.domain import free_domain
+from tests.killing import kill
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -72,7 +73,7 @@ class Graph:
             try:
                 yield process
             finally:
-                process.kill()
+                kill(process)
 
     @staticmethod
     def command(*words: str) -> list[str]:
@@ -104,4 +105,4 @@ def graph(domain: dict[str, str]) -> Iterator[Graph]:
             assert "ready\n" in process.stdout  # the middleware may say something before
             yield Graph(domain)
         finally:
-            process.kill()
+            kill(process)

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.testing.domain import free_domain
+from tests.killing import kill
 from tests.ros.tools.conftest import Graph
 
 if TYPE_CHECKING:
@@ -51,7 +52,7 @@ def shell() -> Iterator[Graph]:
                 assert "ready\n" in server.stdout  # the middleware may say something before
                 yield Graph(here)
             finally:
-                server.kill()
+                kill(server)
 
 
 def test_requests_and_responses_are_shown(shell: Graph) -> None:

@@ -18,6 +18,7 @@ import yaml
 
 from orchestra.supervise.keeping.shared_memory import release_dead_readers
 from orchestra.testing.domain import free_domain
+from tests.killing import kill
 from tests.ros.tools.conftest import Graph
 
 if TYPE_CHECKING:
@@ -60,7 +61,7 @@ def _counting(shell: Graph, *words: str) -> Iterator[subprocess.Popen[str]]:
         try:
             yield process
         finally:
-            process.kill()
+            kill(process)
 
 
 def _line(process: subprocess.Popen[str]) -> str:

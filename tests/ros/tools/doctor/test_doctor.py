@@ -13,6 +13,7 @@ import pytest
 
 from orchestra.cli.ros.doctor import CHECKS as NAMES
 from orchestra.testing.domain import free_domain
+from tests.killing import kill
 from tests.ros.tools.conftest import Graph
 
 if TYPE_CHECKING:
@@ -44,7 +45,7 @@ def ill() -> Iterator[Graph]:
                 assert process.stdout.readline() == "ready\n"
                 yield Graph(here)
             finally:
-                process.kill()
+                kill(process)
 
 
 @pytest.fixture(scope="module")
