@@ -16,10 +16,10 @@ from rclpy.action.graph import (
 from orchestra.errors import RunError
 from orchestra.ros.tools.graph.asking import Deadline
 from orchestra.ros.tools.graph.joining import joined
-from orchestra.ros.tools.graph.names import Names, absolute, listed, nodes, split, unknown
+from orchestra.ros.tools.graph.names import NO_ACTION, Names, absolute, listed, nodes, split, unknown
 from orchestra.ros.tools.graph.seeing import looking
 from orchestra.ros.tools.messages.plain import plain
-from orchestra.ros.tools.messages.reading import fill, mapping_of
+from orchestra.ros.tools.messages.reading import fill_from
 from orchestra.ros.tools.messages.text import yaml_text
 from orchestra.ros.tools.messages.types import action_class
 from orchestra.ros.tools.telling import as_json, json_line, lines, tell
@@ -64,7 +64,7 @@ def action_type(options: Namespace) -> int:
     with looking(options) as graph:
         types = graph.found(lambda: dict(actions(graph)).get(name))
         if not types:
-            raise unknown("action", name, (known for known, _ in actions(graph)))
+            raise unknown(NO_ACTION, name, (known for known, _ in actions(graph)))
     tell(options, lines(types), types)
     return 0
 
@@ -75,7 +75,7 @@ def info(options: Namespace) -> int:
     with looking(options) as graph:
         clients, servers = graph.whole(lambda: _ends(graph, name))
         if not (clients or servers):
-            raise unknown("action", name, (known for known, _ in actions(graph)))
+            raise unknown(NO_ACTION, name, (known for known, _ in actions(graph)))
     text = f"Action: {name}\n"
     for title, ends in (("clients", clients), ("servers", servers)):
         text += f"Action {title}: {len(ends)}\n"
@@ -97,7 +97,7 @@ def send_goal(options: Namespace) -> int:
     """Send a goal to an action, and write what becomes of it."""
     name, kind = absolute(options.action), action_class(options.type)
     goal = kind.Goal()
-    fill(goal, mapping_of(sys.stdin.read() if options.stdin else options.goal))
+    fill_from(sys.stdin.read() if options.stdin else options.goal, goal)
     deadline = Deadline(options.timeout)
     with joined(options) as graph:
         client = ActionClient(graph.node, kind, name)
@@ -121,7 +121,7 @@ class _Pursuit:
         self._say("Waiting for an action server to become available...\n")
         if not self._graph.wait(self._client.server_is_ready, self._deadline.left):
             known = {other for other, _ in actions(self._graph)} - {name}  # which our client has made known
-            raise unknown("action", name, known)
+            raise unknown(NO_ACTION, name, known)
         self._say(f"Sending goal:\n     {yaml_text(plain(goal))}\n", {"goal": plain(goal)})
         sent = self._client.send_goal_async(goal, self._heard)
         try:

@@ -12,7 +12,7 @@ from orchestra.ros.interfaces.definitions import provide
 from orchestra.ros.observer.service import Service
 from orchestra.ros.tools.graph.asking import Deadline, ask
 from orchestra.ros.tools.graph.joining import joined
-from orchestra.ros.tools.graph.names import absolute, nodes, services, unknown
+from orchestra.ros.tools.graph.names import NO_CONTAINER, absolute, nodes, services, unknown
 from orchestra.ros.tools.parameter_values import value_of_text
 from orchestra.ros.tools.telling import tell
 
@@ -120,7 +120,7 @@ def container(graph: Graph, name: str) -> str:
     if not graph.found(lambda: full in containers(graph)):
         if full in nodes(graph, every=True):
             raise RunError(f"{full} is no container")
-        raise unknown("container", full, containers(graph))
+        raise unknown(NO_CONTAINER, full, containers(graph))
     return full
 
 

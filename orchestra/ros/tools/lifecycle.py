@@ -9,7 +9,7 @@ from lifecycle_msgs.srv import ChangeState, GetAvailableTransitions, GetState
 from orchestra.errors import RunError
 from orchestra.ros.observer.transitions import consequence
 from orchestra.ros.tools.graph.asking import Deadline, ask
-from orchestra.ros.tools.graph.names import absolute, nodes, services, unknown
+from orchestra.ros.tools.graph.names import NO_NODE, absolute, nodes, services, unknown
 from orchestra.ros.tools.graph.seeing import looking
 from orchestra.ros.tools.telling import lines, tell, warn
 
@@ -81,10 +81,8 @@ def set_state(options: Namespace) -> int:
         available = [one.transition for one in there]
         wanted = [one for one in available if options.transition in (one.label, str(one.id))]
         if not wanted:
-            raise RunError(
-                f"{full} cannot {options.transition} now; it can "
-                + (", ".join(map(_labelled, available)) or "make no transition at all")
-            )
+            rows = "".join(f"\n- {_labelled(one)}" for one in available) or " none at all"
+            raise RunError(f"Unknown transition requested, available ones are:{rows}")
         request = ChangeState.Request()
         request.transition.id, request.transition.label = wanted[0].id, wanted[0].label
         answer = ask(
@@ -110,7 +108,7 @@ def _node(graph: Graph, name: str) -> str:
     if not graph.found(lambda: full in _nodes(graph, every=True)):
         if full in nodes(graph, every=True):
             raise RunError(f"{full} has no lifecycle")
-        raise unknown("node with a lifecycle", full, _nodes(graph, every=False))
+        raise unknown(NO_NODE, full, _nodes(graph, every=False))
     return full
 
 

@@ -34,7 +34,7 @@ def info(options: Namespace) -> int:
     with joined(options) as graph:
         seen = graph.whole(lambda: _endpoints(graph, full, every=options.include_hidden))
         if seen is None:
-            raise unknown("node", full, nodes(graph))
+            raise unknown("Unable to find node", full, nodes(graph))
         count = nodes(graph, every=True).count(full)
     if count > 1:
         warn(

@@ -11,7 +11,7 @@ from rcl_interfaces.msg import Parameter
 
 from orchestra.errors import RunError
 from orchestra.ros.tools.graph.asking import Deadline
-from orchestra.ros.tools.graph.names import absolute, nodes, services, unknown
+from orchestra.ros.tools.graph.names import NO_NODE, absolute, nodes, services, unknown
 from orchestra.ros.tools.graph.seeing import looking
 from orchestra.ros.tools.parameter_values import json_value, plain_value, type_name, value_of
 from orchestra.ros.tools.parameters import Asked, asked
@@ -124,7 +124,7 @@ def _wanted(graph: Graph, options: Namespace) -> list[str]:
         return graph.whole(asking)
     full = absolute(options.node)
     if not graph.found(lambda: full in nodes(graph, every=True)):
-        raise unknown("node", full, nodes(graph))
+        raise unknown(NO_NODE, full, nodes(graph))
     return [full]
 
 

@@ -142,7 +142,8 @@ def _must_be_there(node: Asked, name: str) -> None:
     known = node.names()
     if name not in known:
         near = nearest(name, known)
-        raise RunError(f"{node.node} has no parameter {name}" + (f"; did you mean {near}?" if near else ""))
+        hint = f"; did you mean {near}?" if near else ""
+        raise RunError(f"Parameter not set: {node.node} has no parameter {name}{hint}")
 
 
 def _first(results: list[Any], name: str) -> Any:  # noqa: ANN401 - of an untyped package

@@ -14,7 +14,7 @@ from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import absolute
 from orchestra.ros.tools.graph.qos import chosen
 from orchestra.ros.tools.messages.plain import plain
-from orchestra.ros.tools.messages.reading import fill, mapping_of
+from orchestra.ros.tools.messages.reading import fill_from
 from orchestra.ros.tools.messages.types import message_class
 from orchestra.ros.tools.telling import as_json, json_line
 
@@ -33,7 +33,7 @@ def publish(options: Namespace) -> int:
     topic = absolute(options.topic)
     times = 1 if options.once else options.times
     message = message_class(options.type)()
-    timed = fill(message, mapping_of(sys.stdin.read() if options.stdin else options.values))
+    timed = fill_from(sys.stdin.read() if options.stdin else options.values, message)
     profile, _ = chosen(options, QoSPresetProfiles.get_from_short_key("system_default"))
     wanted = options.wait_matching_subscriptions
     with joined(options) as graph:

@@ -13,7 +13,7 @@ from orchestra.errors import RunError
 from orchestra.ros.tools.echo import renderer
 from orchestra.ros.tools.graph.hearing import subscribe
 from orchestra.ros.tools.graph.joining import joined
-from orchestra.ros.tools.graph.names import absolute, services, unknown
+from orchestra.ros.tools.graph.names import NO_SERVICE, absolute, services, unknown
 from orchestra.ros.tools.messages.types import service_class
 from orchestra.ros.tools.telling import warn
 
@@ -65,5 +65,5 @@ def _worded(event: dict[str, Any]) -> dict[str, Any]:
 def _type_of(graph: Graph, name: str) -> str:
     types = graph.found(lambda: dict(services(graph)).get(name))
     if not types:
-        raise unknown("service", name, (known for known, _ in services(graph, every=False)))
+        raise unknown(NO_SERVICE, name, (known for known, _ in services(graph, every=False)))
     return types[0]

@@ -6,8 +6,9 @@ import sys
 import time
 from typing import TYPE_CHECKING, Any
 
-from orchestra.ros.tools.graph.asking import Deadline, ask
-from orchestra.ros.tools.graph.names import absolute, services, unknown
+from orchestra.errors import RunError
+from orchestra.ros.tools.graph.asking import LOOK, Deadline, ask
+from orchestra.ros.tools.graph.names import NO_SERVICE, absolute, services, unknown
 from orchestra.ros.tools.graph.seeing import looking
 from orchestra.ros.tools.telling import as_json, json_line, lines, tell
 
@@ -67,13 +68,13 @@ def call(options: Namespace) -> int:
     # All of rclpy and of messages, and only this needs it.
     from orchestra.ros.tools.graph.joining import joined  # noqa: PLC0415
     from orchestra.ros.tools.messages.plain import plain  # noqa: PLC0415
-    from orchestra.ros.tools.messages.reading import fill, mapping_of  # noqa: PLC0415
+    from orchestra.ros.tools.messages.reading import fill_from  # noqa: PLC0415
     from orchestra.ros.tools.messages.types import service_class  # noqa: PLC0415
 
     name = absolute(options.service)
     kind = service_class(options.type)
     request = kind.Request()
-    timed = fill(request, mapping_of(sys.stdin.read() if options.stdin else options.values))
+    timed = fill_from(sys.stdin.read() if options.stdin else options.values, request)
     with joined(options) as graph:
         while True:
             began = time.monotonic()
@@ -93,6 +94,11 @@ def _called(graph: Graph, options: Namespace, kind: Any, name: str, request: Any
     deadline = Deadline(options.timeout)
     if not graph.node.count_services(name):
         _say(options, "waiting for service to become available...\n")
+        graph.wait(lambda: graph.node.count_services(name), deadline.left, LOOK)
+    types = dict(services(graph)).get(name, [])
+    package, _, own = options.type.rpartition("/")
+    if types and f"{package.removesuffix('/srv')}/srv/{own}" not in types:
+        raise RunError(f"{name} is of type {', '.join(types)}, not {options.type}")
     return ask(
         graph,
         kind,
@@ -113,7 +119,7 @@ def _say(options: Namespace, text: str) -> None:
 def _types_of(graph: Graph, name: str) -> list[str]:
     types = graph.found(lambda: dict(services(graph)).get(name))
     if not types:
-        raise unknown("service", name, (known for known, _ in services(graph, every=False)))
+        raise unknown(NO_SERVICE, name, (known for known, _ in services(graph, every=False)))
     return types
 
 

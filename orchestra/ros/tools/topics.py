@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from orchestra.ros.tools.graph.names import absolute, topics, unknown
+from orchestra.ros.tools.graph.names import NO_TOPIC, absolute, topics, unknown
 from orchestra.ros.tools.graph.seeing import looking
 from orchestra.ros.tools.telling import lines, tell
 
@@ -47,7 +47,7 @@ def info(options: Namespace) -> int:
         publishers, subscriptions = _endpoints(graph, topic)
         types = dict(topics(graph)).get(topic, [])
         if not (publishers or subscriptions):
-            raise unknown("topic", topic, (name for name, _ in topics(graph, every=False)))
+            raise unknown(NO_TOPIC, topic, (name for name, _ in topics(graph, every=False)))
     gap = "\n\n" if options.verbose else "\n"
     parts = [f"Type: {types[0] if len(types) == 1 else types}", f"Publisher count: {len(publishers)}"]
     parts += map(str, publishers if options.verbose else ())
@@ -69,7 +69,7 @@ def topic_type(options: Namespace) -> int:
     with looking(options) as graph:
         types = graph.found(lambda: dict(topics(graph)).get(topic))
         if not types:
-            raise unknown("topic", topic, (name for name, _ in topics(graph, every=False)))
+            raise unknown(NO_TOPIC, topic, (name for name, _ in topics(graph, every=False)))
     tell(options, lines(types), types)
     return 0
 

@@ -57,7 +57,7 @@ def test_a_node_tells_what_it_has(graph: Graph) -> None:
 def test_a_node_that_is_not_there_is_an_error_with_the_near_name(graph: Graph) -> None:
     done = graph.ask("node", "info", "/robot1/actr")
     assert (done.status, done.output) == (1, "")
-    assert done.errors == "error: there is no node /robot1/actr; did you mean /robot1/actor?\n"
+    assert done.errors == "error: Unable to find node '/robot1/actr'; did you mean /robot1/actor?\n"
 
 
 def test_topics_are_listed_with_types_and_numbers_of_ends(graph: Graph) -> None:

@@ -70,4 +70,4 @@ def test_requests_and_responses_are_shown(shell: Graph) -> None:
 
 def test_a_service_that_nobody_has_is_told(shell: Graph) -> None:
     done = shell.ask("service", "echo", "/swich")
-    assert (done.status, done.errors) == (1, "error: there is no service /swich; did you mean /switch?\n")
+    assert (done.status, done.errors) == (1, "error: Unknown service '/swich'; did you mean /switch?\n")

@@ -62,7 +62,7 @@ def test_a_message_that_is_published_once_arrives(graph: Graph) -> None:
 def test_a_field_that_a_message_has_not_is_an_error(graph: Graph) -> None:
     done = graph.ask("topic", "pub", "-1", "/robot1/numbers", "std_msgs/msg/Int32", "{dat: 7}")
     assert done.status == 1
-    assert done.errors == "error: Int32 has no field dat; did you mean data?\n"
+    assert done.errors == "error: Failed to populate field: Int32 has no field dat; did you mean data?\n"
 
 
 def test_the_rate_of_messages_is_measured(graph: Graph) -> None:
@@ -106,7 +106,7 @@ def test_a_service_is_called(graph: Graph) -> None:
 def test_a_service_that_is_not_there_is_waited_for_no_longer_than_said(graph: Graph) -> None:
     done = graph.ask("service", "call", "/robot1/swich", "std_srvs/srv/SetBool", "{}", "--timeout", "1.5")
     assert done.status == 1
-    assert done.errors == "error: there is no service /robot1/swich; did you mean /robot1/switch?\n"
+    assert done.errors == "error: Unknown service '/robot1/swich'; did you mean /robot1/switch?\n"
 
 
 @pytest.mark.parametrize(
@@ -209,4 +209,22 @@ def test_a_lifecycle_node_goes_through_its_states(graph: Graph) -> None:
     assert failed.errors == f"error: Transitioning failed: {_MACHINE} is inactive [2] now\n"
     unknown = graph.ask("lifecycle", "set", _MACHINE, "configure")
     assert unknown.status == 1
-    assert "it can cleanup [2], activate [3], shutdown [6]" in unknown.errors
+    assert "available ones are:\n- cleanup [2]\n- activate [3]\n- shutdown [6]\n" in unknown.errors
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (("param", "get", _ACTOR, "cout"), "Parameter not set: /robot1/actor has no parameter cout; did you"),
+        (
+            ("service", "call", "/robot1/switch", "std_srvs/srv/Trigger"),
+            "/robot1/switch is of type std_srvs/srv/SetBool, not std_srvs/srv/Trigger\n",
+        ),
+    ],
+)
+def test_what_is_refused_is_told_in_the_words_of_the_ros_2_tools(
+    graph: Graph, words: tuple[str, ...], told: str
+) -> None:
+    done = graph.ask(*words)
+    assert done.status == 1
+    assert done.errors.startswith(f"error: {told}")

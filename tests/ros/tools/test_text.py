@@ -122,7 +122,7 @@ def test_what_is_to_have_the_current_time_is_told() -> None:
         (LaserScan(), "{ranges: 1.0}", "ranges has several values: a list is expected, not 1.0"),
         (LaserScan(), "{header: {stamp: 3}}", "header.stamp has fields: a mapping is expected, not 3"),
         (PoseWithCovariance(), "{covariance: [1]}", "covariance has 36 values, not 1"),
-        (String(), "[1]", "the values must be a mapping, as '{data: 1}'"),
+        (String(), "[1]", "The passed value needs to be a dictionary in YAML format, as '{data: 1}'"),
         (String(), "{data: ", "the values are no YAML: "),
     ],
 )

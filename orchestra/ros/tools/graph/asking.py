@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.errors import RunError
 from orchestra.ros.observer.service import Service
-from orchestra.ros.tools.graph.names import absolute, nodes, services, unknown
+from orchestra.ros.tools.graph.names import NO_NODE, NO_SERVICE, absolute, nodes, services, unknown
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
     from orchestra.ros.tools.graph.seeing import Graph
 
-_LOOK: Final = 0.005  # nobody tells when a server is there
+LOOK: Final = 0.005  # nobody tells when a server is there
 
 
 class Deadline:
@@ -54,13 +54,13 @@ def ask(
     client = Service(graph.node, kind, service)
     answers: list[Any] = []
     try:
-        if not graph.wait(lambda: client.ready, deadline.left, _LOOK):
+        if not graph.wait(lambda: client.ready, deadline.left, LOOK):
             if graph.node.count_services(service):
                 raise RunError(f"the service {service} was not reached within {deadline}")
             known = {name for name, _ in services(graph, every=False)} - {
                 service
             }  # which our client has made known
-            raise unknown("service", service, known)
+            raise unknown(NO_SERVICE, service, known)
         asking()
         client.ask(request, answers.append, repeat=repeat)
 
@@ -85,5 +85,5 @@ def node_there(graph: Graph, name: str, deadline: Deadline, *, every: bool = Tru
         return full in nodes(graph, every=every)
 
     if not graph.found(seen) and not graph.wait(seen, deadline.left):
-        raise unknown("node", full, nodes(graph))
+        raise unknown(NO_NODE, full, nodes(graph))
     return full

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from rclpy.event_handler import SubscriptionEventCallbacks, UnsupportedEventTypeError
 
 from orchestra.errors import RunError
-from orchestra.ros.tools.graph.names import topics, unknown
+from orchestra.ros.tools.graph.names import NO_TOPIC, topics, unknown
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -33,7 +33,7 @@ def type_of(graph: Graph, topic: str) -> str:
     """Return the one type of a topic. Raises `RunError` where there is none, or more than one."""
     types = graph.found(lambda: dict(topics(graph)).get(topic))
     if not types:
-        raise unknown("topic", topic, (name for name, _ in topics(graph, every=False)))
+        raise unknown(NO_TOPIC, topic, (name for name, _ in topics(graph, every=False)))
     if len(types) > 1:
         raise RunError(f"{topic} has more than one type: {', '.join(types)}; say which one is meant")
     return types[0]

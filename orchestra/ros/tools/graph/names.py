@@ -15,6 +15,13 @@ if TYPE_CHECKING:
 Names = list[tuple[str, list[str]]]
 _SHOWN = 8
 
+# What the ROS 2 tools say of what is not there: scripts look for these words.
+NO_NODE = "Node not found:"
+NO_TOPIC = "Unknown topic"
+NO_SERVICE = "Unknown service"
+NO_ACTION = "Unknown action"
+NO_CONTAINER = "Unable to find container node"
+
 
 def hidden(name: str) -> bool:
     """Tell whether a token of a name begins with an underscore."""
@@ -58,13 +65,13 @@ def split(full: str) -> tuple[str, str]:
     return name, space or "/"
 
 
-def unknown(kind: str, name: str, known: Iterable[str]) -> RunError:
-    """Return the error for what is not there, with what may be meant."""
+def unknown(told: str, name: str, known: Iterable[str]) -> RunError:
+    """Return the error for what is not there, in the words of the ROS 2 tools, with what may be meant."""
     there = sorted(set(known))
     near = nearest(name, there)
     if near is not None:
-        return RunError(f"there is no {kind} {name}; did you mean {near}?")
+        return RunError(f"{told} '{name}'; did you mean {near}?")
     if not there:
-        return RunError(f"there is no {kind} {name}, nor any other (ROS_DOMAIN_ID decides which are seen)")
+        return RunError(f"{told} '{name}', nor is there any other (ROS_DOMAIN_ID decides which are seen)")
     more = ", …" if len(there) > _SHOWN else ""
-    return RunError(f"there is no {kind} {name}; there are {', '.join(there[:_SHOWN])}{more}")
+    return RunError(f"{told} '{name}'; there are {', '.join(there[:_SHOWN])}{more}")

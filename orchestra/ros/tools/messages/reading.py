@@ -40,8 +40,17 @@ def mapping_of(text: str) -> dict[str, Any]:
     if found is None or found == "":
         return {}
     if not isinstance(found, dict):
-        raise RunError("the values must be a mapping, as '{data: 1}'")
+        raise RunError("The passed value needs to be a dictionary in YAML format, as '{data: 1}'")
     return found
+
+
+def fill_from(text: str, message: Any) -> list[tuple[Any, str, Any]]:  # noqa: ANN401 - of any class
+    """Set the fields of a message that a text in YAML names, as `fill` does it. Raises `RunError`."""
+    values = mapping_of(text)
+    try:
+        return fill(message, values)
+    except RunError as error:
+        raise RunError(f"Failed to populate field: {error}") from None
 
 
 def fill(message: Any, values: Any, path: str = "") -> list[tuple[Any, str, Any]]:  # noqa: ANN401 - of any class
