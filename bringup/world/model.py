@@ -21,8 +21,8 @@ WORLDS = Path(__file__).parent.parent / "worlds"
 TEMPLATE = "world.xml.j2"
 COLOURS = ("0.15 0.40 0.75 1", "0.80 0.30 0.20 1", "0.20 0.60 0.35 1", "0.55 0.35 0.70 1")
 # Physics steps in seconds, and how many of them make a tick: the grid on which every message lies.
-TIMESTEP = 0.002
-STEPS_PER_TICK = 5
+TIMESTEP = 0.005
+STEPS_PER_TICK = 2
 TICKS_PER_SECOND = 100
 # Owners of a geom that are no robot.
 FLOOR = -2

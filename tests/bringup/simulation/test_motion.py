@@ -10,7 +10,7 @@ from bringup.world.contacts import SAME_TOUCH, ContactCount
 from bringup.world.drive import STILL, Twist
 from bringup.world.geometry import Pose, relative, wrap
 from bringup.world.layout import Layout, Start, lay_out
-from bringup.world.model import load, pose, twist, wheel_angles
+from bringup.world.model import load, pose, twist, wheel_angles, wheel_speeds
 from bringup.world.simulation import TICK, Simulation, in_force
 
 
@@ -67,8 +67,30 @@ def test_wheels_roll_without_slip_on_a_straight_way() -> None:
     robot = simulation.model.robots[0]
     left, right = wheel_angles(simulation.data, robot)
     way = pose(simulation.data, robot).x + 2.0
-    assert 0.1 * left == pytest.approx(way, rel=0.01)
+    # What is left is the creep of tyres that speed up.
+    assert 0.1 * left == pytest.approx(way, rel=0.002)
     assert right == pytest.approx(left, rel=1e-3)
+
+
+def test_an_even_way_does_not_shake_the_robot() -> None:
+    simulation = Simulation(load(empty(Pose(-3.0, 0.0, 0.0))))
+    drive(simulation, 2.0, Twist(0.8, 0.3))
+    felt = []
+    for _ in range(100):
+        simulation.tick([Twist(0.8, 0.3)])
+        felt.append(simulation.data.sensordata.copy())
+    assert np.std(felt, axis=0).max() < 1e-3
+
+
+def test_wheels_in_the_air_turn_as_their_motors_are_told() -> None:
+    """Steps that were too long for the motors would swing them ever faster."""
+    simulation = Simulation(load(empty(Pose(0.0, 0.0, 0.0))))
+    simulation.data.qpos[2] = 5.0
+    drive(simulation, 0.6, Twist(0.6, 0.0))
+    for _ in range(20):
+        simulation.tick([Twist(0.6, 0.0)])
+        assert simulation.data.qpos[2] > 0.5
+        assert wheel_speeds(simulation.data, simulation.model.robots[0]) == pytest.approx((6.0, 6.0), abs=0.1)
 
 
 def test_a_hard_stop_keeps_the_laser_level() -> None:
@@ -79,7 +101,7 @@ def test_a_hard_stop_keeps_the_laser_level() -> None:
         simulation.tick([STILL])
         _, x, y, _ = simulation.data.qpos[3:7]
         steepest = max(steepest, 2 * math.hypot(x, y))
-    assert steepest < math.radians(1.0)
+    assert steepest < math.radians(0.1)
 
 
 def wandering(ticks: int) -> tuple[bytes, bytes]:
