@@ -126,6 +126,8 @@ class Course:
     def _advance(self, most: int) -> list[Moment]:
         """The moments of the ticks to come; the last is one at which somebody looks at the world, if there is one."""
         simulation, moments = self.simulation, list[Moment]()
+        for robot in self.robots:
+            robot.notice()
         if self.settings.lockstep_ticks is None:
             for robot in self.robots:
                 robot.hear()

@@ -25,3 +25,10 @@ class Draws:
             self._at = 0
         begin, self._at = self._at, self._at + count
         return self._block[begin : self._at]
+
+    def skip(self, count: int) -> None:
+        """Let the next numbers go."""
+        if self._at + count > len(self._block):
+            self.take(count)
+        else:
+            self._at += count

@@ -56,16 +56,25 @@ class Inertial:
 
     def measure(self, true: Iterable[float], dt: float = PERIOD) -> list[float]:
         """What it reports for true turning rates (three, rad/s) and accelerations (three, m/s^2), `dt` s later."""
-        if self._strays:
-            root = math.sqrt(dt)
-            steps = zip(self._strayed, self._walk, self._draws.take(6), strict=True)
-            self._strayed = [strayed + root * walk * draw for strayed, walk, draw in steps]
-            self._walked[0] += dt * self._noise.gyro_walk**2
-            self._walked[1] += dt * self._noise.accelerometer_walk**2
+        self._stray(dt)
         draws = self._draws.take(6)
         # Without checks of the lengths, which are all six: this is the busiest line of the sensors.
         parts = zip(true, self._bias, self._strayed, self._deviation, draws, strict=False)
         return [value + bias + strayed + deviation * draw for value, bias, strayed, deviation, draw in parts]
+
+    def skip(self, dt: float = PERIOD) -> None:
+        """Measure what nobody asks for: what comes after it is the same."""
+        self._stray(dt)
+        self._draws.skip(6)
+
+    def _stray(self, dt: float) -> None:
+        if not self._strays:
+            return
+        root = math.sqrt(dt)
+        steps = zip(self._strayed, self._walk, self._draws.take(6), strict=True)
+        self._strayed = [strayed + root * walk * draw for strayed, walk, draw in steps]
+        self._walked[0] += dt * self._noise.gyro_walk**2
+        self._walked[1] += dt * self._noise.accelerometer_walk**2
 
     def variances(self) -> tuple[float, float]:
         """The expected square of the error of a turning rate and of an acceleration, by now."""

@@ -78,6 +78,13 @@ def reported(
     return ranges
 
 
+def skip(errors: LidarErrors, chance: np.random.Generator) -> None:
+    """Draw what `reported` draws for a scan that nobody asks for: those after it are the same."""
+    chance.standard_normal(RAYS)
+    if errors.dropout:
+        chance.random(RAYS)
+
+
 def noisy(
     distances: NDArray[np.float64],
     deviation: float,

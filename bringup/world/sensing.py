@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
 from bringup.world.geometry import Pose, relative
 from bringup.world.inertial import Inertial
-from bringup.world.lidar import Lidar, reported
+from bringup.world.lidar import Lidar, reported, skip
 from bringup.world.model import TICKS_PER_SECOND, Moment, Robot, moving, placed, wheel_angles
 from bringup.world.odometry import Estimate, Odometry
 
@@ -35,8 +36,19 @@ class InertialReading(NamedTuple):
     variances: tuple[float, float]
 
 
+class Asked(NamedTuple):
+    """What of the readings somebody asks for. What is left out changes nothing in what is read later."""
+
+    truth: bool = True
+    inertial: bool = True
+    ranges: bool = True
+
+
+ALL = Asked()
+
+
 class Readings(NamedTuple):
-    """What is new at a tick; None for a sensor that says nothing at it."""
+    """What is new at a tick; None for a sensor that says nothing at it, or that nobody asks."""
 
     robot: Robot
     moment: Moment
@@ -91,32 +103,46 @@ class Sensors:
         self._odometry.errors = settings.wheels
         self._inertial.noise = settings.inertial
 
-    def looks(self, ticks: int) -> bool:
+    def looks(self, ticks: int, asked: Asked = ALL) -> bool:
         """Whether a sensor looks at the world itself at a tick, rather than at the numbers of its moment."""
-        return due(ticks, self._settings.scan_rate)
+        return asked.ranges and due(ticks, self._settings.scan_rate)
+
+    def nearest(self) -> float:
+        """Metres from the laser to the nearest thing that it can see now; inf if there is none."""
+        return float(np.min(self._lidar.measure(self._simulation.data, self._settings.lidar.range_max)))
 
     def read(self) -> Readings:
         """What the sensors say at the tick that the simulation has reached; to be called once at every tick."""
         return self.read_at(self._simulation.ticks, self._simulation.moment())
 
-    def read_at(self, ticks: int, now: Moment) -> Readings:
+    def read_at(self, ticks: int, now: Moment, asked: Asked = ALL) -> Readings:
         """What they say at a tick that may have passed, unless one of them looks at it."""
         settings = self._settings
         truth = odometry = None
         if due(ticks, settings.odometry_rate):
-            here = placed(now, self.robot)
-            truth = Truth(relative(self.robot.start, here), *moving(now, self.robot, here.yaw))
+            truth = self._true(now) if asked.truth else None
             odometry = self._odometry.update(wheel_angles(now, self.robot), self._since("odometry", ticks))
-        inertial = self._felt(now, ticks) if due(ticks, settings.imu_rate) else None
-        ranges = self._seen() if due(ticks, settings.scan_rate) else None
+        inertial = self._felt(now, ticks, asked) if due(ticks, settings.imu_rate) else None
+        ranges = self._seen(asked) if due(ticks, settings.scan_rate) else None
         return Readings(self.robot, now, truth, odometry, inertial, ranges)
 
-    def _felt(self, now: Moment, ticks: int) -> InertialReading:
-        values = self._inertial.measure(now.sensordata[self.robot.imu], self._since("inertial", ticks))
+    def _true(self, now: Moment) -> Truth:
+        here = placed(now, self.robot)
+        return Truth(relative(self.robot.start, here), *moving(now, self.robot, here.yaw))
+
+    def _felt(self, now: Moment, ticks: int, asked: Asked) -> InertialReading | None:
+        passed = self._since("inertial", ticks)
+        if not asked.inertial:
+            self._inertial.skip(passed)
+            return None
+        values = self._inertial.measure(now.sensordata[self.robot.imu], passed)
         return InertialReading(values, self._inertial.variances())
 
-    def _seen(self) -> NDArray[np.float64]:
+    def _seen(self, asked: Asked) -> NDArray[np.float64] | None:
         errors = self._settings.lidar
+        if not asked.ranges:
+            skip(errors, self._lidar_chance)
+            return None
         return reported(
             self._lidar.measure(self._simulation.data, errors.range_max), errors, self._lidar_chance
         )
@@ -133,6 +159,7 @@ def travelled(moment: Moment, robot: Robot) -> Pose:
     return relative(robot.start, placed(moment, robot))
 
 
+@lru_cache(maxsize=64)
 def due(ticks: int, rate: float) -> bool:
     """Whether something that happens so often in a simulated second happens at this tick."""
     return int(ticks * rate / TICKS_PER_SECOND) > int((ticks - 1) * rate / TICKS_PER_SECOND)

@@ -64,7 +64,7 @@ class Telling:
             if error is not None:
                 told = report.filter_error(error.distance, error.turn, simulation.ticks - error.tick)
             here = pose(simulation.data, topics.robot)
-            lines.append(report.status(topics.robot.name, here, told, topics.nearest))
+            lines.append(report.status(topics.robot.name, here, told, topics.sensors.nearest()))
         return lines
 
     def _publish(self, factor: float, metronome: Metronome, *, late: bool) -> None:

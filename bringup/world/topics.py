@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING
 
-import numpy as np
 from geometry_msgs.msg import Twist as TwistMessage
 from nav_msgs.msg import Odometry as OdometryMessage
 from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile, ReliabilityPolicy, qos_profile_sensor_data
@@ -19,7 +18,7 @@ from bringup.world.drive import STILL, Twist
 from bringup.world.geometry import Pose, compose, wrap
 from bringup.world.inbox import Inbox
 from bringup.world.model import TICKS_PER_SECOND, wheel_angles, wheel_speeds
-from bringup.world.sensing import Readings, Sensors, due, travelled
+from bringup.world.sensing import Asked, Readings, Sensors, due, travelled
 from bringup.world.simulation import TICK, Simulation, in_force
 from bringup.world.spoken import InertialOut, JointsOut, OdometryOut, ScanOut
 from bringup.world.track import Recent, Trail
@@ -65,7 +64,6 @@ class RobotTopics:
 
     def reset(self, settings: RobotSettings) -> None:
         """Begin anew, as at the first tick."""
-        self.nearest = math.inf
         self.filter_error: FilterError | None = None
         self.estimated: float | None = None
         self._given_up = False
@@ -76,6 +74,11 @@ class RobotTopics:
         self._believed = Pose(0.0, 0.0, 0.0)
         self._command, self._command_tick = STILL, -1
         self._told_contacts = -1
+
+    def notice(self) -> None:
+        """See which of the topics anybody listens to: on the others nothing is said until the next look."""
+        self._asked = Asked(self._truth.wire.heard, self._imu.wire.heard, self._scan.wire.heard)
+        self._wheel_heard, self._joints_heard = self._wheel.wire.heard, self._joints.wire.heard
 
     def hear(self) -> None:
         """Take the newest command that has come."""
@@ -119,16 +122,15 @@ class RobotTopics:
 
     def looks(self, ticks: int) -> bool:
         """Whether this tick has to be published while the world still stands at it."""
-        return self.sensors.looks(ticks) or self._contacts.episodes != self._told_contacts
+        return self.sensors.looks(ticks, self._asked) or self._contacts.episodes != self._told_contacts
 
     def publish(self, ticks: int, now: Moment) -> None:
         """Publish what is due at a tick."""
-        settings, readings = self.sensors.settings, self.sensors.read_at(ticks, now)
+        settings, readings = self.sensors.settings, self.sensors.read_at(ticks, now, self._asked)
         if readings.inertial is not None:
             self._imu.publish(ticks, readings.inertial)
         self._publish_motion(ticks, readings)
         if readings.ranges is not None:
-            self.nearest = float(np.fmin.reduce(readings.ranges, initial=math.inf))
             self._scan.publish(ticks, readings.ranges, settings.scan_rate, settings.lidar)
         if ticks % TRAIL_TICKS == 0:
             self._hear_filter()
@@ -136,7 +138,7 @@ class RobotTopics:
             self.true_trail.add(here.x, here.y)
             believed = compose(self.robot.start, self._believed)
             self.odometry_trail.add(believed.x, believed.y)
-        if due(ticks, JOINTS_RATE):
+        if self._joints_heard and due(ticks, JOINTS_RATE):
             self._joints.publish(ticks, wheel_angles(now, self.robot), wheel_speeds(now, self.robot))
         # Of several ticks in a row the last is the one at which a robot has touched something.
         touched = ticks == self._simulation.ticks and self._contacts.episodes != self._told_contacts
@@ -169,6 +171,7 @@ class RobotTopics:
             self._truth.publish_truth(ticks, readings.truth)
         if readings.odometry is not None:
             self._believed = readings.odometry.pose
+        if readings.odometry is not None and self._wheel_heard:
             self._wheel.publish_estimate(ticks, readings.odometry)
 
     def _publish_contacts(self) -> None:

@@ -32,8 +32,9 @@ class Wire:
 
     def __init__(self, node: Node, topic: str, message: Message, qos: QoSProfile) -> None:
         self._publisher = node.create_publisher(type(message), topic, qos)
-        # What Publisher.publish does with bytes, without asking each time what it was given.
+        # What Publisher does, without asking each time whether it was destroyed and what it was given.
         self._send = self._publisher.handle.publish_raw
+        self._listeners = self._publisher.handle.get_subscription_count
         self.bytes = bytearray(serialize_message(message))
         self._message = message
 
@@ -49,6 +50,11 @@ class Wire:
         """As a view, of doubles that are written one by one: numpy takes ten times as long for one."""
         begin = offset(self._message, path, "d")
         return memoryview(self.bytes)[begin : begin + 8 * count].cast("d")
+
+    @property
+    def heard(self) -> bool:
+        """Whether anybody listens: a message that nobody can get need not be made."""
+        return bool(self._listeners())
 
     def publish(self) -> None:
         """Send the message as it is now."""

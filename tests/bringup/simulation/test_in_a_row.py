@@ -51,8 +51,11 @@ def node(monkeypatch: pytest.MonkeyPatch) -> Any:
     context.shutdown()
 
 
-def said(node: Node, script: Path, most: int) -> tuple[dict[str, list[Any]], int]:
-    """Every message of a world that works out so many ticks in a row, and in how many rows it has come to its end."""
+def said(node: Node, script: Path, most: int, unheard: int = 0) -> tuple[dict[str, list[Any]], int]:
+    """Every message of a world that works out so many ticks in a row, and in how many rows it has come to its end.
+
+    Nobody listens to its first ticks.
+    """
     values = {setting.name: setting.default for setting in TABLE} | {
         "script": str(script),
         "duration": TICKS / 100,
@@ -60,6 +63,8 @@ def said(node: Node, script: Path, most: int) -> tuple[dict[str, list[Any]], int
         "start_poses": [4.2, 0.0, 0.0, -3.0, 1.0, 2.0],
     }
     course = Course(node, settings(values))
+    for _ in range(unheard):
+        assert course.tick()
     inboxes = {
         topic: Inbox(node, kind, topic, qos_profile_sensor_data if kind is LaserScan else ALL)
         for topic, kind in TOPICS.items()
@@ -80,15 +85,20 @@ def said(node: Node, script: Path, most: int) -> tuple[dict[str, list[Any]], int
     return heard, rows
 
 
+def close(node: Node) -> None:
+    """Take a world off the graph, so that there is room for another one."""
+    for publisher in list(node.publishers):
+        node.destroy_publisher(publisher)
+    for subscription in list(node.subscriptions):
+        node.destroy_subscription(subscription)
+
+
 def test_ticks_in_a_row_say_what_they_say_one_by_one(node: Node, tmp_path: Path) -> None:
     script = tmp_path / "drive.csv"
     script.write_text(DRIVEN)
     single, rows = said(node, script, 1)
     assert rows == TICKS
-    for publisher in list(node.publishers):
-        node.destroy_publisher(publisher)
-    for subscription in list(node.subscriptions):
-        node.destroy_subscription(subscription)
+    close(node)
     together, rows = said(node, script, 20)
     # A row ends where a scan is taken, each tenth tick, and where a touch begins or ends.
     assert TICKS / 10 < rows < TICKS / 5
@@ -98,3 +108,16 @@ def test_ticks_in_a_row_say_what_they_say_one_by_one(node: Node, tmp_path: Path)
         assert together[topic] == single[topic], topic
     assert len(single["/robot1/wheel/odometry"]) == 30 * TICKS // 100
     assert len(single["/robot1/scan"]) == TICKS // 10
+
+
+def test_whoever_listens_late_hears_what_all_have_heard_since(node: Node, tmp_path: Path) -> None:
+    """What nobody hears is not said, and that changes nothing in what is said later."""
+    script = tmp_path / "drive.csv"
+    script.write_text(DRIVEN)
+    whole, _ = said(node, script, 1)
+    close(node)
+    late, _ = said(node, script, 5, unheard=95)
+    assert [ticks_of(each.clock) for each in late["/clock"]] == list(range(96, TICKS + 1))
+    for topic in TOPICS.keys() - {"/robot1/contacts"}:
+        assert late[topic] == whole[topic][-len(late[topic]) :], topic
+    assert len(late["/robot1/scan"]) == 11

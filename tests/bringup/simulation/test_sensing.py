@@ -16,7 +16,7 @@ from bringup.world.layout import lay_out
 from bringup.world.lidar import LidarErrors, reported
 from bringup.world.model import load
 from bringup.world.odometry import Odometry, WheelErrors
-from bringup.world.sensing import Readings, Sensors, due
+from bringup.world.sensing import Asked, Readings, Sensors, due
 from bringup.world.settings import RobotSettings
 from bringup.world.simulation import Simulation
 
@@ -49,6 +49,25 @@ def test_one_seed_gives_the_same_readings_and_another_one_others() -> None:
     noisy = RobotSettings(lidar=LidarErrors(dropout=0.1), inertial=InertialNoise(gyro_walk=0.01))
     assert told(driven(noisy, 1)) == told(driven(noisy, 1))
     assert told(driven(noisy, 1)) != told(driven(noisy, 2))
+
+
+@pytest.mark.parametrize("every", [2, 7])
+def test_what_nobody_asks_for_changes_nothing_in_what_is_read_later(every: int) -> None:
+    settings = RobotSettings(lidar=LidarErrors(dropout=0.1), inertial=InertialNoise(gyro_walk=0.01))
+    whole = driven(settings, 1)
+    simulation = Simulation(load(lay_out("arena", 3, ["robot1"])), settings.limits)
+    sensors = Sensors(simulation, 0, settings, 1)
+    for tick, full in enumerate(whole):
+        simulation.tick([Twist(0.4, 0.3)])
+        asked = Asked(tick % every == 0, tick % every == 1, tick // 10 % every == 1)
+        read = sensors.read_at(simulation.ticks, simulation.moment(), asked)
+        wanted = full._replace(
+            truth=full.truth if asked.truth else None,
+            inertial=full.inertial if asked.inertial else None,
+            ranges=full.ranges if asked.ranges else None,
+        )
+        assert (read.truth, read.inertial) == (wanted.truth, wanted.inertial)
+        assert told([read]) == told([wanted])
 
 
 def test_a_reset_begins_the_same_course_anew() -> None:
