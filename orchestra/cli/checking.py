@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
-import json
+import gc
 import os
+from contextlib import contextmanager
 from tempfile import TemporaryDirectory
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from orchestra.cli.look.finding import Finding
 from orchestra.cli.look.kept import Kept
-from orchestra.cli.look.pool import Done, Lost, Pool
+from orchestra.cli.look.pool import Lost, Pool
+from orchestra.cli.look.worker import Done
 from orchestra.cli.targets import Target
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problem, Problems
@@ -17,8 +19,9 @@ from orchestra.location import displayed, point
 from orchestra.settings.settle import comments_in, unused
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Iterator, Sequence
 
+    from orchestra.cli.look.worker import Work
     from orchestra.resolve.inputs import Inputs
 
 _LACKS = (Code.MISSING_ARGUMENT, Code.UNDEFINED_VARIABLE)
@@ -95,27 +98,44 @@ def _looks(targets: Sequence[Target], inputs: Inputs, manner: Manner, kept: Kept
     if not manner.jobs:
         looker = Looker(inputs)
         return [looker.look(target)[0] for target in targets]
+    # What is written alike stands together: whoever looks at it has read its like before.
+    order = sorted(range(len(targets)), key=lambda number: _kind(targets[number]))
     with TemporaryDirectory(prefix="orchestra-check-") as scratch:
 
-        def begin() -> Callable[[Target], Done[str]]:
+        def begin() -> Work:
             looker = Looker(inputs)
             looker.watch(os.path.realpath(scratch))
 
-            def look(target: Target) -> Done[str]:
+            def look(place: int) -> Done:
+                target = targets[order[place]]
                 finding, record = looker.look(target)
                 kept.keep(target, finding, record)
-                return Done(json.dumps(finding.as_data()), last=looker.is_spent)
+                return Done(finding.as_data(), last=looker.is_spent)
 
             return look
 
-        pool: Pool[Target, str]
         pool = Pool(begin, max(1, min(manner.jobs, len(targets))), manner.patience)
-        found = dict(pool.results(targets))
-    results = [found[number] for number in range(len(targets))]
-    return [
-        _lost(target, result) if isinstance(result, Lost) else Finding.from_data(json.loads(result))
-        for target, result in zip(targets, results, strict=True)
-    ]
+        with _frozen():
+            found = {order[place]: result for place, result in pool.results(len(targets))}
+    return [_finding(target, found[number]) for number, target in enumerate(targets)]
+
+
+@contextmanager
+def _frozen() -> Iterator[None]:
+    """Keep the garbage collector from walking through what is there by now, here and in processes that are forked."""
+    gc.freeze()
+    try:
+        yield
+    finally:
+        gc.unfreeze()
+
+
+def _kind(target: Target) -> tuple[str, str]:
+    return target.kind, os.path.splitext(target.path)[1]  # noqa: PTH122 - pathlib is slow
+
+
+def _finding(target: Target, result: Any) -> Finding:  # noqa: ANN401 - JSON data
+    return _lost(target, result) if isinstance(result, Lost) else Finding.from_data(result)
 
 
 def _lost(target: Target, result: Lost) -> Finding:

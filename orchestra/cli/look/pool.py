@@ -1,4 +1,4 @@
-"""Work shared out to processes: each is given one piece after the other, and whatever a piece does ends with it.
+"""Work shared out to processes: each is given some pieces after the others, and whatever a piece does ends with it.
 
 Rejected: `concurrent.futures`, where one process that dies takes all the work with it, and none is told how long a
 piece may take.
@@ -6,28 +6,26 @@ piece may take.
 
 from __future__ import annotations
 
+import mmap
 import os
-import pickle
 import selectors
 import signal
-import struct
 import sys
 import time
-import traceback
 from contextlib import suppress
-from typing import TYPE_CHECKING, Any, Final, Generic, TypeVar
+from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.cli.look.shares import Shares
+from orchestra.cli.look.worker import Channels, received, send, work
 from orchestra.dataclass import dataclass
 from orchestra.fields import field
-from orchestra.resolve.command_reaper import end_with_parent
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator
 
-_PieceT = TypeVar("_PieceT")
-_ResultT = TypeVar("_ResultT")
+    from orchestra.cli.look.worker import Work
 
-_HEAD: Final = struct.Struct("!Q")
+_CHUNK: Final = 1 << 16
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,162 +35,141 @@ class Lost:
     reason: str
 
 
-@dataclass(frozen=True, slots=True)
-class Done(Generic[_ResultT]):
-    """The result of one piece, which can be pickled; with `last` its process takes no other."""
-
-    result: _ResultT
-    last: bool = False
-
-
-@dataclass(frozen=True, slots=True)
-class _Failed:
-    """What was raised where a piece was to become a result, and how."""
-
-    told: str
-
-
 @dataclass(slots=True)
 class _Worker:
+    """A process; `pieces` are those that it was given, of which nothing has been heard yet."""
+
+    number: int
     pid: int
-    orders: int
-    answers: int
-    piece: int | None = None
-    deadline: float = 0.0
+    channels: Channels
+    pieces: list[int] = field(default_factory=list)
+    since: float = 0.0
     received: bytearray = field(default_factory=bytearray)
 
+    @property
+    def piece(self) -> int:
+        """The one that it is working on."""
+        return self.pieces[min(int(self.channels.progress[0]), len(self.pieces) - 1)]
 
-class Pool(Generic[_PieceT, _ResultT]):
+
+class Pool:
     """Processes that all begin with what this one has in memory.
 
-    `begin` is called in each of them and gives what turns a piece into a result. `patience` is how long, in seconds,
-    one piece may take.
+    `begin` is called in each of them and gives what turns the number of a piece into a result. `patience` is how long,
+    in seconds, one piece may take.
     """
 
-    def __init__(
-        self, begin: Callable[[], Callable[[_PieceT], Done[_ResultT]]], workers: int, patience: float
-    ) -> None:
+    def __init__(self, begin: Callable[[], Work], workers: int, patience: float) -> None:
         self._begin = begin
         self._most = workers
         self._patience = patience
         self._workers: dict[int, _Worker] = {}
         self._selector = selectors.DefaultSelector()
 
-    def results(self, pieces: Sequence[_PieceT]) -> Iterator[tuple[int, _ResultT | Lost]]:
-        """Yield the number of each piece with its result, as they come; nothing of the processes is left behind."""
-        waiting = list(range(len(pieces)))[::-1]
+    def results(self, pieces: int) -> Iterator[tuple[int, Any]]:
+        """Yield the number of each of so many pieces with its result, or why it is `Lost`, as they come.
+
+        Nothing of the processes is left behind.
+        """
+        shares = Shares(pieces, self._most)
         try:
-            while waiting or any(worker.piece is not None for worker in self._workers.values()):
-                self._share_out(waiting, pieces)
-                yield from self._gathered()
+            while shares.left or any(worker.pieces for worker in self._workers.values()):
+                self._share_out(shares)
+                yield from self._gathered(shares)
         finally:
-            for worker in list(self._workers.values()):
-                self._end(worker)
+            self._end(*self._workers.values())
             self._selector.close()
 
-    def _share_out(self, waiting: list[int], pieces: Sequence[_PieceT]) -> None:
-        idle = [worker for worker in self._workers.values() if worker.piece is None]
-        while waiting and (idle or len(self._workers) < self._most):
-            worker = idle.pop() if idle else self._start()
-            worker.piece, worker.deadline = waiting.pop(), time.monotonic() + self._patience
-            with suppress(BrokenPipeError):  # it is dead, which its answers will show
-                _send(worker.orders, pieces[worker.piece])
+    def _share_out(self, shares: Shares) -> None:
+        there = {worker.number: worker for worker in self._workers.values()}
+        for number in range(self._most):
+            worker = there.get(number)
+            if (worker is None or not worker.pieces) and shares.left:
+                worker = worker or self._start(number)
+                worker.pieces, worker.since = shares.take(number), time.monotonic()
+                worker.channels.progress[0], worker.channels.progress[1] = 0, worker.since
+                with suppress(BrokenPipeError):  # it is dead, which its answers will show
+                    send(worker.channels.orders, worker.pieces)
 
-    def _start(self) -> _Worker:
+    def _start(self, number: int) -> _Worker:
         sys.stdout.flush()
         sys.stderr.flush()
         reading, orders = os.pipe()
         answers, writing = os.pipe()
+        progress = memoryview(mmap.mmap(-1, mmap.PAGESIZE)).cast("d")
         parent, pid = os.getpid(), os.fork()
         if pid == 0:
-            _work(reading, writing, self._begin, parent)
+            work(Channels(reading, writing, progress), self._begin, parent)
         os.close(reading)
         os.close(writing)
-        worker = self._workers[answers] = _Worker(pid, orders, answers)
+        worker = self._workers[answers] = _Worker(number, pid, Channels(orders, answers, progress))
         self._selector.register(answers, selectors.EVENT_READ, worker)
         return worker
 
-    def _gathered(self) -> Iterator[tuple[int, _ResultT | Lost]]:
+    def _gathered(self, shares: Shares) -> Iterator[tuple[int, Any]]:
         """Wait until something happens, and yield what has come of it."""
-        deadline = min(worker.deadline for worker in self._workers.values() if worker.piece is not None)
-        for key, _ in self._selector.select(max(0.0, deadline - time.monotonic())):
+        for key, _ in self._selector.select(max(0.0, self._deadline() - time.monotonic())):
             worker: _Worker = key.data
-            chunk = os.read(worker.answers, 1 << 20)
+            chunk = os.read(worker.channels.answers, _CHUNK)
             if chunk:
                 worker.received += chunk
-                yield from self._complete(worker)
+                yield from self._complete(worker, shares)
             else:
-                yield from self._dead(worker)
-        now = time.monotonic()
-        for worker in [item for item in self._workers.values() if item.piece is not None]:
-            if worker.deadline <= now and worker.piece is not None:
+                yield from self._dead(worker, shares)
+        late = time.monotonic() - self._patience
+        for worker in [item for item in self._workers.values() if item.pieces]:
+            if worker.channels.progress[1] <= late:
                 self._end(worker)
-                yield worker.piece, Lost(f"has not come to an end within {self._patience:g} s")
+                yield self._lost(worker, shares, f"has not come to an end within {self._patience:g} s")
 
-    def _complete(self, worker: _Worker) -> Iterator[tuple[int, _ResultT | Lost]]:
-        size = _HEAD.unpack_from(worker.received)[0] if len(worker.received) >= _HEAD.size else None
-        if size is None or len(worker.received) < _HEAD.size + size or worker.piece is None:
-            return
-        done: Done[_ResultT] | _Failed = pickle.loads(worker.received[_HEAD.size :])  # noqa: S301 - a fork of this
-        if isinstance(done, _Failed):
-            raise RuntimeError(done.told)  # noqa: TRY004 - it is what the other process has met with
-        piece, worker.piece = worker.piece, None
+    def _deadline(self) -> float:
+        """Return when the first of them will have taken too long."""
+        busy = (worker.channels.progress[1] for worker in self._workers.values() if worker.pieces)
+        return min(busy) + self._patience
+
+    def _complete(self, worker: _Worker, shares: Shares) -> Iterable[tuple[int, Any]]:
+        """Return what a process has answered, if all of that has come."""
+        answer = received(worker.received)
+        if answer is None:
+            return ()
+        if "failed" in answer:
+            raise RuntimeError(answer["failed"])  # it is what the other process has met with
+        pieces, results = worker.pieces, answer["results"]
+        worker.pieces = []
         worker.received.clear()
-        if done.last:
+        shares.took(worker.number, time.monotonic() - worker.since)
+        shares.put_back(worker.number, pieces[len(results) :])
+        if answer["last"]:
             self._end(worker)
-        yield piece, done.result
+        return zip(pieces, results, strict=False)
 
-    def _dead(self, worker: _Worker) -> Iterator[tuple[int, _ResultT | Lost]]:
+    def _dead(self, worker: _Worker, shares: Shares) -> Iterator[tuple[int, Any]]:
         status = self._end(worker)
-        if worker.piece is not None:
-            yield worker.piece, Lost(f"has ended the process that was reading it ({_told(status)})")
+        if worker.pieces:
+            told = f"has ended the process that was reading it ({_told(status)})"
+            yield self._lost(worker, shares, told)
 
-    def _end(self, worker: _Worker) -> int:
-        """Kill a process if it is still there, and return how it ended, as `waitpid` tells."""
-        self._selector.unregister(worker.answers)
-        del self._workers[worker.answers]
-        os.close(worker.orders)
-        os.close(worker.answers)
-        ended, status = os.waitpid(worker.pid, os.WNOHANG)
-        if ended == 0:
-            os.kill(worker.pid, signal.SIGKILL)
-            _, status = os.waitpid(worker.pid, 0)
+    def _lost(self, worker: _Worker, shares: Shares, reason: str) -> tuple[int, Lost]:
+        """Return what is to be said of the piece that a process was lost with; the others are done again."""
+        lost = worker.piece
+        shares.put_back(worker.number, [piece for piece in worker.pieces if piece != lost])
+        return lost, Lost(reason)
+
+    def _end(self, *workers: _Worker) -> int:
+        """Kill processes if they are still there, and return how the last one ended, as `waitpid` tells."""
+        status, left = 0, []
+        for worker in workers:
+            self._selector.unregister(worker.channels.answers)
+            del self._workers[worker.channels.answers]
+            os.close(worker.channels.orders)
+            os.close(worker.channels.answers)
+            ended, status = os.waitpid(worker.pid, os.WNOHANG)
+            if ended == 0:
+                os.kill(worker.pid, signal.SIGKILL)
+                left.append(worker.pid)
+        for pid in left:
+            _, status = os.waitpid(pid, 0)
         return status
-
-
-def _work(orders: int, answers: int, begin: Callable[[], Callable[[Any], Done[Any]]], parent: int) -> None:
-    """Turn pieces into results until there are no more. This is the life of a process of the pool."""
-    status, own = 1, os.getpid()
-    try:
-        signal.signal(signal.SIGINT, signal.SIG_DFL)
-        end_with_parent()
-        if os.getppid() == parent:
-            os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
-            os.dup2(2, 1)
-            work = begin()
-            with open(orders, "rb", closefd=False) as stream:
-                while head := stream.read(_HEAD.size):
-                    piece = pickle.loads(stream.read(_HEAD.unpack(head)[0]))  # noqa: S301 - from the parent
-                    done = work(piece)
-                    if os.getpid() != own:  # code of the piece has forked, and this is the other one
-                        break
-                    _send(answers, done)
-            status = 0
-    except KeyboardInterrupt:  # raised by code of the piece: a real one ends this process at once
-        status = 128 + signal.SIGINT
-    except BaseException:  # noqa: BLE001 - nothing may get out of this process into code of the other one
-        if os.getpid() == own:
-            _send(answers, _Failed(traceback.format_exc()))
-    finally:
-        sys.stderr.flush()
-        os._exit(status)
-
-
-def _send(descriptor: int, message: object) -> None:
-    body = pickle.dumps(message)
-    left = memoryview(_HEAD.pack(len(body)) + body)
-    while left:
-        left = left[os.write(descriptor, left) :]
 
 
 def _told(status: int) -> str:
