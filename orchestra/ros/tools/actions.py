@@ -17,7 +17,7 @@ from orchestra.errors import RunError
 from orchestra.ros.tools.graph.asking import Deadline
 from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import NO_ACTION, Names, absolute, listed, nodes, split, unknown
-from orchestra.ros.tools.graph.seeing import looking
+from orchestra.ros.tools.graph.seeing import looking_with_node
 from orchestra.ros.tools.messages.plain import plain
 from orchestra.ros.tools.messages.reading import fill_from
 from orchestra.ros.tools.messages.text import yaml_text
@@ -48,7 +48,7 @@ def actions(graph: Graph) -> Names:
 
 def list_actions(options: Namespace) -> int:
     """Write the names of the actions."""
-    with looking(options) as graph:
+    with looking_with_node(options) as graph:
         found = graph.whole(lambda: actions(graph))
     if options.count_actions:
         tell(options, f"{len(found)}\n", len(found))
@@ -61,7 +61,7 @@ def list_actions(options: Namespace) -> int:
 def action_type(options: Namespace) -> int:
     """Write the type of an action."""
     name = absolute(options.action)
-    with looking(options) as graph:
+    with looking_with_node(options) as graph:
         types = graph.found(lambda: dict(actions(graph)).get(name))
         if not types:
             raise unknown(NO_ACTION, name, (known for known, _ in actions(graph)))
@@ -72,7 +72,7 @@ def action_type(options: Namespace) -> int:
 def info(options: Namespace) -> int:
     """Write which nodes have clients and servers of an action."""
     name = absolute(options.action)
-    with looking(options) as graph:
+    with looking_with_node(options) as graph:
         clients, servers = graph.whole(lambda: _ends(graph, name))
         if not (clients or servers):
             raise unknown(NO_ACTION, name, (known for known, _ in actions(graph)))

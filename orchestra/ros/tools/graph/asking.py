@@ -45,9 +45,10 @@ def ask(
 ) -> Any:  # noqa: ANN401 - as above
     """Return the response of a service; `repeat` says that a question does no harm twice, `asking` is told before it.
 
-    The answer to a question that comes before the server has discovered the reader of the answer is lost. So what must
-    not be asked twice follows, by `asking`, something harmless that the same node answers: readers are discovered in
-    the order in which they were made.
+    The answer to a question that comes before the server has discovered the reader of the answer is lost. On the wire
+    that is known before anything is asked (`wire.client`); rclpy does not know it. So what must not be asked twice
+    follows, by `asking`, something harmless that the same node answers: readers are discovered in the order in which
+    they were made.
 
     Raises `RunError` where the service is not there, or does not answer, in time.
     """
@@ -55,12 +56,10 @@ def ask(
     answers: list[Any] = []
     try:
         if not graph.wait(lambda: client.ready, deadline.left, LOOK):
-            if graph.node.count_services(service):
+            if graph.whole(lambda: graph.node.count_services(service)):
                 raise RunError(f"the service {service} was not reached within {deadline}")
-            known = {name for name, _ in services(graph, every=False)} - {
-                service
-            }  # which our client has made known
-            raise unknown(NO_SERVICE, service, known)
+            known = {name for name, _ in services(graph, every=False)}
+            raise unknown(NO_SERVICE, service, known - {service})  # which our client has made known
         asking()
         client.ask(request, answers.append, repeat=repeat)
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.dataclass import dataclass
 from orchestra.errors import RunError
 from orchestra.ros.tools.graph.rcl import rcl
+from orchestra.ros.tools.graph.reply import Reply
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -137,32 +138,6 @@ class BareNode:
         self.handle.destroy_when_not_in_use()
 
 
-class Reply:
-    """What a service will have answered, as rclpy's future has it."""
-
-    def __init__(self) -> None:
-        self._response: Any = None
-        self._heard: Callable[[Reply], None] = lambda _: None
-
-    def add_done_callback(self, heard: Callable[[Reply], None]) -> None:
-        """Have this told when it has come."""
-        self._heard = heard
-
-    def come(self, response: Any) -> None:  # noqa: ANN401 - as above
-        """Take the response."""
-        self._response = response
-        self._heard(self)
-
-    @staticmethod
-    def cancelled() -> bool:
-        """Tell whether nobody wants it any more: it is forgotten then."""
-        return False
-
-    def result(self) -> Any:  # noqa: ANN401 - as above
-        """Return the response."""
-        return self._response
-
-
 class BareClient:
     """A client of one service."""
 
@@ -204,14 +179,19 @@ def _counted(count: Callable[[str], int], name: str, *, service: bool) -> int:
     try:
         return int(count(name))
     except rcl.RCLError:
-        from rclpy.exceptions import NameValidationException  # noqa: PLC0415 - most of rclpy, for a mistake
-        from rclpy.validate_full_topic_name import validate_full_topic_name  # noqa: PLC0415 - as above
-
-        try:
-            validate_full_topic_name(name, is_service=service)
-        except NameValidationException as error:
-            raise RunError(one_line(error)) from None
+        refuse(name, service=service)
         raise
+
+
+def refuse(name: str, *, service: bool) -> None:
+    """Raise `RunError` for what is no name."""
+    from rclpy.exceptions import NameValidationException  # noqa: PLC0415 - most of rclpy, for a mistake
+    from rclpy.validate_full_topic_name import validate_full_topic_name  # noqa: PLC0415 - as above
+
+    try:
+        validate_full_topic_name(name, is_service=service)
+    except NameValidationException as error:
+        raise RunError(one_line(error)) from None
 
 
 def one_line(error: Exception) -> str:

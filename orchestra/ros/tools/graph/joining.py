@@ -13,6 +13,7 @@ from rclpy.signals import SignalHandlerOptions
 
 from orchestra.errors import RunError
 from orchestra.ros.tools.graph.bare import one_line
+from orchestra.ros.tools.graph.counting import Counted
 from orchestra.ros.tools.graph.ending import Ending
 from orchestra.ros.tools.graph.seeing import ARGUMENTS, Graph, entering, own_name, told
 
@@ -36,7 +37,7 @@ def joined(options: Namespace) -> Iterator[Graph]:
                 node = _node(options)
             executor = SingleThreadedExecutor(context=node.context)
             executor.add_node(node)
-            graph = Graph(node, float(options.spin_time), ending, executor.spin_once)
+            graph = Graph(node, Counted(node), float(options.spin_time), ending, executor.spin_once)
             try:
                 yield graph
             except NameValidationException as error:

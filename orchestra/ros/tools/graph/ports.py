@@ -20,6 +20,7 @@ _LAST: Final = 101  # beyond it are ports that the kernel hands out to anybody
 # The columns of /proc/net/udp (proc(5)): local address, inode.
 _LOCAL, _INODE = 1, 9
 _DIGITS: Final = 4
+_TABLE: Final = Path("/proc/self/net/udp")
 ROOM: Final = 1 << 22
 
 
@@ -40,15 +41,20 @@ def participants_ports(domain: int, table: str) -> dict[int, str]:
 def ports_here(domain: int) -> dict[int, str]:
     """Return those of this machine; none where it does not tell."""
     try:
-        return participants_ports(domain, Path("/proc/self/net/udp").read_text("ascii"))
+        return participants_ports(domain, _TABLE.read_text("ascii"))
     except OSError:
         return {}
+
+
+def tells_ports() -> bool:
+    """Tell whether this machine tells which ports are bound."""
+    return os.access(_TABLE, os.R_OK)
 
 
 def domains_here(own: int) -> dict[int, int]:
     """Return how many participants this machine has in our own domain and each other; none where it does not tell."""
     try:
-        table = Path("/proc/self/net/udp").read_text("ascii")
+        table = _TABLE.read_text("ascii")
     except OSError:
         return {}
     counts = {domain: len(participants_ports(domain, table)) for domain in sorted({own, *range(_LAST + 1)})}

@@ -1,17 +1,16 @@
-"""What a node of ours sees of the graph, and a bare one for commands that look, and ask, and nothing else."""
+"""What is seen of the graph by a node of ours, or by who asks for it without one."""
 
 from __future__ import annotations
 
 import os
 import re
 import time
-from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any, Final, TypeVar
+from contextlib import ExitStack, contextmanager
+from typing import TYPE_CHECKING, Any, Final, Protocol, TypeVar
 
 from orchestra.errors import RunError
-from orchestra.ros.tools.graph.attendance import Attendance
-from orchestra.ros.tools.graph.bare import BareContext, BareNode
 from orchestra.ros.tools.graph.ending import Ending
+from orchestra.ros.tools.graph.wire.speaking import domain_on_wire
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -21,7 +20,6 @@ _SeenT = TypeVar("_SeenT")
 
 # rclpy hears of a signal between two waits.
 _PAUSE: Final = 0.1
-_LOOK: Final = 0.005
 _MEETING: Final = 0.02
 _CHANGING: Final = 6
 _NO_SUPPORT: Final = "Type support not from this implementation"
@@ -30,6 +28,25 @@ _AT: Final = re.compile(r", at /.*")
 _NO_NAME: Final = "' is invalid: "
 # No log file: it would be a new one for each command.
 ARGUMENTS: Final = ("--ros-args", "--disable-external-lib-logs")
+
+
+class Attendance(Protocol):
+    """Knows when all of the graph has been seen."""
+
+    def complete(self) -> bool:
+        """Tell whether nobody is missing."""
+
+    def settled(self, seen: Any) -> bool:  # noqa: ANN401 - whatever is looked for
+        """Tell whether nobody is missing, and this is all there is."""
+
+    def silent(self, seconds: float) -> bool:
+        """Tell whether nothing new has been seen for this time, though it was looked for."""
+
+    def rest(self) -> None:
+        """Let a moment pass in which something new may come."""
+
+    def close(self) -> None:
+        """Take back what was said to others to make them known."""
 
 
 class Graph:
@@ -41,7 +58,8 @@ class Graph:
 
     def __init__(
         self,
-        node: Any,  # noqa: ANN401 - one of rclpy, or a bare one
+        node: Any,  # noqa: ANN401 - one of rclpy, a bare one, or none
+        attendance: Attendance,
         spin_time: float,
         ending: Ending,
         hear: Callable[[float], None],
@@ -52,7 +70,7 @@ class Graph:
         self._began = time.monotonic()
         self._spin_time = spin_time
         self._met = False
-        self._attendance = Attendance(node)
+        self._attendance = attendance
 
     def spin(self, seconds: float = _PAUSE) -> None:
         """Let what has come in be heard, and wait for it at most so long."""
@@ -113,7 +131,7 @@ class Graph:
         return False
 
     def _rest(self) -> None:
-        time.sleep(_LOOK)
+        self._attendance.rest()
         self._ending.check()
 
     def close(self) -> None:
@@ -124,22 +142,46 @@ class Graph:
 
 @contextmanager
 def looking(options: Namespace) -> Iterator[Graph]:
-    """Look at the graph with a hidden bare node."""
+    """Look at the graph: on the wire where that can tell all of it, else with a hidden bare node."""
+    with Ending() as ending, ExitStack() as stack:
+        domain = domain_on_wire(os.environ)
+        graph = _with_node(options, ending, stack) if domain is None else _on_wire(options, ending, domain)
+        stack.callback(graph.close)
+        try:
+            yield graph
+        except ValueError as error:
+            raise told(error) from None
+
+
+@contextmanager
+def looking_with_node(options: Namespace) -> Iterator[Graph]:
+    """Look at the graph with a hidden bare node, for those who ask rcl themselves."""
+    with Ending() as ending, ExitStack() as stack:
+        graph = _with_node(options, ending, stack)
+        stack.callback(graph.close)
+        try:
+            yield graph
+        except ValueError as error:
+            raise told(error) from None
+
+
+def _on_wire(options: Namespace, ending: Ending, domain: int) -> Graph:
+    from orchestra.ros.tools.graph.wire.node import WireNode  # noqa: PLC0415 - only one of both ways is taken
+
+    node = WireNode(domain, own_name(options))
+    return Graph(node, node, float(options.spin_time), ending, node.hear)
+
+
+def _with_node(options: Namespace, ending: Ending, stack: ExitStack) -> Graph:
+    """Return what a node sees; its context is left to the stack."""
+    from orchestra.ros.tools.graph.bare import BareContext, BareNode  # noqa: PLC0415 - as above
+    from orchestra.ros.tools.graph.counting import Counted  # noqa: PLC0415 - as above
+
     with entering():
         context = BareContext(ARGUMENTS)
-    try:
-        with Ending() as ending:
-            with entering():
-                node = BareNode(own_name(options), context)
-            graph = Graph(node, float(options.spin_time), ending, node.hear)
-            try:
-                yield graph
-            except ValueError as error:
-                raise told(error) from None
-            finally:
-                graph.close()
-    finally:
-        context.close()
+        stack.callback(context.close)
+        node = BareNode(own_name(options), context)
+    return Graph(node, Counted(node), float(options.spin_time), ending, node.hear)
 
 
 @contextmanager

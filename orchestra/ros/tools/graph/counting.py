@@ -29,14 +29,15 @@ _ALIKE: Final = 12
 # Where meeting all others took longer than usual, so does learning their endpoints; in seconds.
 _USUAL, _LONGEST = 0.4, 1.0
 _LOOK_AGAIN: Final = 0.03  # a look at 20 nodes takes 2 ms
+_REST: Final = 0.005
 _DISCOVERY: Final = "ros_discovery_info"  # each participant of ROS publishes there which nodes it has
 _UNKNOWN: Final = "_NODE_NAME_UNKNOWN_"
 _OF_NODES: Final = ("/parameter_events", "/rosout")
 _PREFIX, _HOST = 12, 4
 
 
-class Attendance:
-    """Who is there of those who should be."""
+class Counted:
+    """Who is there of those who should be, as a node of ours sees it."""
 
     def __init__(self, node: Any) -> None:  # noqa: ANN401 - of rclpy, or a bare one
         widen()
@@ -93,6 +94,11 @@ class Attendance:
                 self._met = True
                 self._slowness = max((now - self._began) / _USUAL, 1.0)
         return self._nobody_missing
+
+    @staticmethod
+    def rest() -> None:
+        """Let a moment pass in which something new may come."""
+        time.sleep(_REST)
 
     def _look(self, now: float) -> bool:
         if not self._own:

@@ -1,0 +1,139 @@
+"""What a node of rclpy is for the commands that look, without being one: it is in nobody's graph."""
+
+from __future__ import annotations
+
+import re
+import time
+from functools import cached_property
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.ros.tools.graph.wire.client import Client
+from orchestra.ros.tools.graph.wire.endpoints import Endpoints
+from orchestra.ros.tools.graph.wire.names import Names
+
+if TYPE_CHECKING:
+    Listed = list[tuple[str, list[str]]]
+
+_NAME: Final = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
+_LOOKS: Final = 16  # a second, without which nothing can be said to be silent
+_STEP: Final = 0.005
+
+
+class WireNode:
+    """Asks the participants of this machine for what it is asked for, when it is asked for it."""
+
+    def __init__(self, domain: int, name: str) -> None:
+        self._domain = domain
+        self._name = name
+        self._asked: list[Names | Endpoints] = []
+        self._clients: list[Client] = []
+        self._looks = 0
+        self._looks_from = time.monotonic()
+
+    @cached_property
+    def _names(self) -> Names:
+        self._asked.append(names := Names(self._domain))
+        return names
+
+    @cached_property
+    def _endpoints(self) -> Endpoints:
+        self._asked.append(endpoints := Endpoints(self._domain))
+        return endpoints
+
+    def get_name(self) -> str:
+        """Return the name that nobody has."""
+        return self._name
+
+    def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
+        """Return the nodes."""
+        return self._names.nodes()
+
+    def get_topic_names_and_types(self) -> Listed:
+        """Return the topics."""
+        return self._endpoints.topics()
+
+    def get_service_names_and_types(self) -> Listed:
+        """Return the services."""
+        return self._endpoints.services()
+
+    def count_publishers(self, topic: str) -> int:
+        """Return how many publishers a topic has."""
+        return self._endpoints.count(f"rt{_checked(topic)}", writing=True)
+
+    def count_subscribers(self, topic: str) -> int:
+        """Return how many subscriptions a topic has."""
+        return self._endpoints.count(f"rt{_checked(topic)}", writing=False)
+
+    def count_services(self, service: str) -> int:
+        """Return how many servers a service has."""
+        return self._endpoints.count(f"rq{_checked(service, service=True)}Request", writing=False)
+
+    def count_clients(self, service: str) -> int:
+        """Return how many clients a service has."""
+        return self._endpoints.count(f"rr{_checked(service, service=True)}Reply", writing=False)
+
+    def get_publishers_info_by_topic(self, _topic: str) -> list[Any]:
+        """Return none: what is asked for so is which of them are ours."""
+        return []
+
+    get_subscriptions_info_by_topic = get_publishers_info_by_topic
+
+    def create_client(self, kind: Any, name: str) -> Client:  # noqa: ANN401 - a class of an untyped package
+        """Return a client of a service."""
+        client = Client(self._domain, kind, _checked(name, service=True))
+        self._clients.append(client)
+        return client
+
+    def destroy_client(self, client: Client) -> None:
+        """Give a client back."""
+        self._clients.remove(client)
+        client.close()
+
+    def hear(self, seconds: float) -> None:
+        """Let what has come in be heard, and wait for it at most so long."""
+        self._looks += 1
+        members = [one.member for one in (*self._asked, *self._clients)]
+        if not members:
+            time.sleep(seconds)
+        for member in members:
+            member.hear(seconds if member is members[-1] else 0)
+        for client in self._clients:
+            client.speak()
+
+    def complete(self) -> bool:
+        """Tell whether all that was asked for is known."""
+        return all(one.complete() for one in self._asked)
+
+    def settled(self, _seen: Any) -> bool:  # noqa: ANN401 - whatever is looked for
+        """Tell whether all that was asked for was known when this was seen."""
+        return self.complete()
+
+    def silent(self, seconds: float) -> bool:
+        """Tell whether nothing new has come for this time, though it was listened."""
+        news_at = max((one.member.news_at for one in self._asked), default=self._looks_from)
+        if news_at > self._looks_from:
+            self._looks_from, self._looks = news_at, 0
+        return self._looks >= _LOOKS * seconds and time.monotonic() - self._looks_from > seconds
+
+    def rest(self) -> None:
+        """Let a moment pass in which something may come."""
+        self.hear(_STEP)
+
+    def close(self) -> None:
+        """Do nothing: there is nobody who keeps anything for us, but for `destroy_node`."""
+
+    def destroy_node(self) -> None:
+        """Leave."""
+        for client in self._clients.copy():
+            self.destroy_client(client)
+        for one in self._asked:
+            one.member.close()
+
+
+def _checked(name: str, *, service: bool = False) -> str:
+    """Return a full name. Raises `RunError` for what is none, as a node of rclpy does."""
+    if not _NAME.fullmatch(name):
+        from orchestra.ros.tools.graph.bare import refuse  # noqa: PLC0415 - rclpy, and only for a mistake
+
+        refuse(name, service=service)
+    return name
