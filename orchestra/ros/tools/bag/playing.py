@@ -16,7 +16,9 @@ from rosgraph_msgs.msg import Clock
 
 from orchestra.errors import OrchestraError, RunError, UsageError
 from orchestra.ros.tools.bag.ahead import ahead
+from orchestra.ros.tools.bag.classes import recorded_class
 from orchestra.ros.tools.bag.offering import offer
+from orchestra.ros.tools.bag.overrides import overrides
 from orchestra.ros.tools.bag.pace import Pace, with_ticks
 from orchestra.ros.tools.bag.reading import Bag
 from orchestra.ros.tools.bag.selection import selection
@@ -25,7 +27,6 @@ from orchestra.ros.tools.graph.names import absolute
 from orchestra.ros.tools.graph.qos import data_of
 from orchestra.ros.tools.graph.system import End, mismatch, system
 from orchestra.ros.tools.keyboard import keyboard
-from orchestra.ros.tools.messages.types import message_class
 from orchestra.ros.tools.telling import as_json, tell, warn
 
 if TYPE_CHECKING:
@@ -39,10 +40,10 @@ if TYPE_CHECKING:
 
 _CLOCK: Final = "/clock"
 _NANOSECONDS: Final = 1_000_000_000
+_MILLISECOND: Final = 1_000_000
 # Keys are looked at, and signals heard, so often while nothing is due; in seconds.
 _LOOK: Final = 0.05
 _QUIET, _MEET = 0.3, 10.0
-_ACKNOWLEDGED: Final = 1.0
 _QUICKER: Final = 1.1
 _SWITCH: Final = 0.0005  # so long, in seconds, reading ahead may hold up what is due
 _KEYS: Final = "space: pause or go on; right: the next message; up, down: quicker, slower; Ctrl-C ends it\n"
@@ -50,7 +51,7 @@ _KEYS: Final = "space: pause or go on; right: the next message; up, down: quicke
 
 def play(options: Namespace) -> int:
     """Publish the messages of a bag in the order and with the timing in which they were recorded."""
-    chosen, names = selection(options), _remapped(options.remap)
+    chosen, names = selection(options, default=True), _remapped(options.remap)
     with ExitStack() as stack:
         bag = stack.enter_context(Bag(Path(options.bag)))
         for file in bag.broken:
@@ -58,7 +59,7 @@ def play(options: Namespace) -> int:
         graph = stack.enter_context(joined(options))
         player = _Player(graph, options)
         for topic in bag.summary().topics:
-            if topic.count and chosen.takes(topic.name):
+            if topic.count and chosen.takes(topic.name, topic.type):
                 player.publish(topic.name, topic.type, names.get(topic.name, topic.name), topic.profiles)
         if not player.topics:
             raise RunError(f"nothing of {bag.path} is to be played")
@@ -88,6 +89,9 @@ class _Player:
         self._graph = graph
         self._options = options
         self._keys: Keyboard | None = None
+        self._profiles = overrides(options.qos_profile_overrides_path)
+        patience = options.wait_for_all_acked
+        self._patience = Duration(nanoseconds=patience * _MILLISECOND if patience else -1)
         self._clock: Any = None
         if options.clock is not None:
             self._clock = graph.node.create_publisher(Clock, _CLOCK, QoSProfile(depth=10))
@@ -98,11 +102,12 @@ class _Player:
             warn(f"{name} is not played: --clock publishes it")
             return
         try:
-            made = message_class(kind)
+            made = recorded_class(kind)
         except OrchestraError as error:
             warn(f"warning: {name} is not played: {error}")
             return
-        self.topics[name] = self._graph.node.create_publisher(made, as_name, offer(profiles))
+        profile = self._profiles.get(name) or offer(profiles)
+        self.topics[name] = self._graph.node.create_publisher(made, as_name, profile)
 
     def meet(self) -> None:
         """Wait until those are connected who want to hear these topics, so that they miss nothing of the begin."""
@@ -126,11 +131,11 @@ class _Player:
         """Play a bag once, or until somebody ends it."""
         self._keys = keys
         sys.setswitchinterval(_SWITCH)
-        since = bag.summary().start + int(self._options.start_offset * _NANOSECONDS)
+        since, until = self._span(bag)
         period = None if self._clock is None else int(_NANOSECONDS / self._options.clock * self._options.rate)
         pace = Pace(since, time.monotonic(), self._options.rate, paused=self._options.start_paused)
         for _ in repeat(None) if self._options.loop else (None,):
-            with closing(ahead(bag.messages(self.topics.__contains__, since))) as messages:
+            with closing(ahead(bag.messages(self.topics.__contains__, since, until))) as messages:
                 items = with_ticks(((one.log_time, one) for one in messages), period)
                 for number, (recorded, message) in enumerate(items):
                     if number == 0:  # it has been read by now
@@ -141,7 +146,20 @@ class _Player:
                         self.late = max(self.late, time.monotonic() - due)
         for publisher in self.topics.values():
             if publisher.qos_profile.reliability == ReliabilityPolicy.RELIABLE:
-                publisher.wait_for_all_acked(Duration(seconds=_ACKNOWLEDGED))
+                publisher.wait_for_all_acked(self._patience)
+
+    def _span(self, bag: Bag) -> tuple[int, int | None]:
+        """Return the first and the last time of the recording that are played, in nanoseconds."""
+        options = self._options
+        since = bag.summary().start + int(options.start_offset * _NANOSECONDS)
+        ends = [
+            None
+            if options.playback_duration is None
+            else since + int(options.playback_duration * _NANOSECONDS),
+            None if options.playback_until_sec is None else int(options.playback_until_sec * _NANOSECONDS),
+            options.playback_until_nsec,
+        ]
+        return since, min((end for end in ends if end is not None), default=None)
 
     def _wait(self, pace: Pace, recorded: int) -> None:
         """Wait until a time of the recording has come, and heed the keys; what comes late is late from then on."""

@@ -21,6 +21,7 @@ from orchestra.dataclass import dataclass
 from orchestra.errors import RunError
 from orchestra.fields import replace
 from orchestra.ros.tools.bag import summary
+from orchestra.ros.tools.bag.compressed import SUFFIX, opened, whole
 from orchestra.ros.tools.bag.summary import Part, Summary, Topic
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ if TYPE_CHECKING:
 
     from mcap.summary import Summary as Index
 
-_SUFFIX: Final = ".mcap"
+_SUFFIXES: Final = (".mcap", f".mcap{SUFFIX}")
 # Messages of a broken file are put in order among so many: those that were heard at one time stand together in it.
 _AMONG: Final = 10_000
 _BROKEN: Final = (McapError, ValueError, struct.error)
@@ -52,7 +53,7 @@ class Bag:
     def __init__(self, path: Path) -> None:
         """Open it. Raises `RunError` where there is no bag, or one that cannot be read."""
         self.path = path
-        self.files = _files(path)
+        self.files, self._distribution = _files(path)
         self.broken: list[Path] = []
         self._streams: list[BinaryIO] = []
         self._open = ExitStack()
@@ -60,7 +61,7 @@ class Bag:
             self._topics: dict[str, Topic] = {}
             self._spans: list[tuple[int, int]] = []
             for file in self.files:
-                stream = self._open.enter_context(file.open("rb"))
+                stream = self._open.enter_context(opened(file))
                 self._streams.append(stream)
                 self._learn(file, stream)
         except BaseException:
@@ -83,10 +84,18 @@ class Bag:
         topics = tuple(topic for _, topic in sorted(self._topics.items()))
         start = min((span[0] for span in self._spans), default=0)
         end = max((span[1] for span in self._spans), default=0)
-        return Summary(tuple(Part(file.name) for file in self.files), topics, start, end)
+        parts = tuple(Part(file.name) for file in self.files)
+        return Summary(parts, topics, start, end, self._distribution)
 
-    def messages(self, wanted: Callable[[str], bool], since: int = 0) -> Iterator[Recorded]:
+    def messages(
+        self, wanted: Callable[[str], bool], since: int = 0, until: int | None = None
+    ) -> Iterator[Recorded]:
         """Yield the messages of topics, from a time on, in the order of recording. Raises `RunError`."""
+        for one in self._messages(wanted, since):
+            if until is None or one.log_time <= until:
+                yield one
+
+    def _messages(self, wanted: Callable[[str], bool], since: int) -> Iterator[Recorded]:
         names = [name for name in self._topics if wanted(name)]
         for file, stream in zip(self.files, self._streams, strict=True):
             stream.seek(0)
@@ -146,31 +155,32 @@ class Bag:
         self._topics[channel.topic] = replace(made, count=made.count + messages)
 
 
-def _files(path: Path) -> list[Path]:
-    """Return the storage files of a bag. Raises `RunError`."""
+def _files(path: Path) -> tuple[list[Path], str]:
+    """Return the storage files of a bag, and of which ROS it is. Raises `RunError`."""
     if path.is_file():
-        return [path]
+        return [path], summary.UNKNOWN
     if not path.is_dir():
         raise RunError(f"there is no bag {path}")
     about = path / summary.FILE
     if about.is_file():
         try:
-            named = [path / file for file in summary.storage_files(about.read_text("utf-8"))]
+            names, distribution = summary.storage_files(about.read_text("utf-8"))
         except ValueError:
             raise RunError(f"{about} is not what rosbag2 writes") from None
-        other = next((file for file in named if file.suffix != _SUFFIX), None)
+        named = [path / name for name in names]
+        other = next((file for file in named if not file.name.endswith(_SUFFIXES)), None)
         if other is not None:
             raise RunError(f"{other} is no MCAP file, and no other storage can be read")
-        return named
-    found = sorted(path.glob(f"*{_SUFFIX}"), key=_number)
+        return named, distribution
+    found = sorted((file for suffix in _SUFFIXES for file in path.glob(f"*{suffix}")), key=_number)
     if not found:
         raise RunError(f"there is no MCAP file in {path}")
-    return found
+    return found, summary.UNKNOWN
 
 
 def _number(file: Path) -> tuple[int, str]:
     """Return what files of a bag that was split are in order by: the number at the end of their names."""
-    number = file.stem.rpartition("_")[2]
+    number = file.with_name(file.name.removesuffix(SUFFIX)).stem.rpartition("_")[2]
     return (int(number) if number.isdecimal() else 0, file.name)
 
 
@@ -219,4 +229,4 @@ def _ordered(messages: Iterator[Recorded]) -> Iterator[Recorded]:
 
 
 def _recorded(channel: Channel, message: Message) -> Recorded:
-    return Recorded(channel.topic, message.log_time, message.publish_time, message.data)
+    return Recorded(channel.topic, message.log_time, message.publish_time, whole(message.data))

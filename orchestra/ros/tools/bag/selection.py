@@ -1,9 +1,12 @@
-"""Which topics are meant: by name, by regular expression, or all; less those that are left out."""
+"""Which topics are meant: by name, by type, by regular expression, or all; less those that are left out.
+
+What a service tells of its requests and responses stands on a hidden topic; it is meant where the service is.
+"""
 
 from __future__ import annotations
 
 import re
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
 from orchestra.errors import UsageError
@@ -11,41 +14,78 @@ from orchestra.ros.tools.graph.names import absolute, hidden
 
 if TYPE_CHECKING:
     from argparse import Namespace
+    from collections.abc import Iterable
+
+EVENTS: Final = "/_service_event"
 
 
 @dataclass(frozen=True, slots=True)
 class Selection:
-    """The names and patterns of a command line; without names and pattern, all topics are meant."""
+    """The names, types and patterns of a command line.
+
+    `topics` and `services` tell whether all of them are meant, `hidden` whether hidden topics are among them.
+    """
 
     names: frozenset[str]
+    types: frozenset[str]
     pattern: re.Pattern[str] | None
     without: frozenset[str]
+    without_types: frozenset[str]
     without_pattern: re.Pattern[str] | None
+    topics: bool
+    services: bool
     hidden: bool
 
-    def takes(self, topic: str) -> bool:
-        """Tell whether a topic is meant. Whoever names a hidden one means it."""
-        if topic in self.without or (self.without_pattern and self.without_pattern.search(topic)):
+    def takes(self, topic: str, kind: str = "") -> bool:
+        """Tell whether a topic of a type is meant. Whoever names a hidden one means it."""
+        if topic in self.without or kind in self.without_types:
+            return False
+        if self.without_pattern and self.without_pattern.search(_told(topic)):
             return False
         if topic in self.names:
             return True
+        if topic.endswith(EVENTS):
+            return self.services or self._matches(topic)
         if hidden(topic) and not self.hidden:
             return False
-        if self.pattern is not None:
-            return self.pattern.search(topic) is not None
-        return not self.names
+        return self.topics or kind in self.types or self._matches(topic)
+
+    def _matches(self, topic: str) -> bool:
+        return self.pattern is not None and self.pattern.search(_told(topic)) is not None
 
 
-def selection(options: Namespace) -> Selection:
-    """Return what the options say. Raises `UsageError` for what is no regular expression."""
-    named = frozenset(absolute(name) for name in (*options.names, *options.topics))
+def selection(options: Namespace, *, default: bool = False) -> Selection:
+    """Return what the options say; where they say nothing, `default` means all. Raises `UsageError`."""
+    services = [f"{absolute(name)}{EVENTS}" for name in options.services]
+    names = frozenset([*_names((*options.names, *options.topics)), *services])
+    said = names or options.topic_types or options.regex or options.all_topics or options.all_services
+    every = options.all or (default and not said)
+    named = not (options.all or options.all_topics or options.all_services)  # these count for more
     return Selection(
-        frozenset() if options.all else named,
-        None if options.all else _compiled(options.regex),
-        frozenset(absolute(name) for name in options.exclude_topics),
+        names if named else frozenset(services),
+        frozenset(options.topic_types),
+        _compiled(options.regex) if named else None,
+        frozenset(
+            [
+                *_names(options.exclude_topics),
+                *(f"{absolute(one)}{EVENTS}" for one in options.exclude_services),
+            ]
+        ),
+        frozenset(options.exclude_topic_types),
         _compiled(options.exclude_regex),
-        options.include_hidden_topics,
+        topics=every or options.all_topics,
+        services=every or options.all_services,
+        hidden=options.include_hidden_topics,
     )
+
+
+def _told(topic: str) -> str:
+    """Return what expressions are held against: the name of a service stands for its events."""
+    return topic.removesuffix(EVENTS)
+
+
+def _names(given: Iterable[str]) -> list[str]:
+    return [absolute(name) for name in given]
 
 
 def _compiled(text: str | None) -> re.Pattern[str] | None:

@@ -7,18 +7,20 @@ from typing import TYPE_CHECKING, Final
 from mcap.writer import CompressionType, Writer
 
 from orchestra.ros.tools.bag import summary
+from orchestra.ros.tools.bag.compressed import compress_file
 from orchestra.ros.tools.bag.definitions import ENCODING
 from orchestra.ros.tools.bag.summary import Part
 
 if TYPE_CHECKING:
     from pathlib import Path
 
+    from orchestra.ros.tools.bag.settings import Settings
     from orchestra.ros.tools.bag.summary import Summary, Topic
 
     # Topic, log time, publish time, number of the message, its bytes.
     Message = tuple[str, int, int, int, bytes]
 
-COMPRESSIONS: Final = {
+_COMPRESSIONS: Final = {
     "none": CompressionType.NONE,
     "lz4": CompressionType.LZ4,
     "zstd": CompressionType.ZSTD,
@@ -27,12 +29,18 @@ _METADATA: Final = "rosbag2"
 
 
 class StorageFile:
-    """A file that is being written, in chunks of so many bytes. Its methods raise `OSError`."""
+    """A file that is being written. Its methods raise `OSError`."""
 
-    def __init__(self, path: Path, compression: str, library: str, chunk: int) -> None:
+    def __init__(self, path: Path, settings: Settings, library: str) -> None:
         self._path = path
         self._stream = path.open("wb")
-        self._writer = Writer(self._stream, chunk_size=chunk, compression=COMPRESSIONS[compression])
+        self._writer = Writer(
+            self._stream,
+            chunk_size=settings.chunk,
+            compression=_COMPRESSIONS[settings.compression],
+            use_chunking=settings.chunked,
+            enable_crcs=settings.checked,
+        )
         self._writer.start(profile="ros2", library=library)
         self._channels: dict[str, int] = {}
         self._start = self._end = self._count = 0
@@ -74,6 +82,10 @@ class StorageFile:
         self._writer.add_metadata(_METADATA, {"serialized_metadata": summary.stored_text(told)})
         self._writer.finish()  # type: ignore[no-untyped-call]  # it has no annotation
         self._stream.close()
+
+    def compress(self) -> None:
+        """Make less of a file that is finished."""
+        self._path = compress_file(self._path)
 
     def close(self) -> None:
         """Close it as it is."""

@@ -10,10 +10,10 @@ from typing import Any, Final
 import yaml
 
 from orchestra.dataclass import dataclass
-from orchestra.fields import field
 
 FILE: Final = "metadata.yaml"
 STORAGE: Final = "mcap"
+UNKNOWN: Final = "unknown"
 # Looked up here, so that what is put off is imported before there are threads.
 _DUMPER: Final = getattr(yaml, "CSafeDumper", yaml.SafeDumper)
 _KEY: Final = "rosbag2_bagfile_information"
@@ -57,7 +57,11 @@ class Part:
 
 @dataclass(frozen=True, slots=True)
 class Summary:
-    """All of it: `start` and `end` are the times of the first and the last message, 0 where there is none."""
+    """All of it.
+
+    `start` and `end` are the times of the first and the last message, 0 where there is none; `mode` is FILE or MESSAGE
+    where these are compressed; `custom` is what its maker says besides.
+    """
 
     parts: tuple[Part, ...]
     topics: tuple[Topic, ...]
@@ -65,7 +69,8 @@ class Summary:
     end: int = 0
     distribution: str = "jazzy"
     storage: str = STORAGE
-    compression: str = field(default="")
+    mode: str = ""
+    custom: tuple[tuple[str, str], ...] = ()
 
     @property
     def files(self) -> tuple[str, ...]:
@@ -99,8 +104,8 @@ def document(summary: Summary) -> dict[str, Any]:
             }
             for topic in summary.topics
         ],
-        "compression_format": "",
-        "compression_mode": "",
+        "compression_format": "zstd" if summary.mode else "",
+        "compression_mode": summary.mode,
         "relative_file_paths": list(summary.files),
         "files": [
             {
@@ -111,7 +116,7 @@ def document(summary: Summary) -> dict[str, Any]:
             }
             for part in summary.parts
         ],
-        "custom_data": None,
+        "custom_data": dict(summary.custom) or None,
         "ros_distro": summary.distribution,
     }
 
@@ -142,14 +147,14 @@ def read_profiles(text: str) -> tuple[dict[str, Any], ...]:
     )
 
 
-def storage_files(text: str) -> list[str]:
-    """Return the files that a `metadata.yaml` names. Raises `ValueError` where it is none."""
+def storage_files(text: str) -> tuple[list[str], str]:
+    """Return the files that a `metadata.yaml` names, and of which ROS it is. Raises `ValueError` where it is none."""
     try:
-        found = yaml.safe_load(text)
-        files = found[_KEY]["relative_file_paths"]
+        found = yaml.safe_load(text)[_KEY]
+        files = found["relative_file_paths"]
     except (yaml.YAMLError, TypeError, KeyError) as error:
         raise ValueError(str(error)) from None
-    return [str(file) for file in files]
+    return [str(file) for file in files], str(found.get("ros_distro") or UNKNOWN)
 
 
 def _dumped(data: object) -> str:

@@ -33,7 +33,7 @@ class _Outside(CallbackGroup):
 
 
 class Tap:
-    """A subscription with the QoS that all publishers of its topic offer.
+    """A subscription with the QoS that all publishers of its topic offer, or with a profile that is given.
 
     `notes` are what is to be said about that, `lost` hears how many messages the middleware could not deliver.
     """
@@ -45,12 +45,16 @@ class Tap:
         kind: Any,  # noqa: ANN401 - a class of an untyped package
         publishers: Sequence[Any],
         lost: Callable[[int], None],
+        profile: QoSProfile | None = None,
     ) -> None:
         self._node = node
         self._topic = topic
         self._kind = kind
         self._lost = lost
+        self._fixed = profile is not None
         self._profile, self.notes = matched(publishers, qos_profile_sensor_data)
+        if profile is not None:
+            self._profile, self.notes = profile, []
         self._subscribe()
 
     def take(self) -> list[Message]:
@@ -69,7 +73,7 @@ class Tap:
     def follow(self, publishers: Sequence[Any]) -> list[Message]:
         """Hear those too who have come and offer less; return what had come for the subscription until then."""
         wanted, notes = matched(publishers, qos_profile_sensor_data)
-        if not publishers or not _less(wanted, self._profile):
+        if self._fixed or not publishers or not _less(wanted, self._profile):
             return []
         self._profile, self.notes = wanted, notes
         rest = self.take()

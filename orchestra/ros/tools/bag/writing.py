@@ -10,11 +10,13 @@ from contextlib import suppress
 from functools import partial
 from queue import SimpleQueue
 from threading import Thread
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
 from orchestra.fields import replace
 from orchestra.ros.tools.bag import summary
+from orchestra.ros.tools.bag.compressed import compressed
+from orchestra.ros.tools.bag.settings import Settings
 from orchestra.ros.tools.bag.storing import StorageFile
 from orchestra.ros.tools.bag.summary import Part, Summary, Topic
 
@@ -24,18 +26,21 @@ if TYPE_CHECKING:
 
     from orchestra.ros.tools.bag.storing import Message
 
-_MOST_WAITING: Final = 256 * 2**20
-# So much is lost of a recorder that is killed, and so much is read at once by whoever plays from the middle.
-_CHUNK: Final = 768 * 1024
-
 
 @dataclass(frozen=True, slots=True)
 class Layout:
-    """How a bag is written: compressed or not; another file begins after so many bytes or nanoseconds, 0 for never."""
+    """How a bag is written.
 
-    compression: str = "none"
+    Another file begins after so many bytes or nanoseconds, 0 for never; `mode` tells whether whole files or messages
+    are compressed by zstd, "none" for neither; `custom` is what the bag says besides; `most_waiting` is in bytes.
+    """
+
+    settings: Settings = Settings()
     most_bytes: int = 0
     most_time: int = 0
+    mode: str = "none"
+    custom: tuple[tuple[str, str], ...] = ()
+    most_waiting: int = 256 * 2**20
 
 
 class BagWriter:
@@ -60,7 +65,7 @@ class BagWriter:
     @property
     def behind(self) -> bool:
         """Tell whether as much waits to be written as may."""
-        return self._added - self._written > _MOST_WAITING
+        return self._added - self._written > self._layout.most_waiting
 
     @property
     def count(self) -> int:
@@ -88,7 +93,7 @@ class BagWriter:
         self._jobs.put(None)
         self._thread.join()
         if self._failure is None:
-            self._guarded(lambda: self._file.finish(self._told()))
+            self._guarded(self._end_file)
         if self._failure is not None:
             with suppress(OSError):  # of what could not be written before
                 self._file.close()
@@ -102,8 +107,9 @@ class BagWriter:
     def _begun(self) -> StorageFile:
         """Return the next file, in which all topics are known. Raises `OSError`."""
         path = self.folder / f"{self.folder.name}_{len(self._parts)}.mcap"
-        chunk = min(_CHUNK, self._layout.most_bytes or _CHUNK)
-        made = StorageFile(path, self._layout.compression, self._library, chunk)
+        settings = self._layout.settings
+        chunk = min(settings.chunk, self._layout.most_bytes or settings.chunk)
+        made = StorageFile(path, replace(settings, chunk=chunk), self._library)
         for name, definition in self._definitions.items():
             made.register(self._topics[name], definition)
         return made
@@ -116,7 +122,15 @@ class BagWriter:
         )
         filled = [part for part in parts if part.count]
         start = min((part.start for part in filled), default=0)
-        return Summary(parts, topics, start, max((part.end for part in filled), default=0))
+        mode = "" if self._layout.mode == "none" else self._layout.mode.upper()
+        return Summary(
+            parts,
+            topics,
+            start,
+            max((part.end for part in filled), default=0),
+            mode=mode,
+            custom=self._layout.custom,
+        )
 
     def _work(self) -> None:
         """Do what is to be done until the end; after a failure, nothing more."""
@@ -140,12 +154,19 @@ class BagWriter:
         for message in messages:
             name, log_time, *_ = message
             if self._is_full(log_time):
-                self._file.finish(self._told())
+                self._end_file()
                 self._parts.append(self._file.part)
                 self._file = self._begun()
+            if self._layout.mode == "message":
+                message = (*message[:-1], compressed(message[-1]))  # noqa: PLW2901 - the same in less
             self._file.write(message)
             self._counts[name] = self._counts.get(name, 0) + 1
         self._written += _size(messages)
+
+    def _end_file(self) -> None:
+        self._file.finish(self._told())
+        if self._layout.mode == "file":
+            self._file.compress()
 
     def _is_full(self, log_time: int) -> bool:
         """Tell whether a message of this time begins another file."""

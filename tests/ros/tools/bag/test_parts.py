@@ -85,7 +85,7 @@ def test_the_metadata_name_the_files_without_references() -> None:
     )
     assert "&" not in text
     assert "message_count: 3" in text
-    assert summary.storage_files(text) == ["a_0.mcap"]
+    assert summary.storage_files(text) == (["a_0.mcap"], "jazzy")
     with pytest.raises(ValueError, match=r".*"):
         summary.storage_files("a: b")
 
@@ -102,6 +102,12 @@ def test_the_metadata_name_the_files_without_references() -> None:
         ({"regex": "scan$", "names": ["/map"]}, {"/robot1/scan", "/map"}, {"/odom"}),
         ({"all": True, "exclude_regex": "image"}, {"/a"}, {"/image/raw"}),
         ({"all": True, "exclude_topics": ["a"]}, {"/b"}, {"/a"}),
+        ({"all": True, "names": ["/a"]}, {"/b", "/a/_service_event"}, {"/_b"}),
+        ({"all_topics": True}, {"/a"}, {"/a/_service_event"}),
+        ({"all_services": True}, {"/a/_service_event"}, {"/a"}),
+        ({"services": ["a"]}, {"/a/_service_event"}, {"/a", "/b/_service_event"}),
+        ({"all": True, "exclude_services": ["a"]}, {"/b/_service_event"}, {"/a/_service_event"}),
+        ({"regex": "^/a$"}, {"/a/_service_event", "/a"}, {"/b"}),
     ],
 )
 def test_topics_are_chosen(options: dict[str, Any], taken: set[str], left: set[str]) -> None:
@@ -113,10 +119,32 @@ def test_topics_are_chosen(options: dict[str, Any], taken: set[str], left: set[s
         "exclude_regex": None,
         "exclude_topics": [],
         "include_hidden_topics": False,
+        "all_topics": False,
+        "all_services": False,
+        "services": [],
+        "exclude_services": [],
+        "topic_types": [],
+        "exclude_topic_types": [],
         **options,
     }
     chosen = selection(Namespace(**given_options))
     assert {topic for topic in taken | left if chosen.takes(topic)} == taken
+
+
+def test_topics_are_chosen_by_type() -> None:
+    nothing: dict[str, Any] = {
+        "names": [],
+        "topics": [],
+        "services": [],
+        "regex": None,
+        "exclude_regex": None,
+    }
+    nothing |= {"exclude_topics": [], "exclude_services": [], "include_hidden_topics": False}
+    nothing |= {"all": False, "all_topics": False, "all_services": False}
+    chosen = selection(Namespace(**nothing, topic_types=["a/msg/A"], exclude_topic_types=[]))
+    assert [chosen.takes("/x", kind) for kind in ("a/msg/A", "a/msg/B")] == [True, False]
+    rest = selection(Namespace(**nothing, topic_types=[], exclude_topic_types=["a/msg/A"]), default=True)
+    assert [rest.takes("/x", kind) for kind in ("a/msg/A", "a/msg/B")] == [False, True]
 
 
 def test_definitions_have_those_of_what_they_use_once_each() -> None:
@@ -136,6 +164,23 @@ def test_definitions_have_those_of_what_they_use_once_each() -> None:
     assert parts[0] == texts["a/msg/A"]
     assert [part.partition("\n")[0] for part in parts[1:]] == ["a/B", "std/Time"]
     assert definition("a/msg/Unknown", text_of) == ""
+
+
+def test_the_event_of_a_service_is_defined_by_what_is_asked_and_answered() -> None:
+    texts = {
+        "a/srv/Do": "bool data\n---\nbool success\n",
+        "service_msgs/msg/ServiceEventInfo": "uint8 event_type\n",
+    }
+
+    def text_of(name: str) -> str:
+        if name not in texts:
+            raise RunError(name)
+        return texts[name]
+
+    made = definition("a/srv/Do_Event", text_of)
+    assert "a/Do_Request[<=1] request\n" in made
+    assert "MSG: a/Do_Request\nbool data\n" in made
+    assert "MSG: a/Do_Response\nbool success\n" in made
 
 
 def test_what_is_due_follows_rate_pauses_and_steps() -> None:
