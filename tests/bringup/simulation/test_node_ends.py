@@ -81,3 +81,24 @@ def test_a_run_without_pace_is_faster_than_real_time(start: Start) -> None:
     assert factor is not None
     assert float(factor[1]) > 1.0
     assert "solo: 0 contacts" in said
+
+
+def test_a_run_that_does_not_keep_up_says_by_how_much(start: Start) -> None:
+    """What it says of its speed and of its lag agrees with the clock of the machine."""
+    told = re.compile(r"\[(\d+\.\d+)\] .*behind real time: factor (\S+) instead of 1000, (\S+) s late")
+    lines = []
+    with start(DOMAIN, "-p", "speed:=1000.0", "-p", "status_period:=0.5") as run:
+        for _ in range(4):
+            found = told.search(run.wait_for("behind real time"))
+            assert found is not None
+            lines.append([float(group) for group in found.groups()])
+        run.process.send_signal(signal.SIGINT)
+        status, said = run.end()
+    assert status == 0
+    (earlier, _, lag), *_, (later, _, lag_then) = lines
+    # Next to nothing of a thousand seconds has passed in each: the rest is missing.
+    assert lag_then - lag == pytest.approx(later - earlier, rel=0.3)
+    whole = re.search(r"simulated (\S+) s in (\S+) s", said)
+    assert whole is not None
+    factors = [factor for _, factor, _ in lines]
+    assert 0.5 * min(factors) < float(whole[1]) / float(whole[2]) < 1.5 * max(factors)
