@@ -127,7 +127,7 @@ def said_by_wheels(robot: str, stamp: int, estimate: Reckoned) -> Heard:
     covariance = numbers[TWIST_COVARIANCE].reshape(6, 6)
     covariance[DRIVEN] = estimate.twist_covariance
     covariance[1, 1] = SIDEWAYS
-    return Heard(stamp, f"{robot}/odom", f"{robot}/base_footprint", numbers)
+    return Heard(stamp, f"{robot}/odom", f"{robot}/base_footprint", tuple(numbers.tolist()))
 
 
 def said_by_imu(robot: str, stamp: int, reading: InertialReading) -> Heard:
@@ -136,7 +136,7 @@ def said_by_imu(robot: str, stamp: int, reading: InertialReading) -> Heard:
     numbers[3], numbers[4] = 1.0, -1.0
     numbers[RATES], numbers[FORCES] = reading.values[:3], reading.values[3:]
     numbers[RATES_COVARIANCE], numbers[FORCES_COVARIANCE] = reading.variances
-    return Heard(stamp, f"{robot}/imu_link", "", numbers)
+    return Heard(stamp, f"{robot}/imu_link", "", tuple(numbers.tolist()))
 
 
 def _filter(robot: str, scenario: Scenario) -> tuple[Localization, float]:

@@ -31,7 +31,7 @@ class Innovations:
             place for place, index in enumerate(measurement.indices.tolist()) if index not in OUT_OF_PLANE
         ]
         indices = measurement.indices[kept]
-        innovation = measurement.values[kept] - state[indices]
+        innovation = np.array(measurement.values)[kept] - state[indices]
         innovation[indices == YAW] = [wrap(float(angle)) for angle in innovation[indices == YAW]]
         spread = covariance[np.ix_(indices, indices)] + measurement.noise[np.ix_(kept, kept)]
         square = float(innovation @ np.linalg.solve(spread, innovation))

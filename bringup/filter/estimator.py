@@ -73,7 +73,10 @@ class Estimator:
         A measurement older than the estimate is applied to the present state. Entries that are not finite are
         left out.
         """
-        indices, values, noise = _finite(measurement)
+        indices, values, noise = measurement.indices, measurement.values, measurement.noise
+        # The sum is finite only if every entry is; one that overflows takes the longer way.
+        if not math.isfinite(sum(values)):
+            indices, values, noise = _finite(measurement)
         if not self.initialised:
             self._take_over(measurement.stamp, indices, values, noise)
             return True
@@ -118,7 +121,7 @@ class Estimator:
         self.covariance[POSE, POSE] = covariance
         self.stamp = stamp
 
-    def _take_over(self, stamp: int, indices: Indices, values: Array, noise: Array) -> None:
+    def _take_over(self, stamp: int, indices: Indices, values: tuple[float, ...], noise: Array) -> None:
         self.state = self.state.copy()
         self.state[indices] = values
         self.covariance = self.covariance.copy()
@@ -145,10 +148,7 @@ class Estimator:
         return controlled(self.state, self._control, command, dt)
 
 
-def _finite(measurement: Measurement) -> tuple[Indices, Array, Array]:
-    values = measurement.values
-    # The square is finite only if every entry is; one that overflows takes the longer way.
-    if math.isfinite(values.dot(values)):
-        return measurement.indices, values, measurement.noise
-    finite = np.isfinite(values)
-    return measurement.indices[finite], values[finite], measurement.noise[np.ix_(finite, finite)]
+def _finite(measurement: Measurement) -> tuple[Indices, tuple[float, ...], Array]:
+    finite = np.isfinite(measurement.values)
+    values = tuple(value for value in measurement.values if math.isfinite(value))
+    return measurement.indices[finite], values, measurement.noise[np.ix_(finite, finite)]

@@ -30,7 +30,7 @@ class FrameResolver:
 
         An empty source is the target itself. None means that the frames are not connected.
         """
-        if source in {target, ""}:
+        if not source or source == target:
             return IDENTITY
         fixed = self._fixed.get((target, source))
         return fixed if fixed is not None else self._looked_up(target, source, stamp)

@@ -44,16 +44,16 @@ class Joiner:
         joint = self._joint(parts)
         if joint.indices is None:
             return parts
-        values = np.concatenate([part.values[: len(part.values) - part.pinned] for part in parts])
-        if joint.pinned:
-            values = np.concatenate((values, np.zeros(joint.pinned)))
+        values: tuple[float, ...] = ()
+        for part in parts:
+            values += part.values[: -part.pinned] if part.pinned else part.values
         first = parts[0]
         return (
             Measurement(
                 first.stamp,
                 joint.name,
                 joint.indices,
-                values,
+                values + (0.0,) * joint.pinned,
                 joint.noise,
                 NEVER_REJECT,
                 joint.pinned,

@@ -4,6 +4,8 @@ Matrices are 15x15, so that the number of calls counts and not their size: rows 
 `dot`, and what is symmetric is not computed twice.
 """
 
+import math
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -23,14 +25,17 @@ def predict(state: Array, covariance: Array, noise: Array, dt: float) -> tuple[A
     moved, jacobian = advance(state, dt)
     spread = jacobian.dot(covariance).dot(jacobian.T)
     spread += noise * dt
-    return moved, _symmetric(spread)
+    # Evens out what rounding has made of a symmetric matrix.
+    spread += spread.T.copy()
+    spread *= 0.5
+    return moved, spread
 
 
 def correct(
     state: Array,
     covariance: Array,
     indices: Indices,
-    values: Array,
+    values: Sequence[float],
     noise: Array,
     threshold: float = NEVER_REJECT,
 ) -> tuple[Array, Array] | None:
@@ -45,11 +50,9 @@ def correct(
         threshold: Mahalanobis distance from which on the whole measurement is refused.
 
     Returns:
-        The corrected state and covariance (Joseph form, kept symmetric), or None if the gate refused it.
+        The corrected state and covariance (Joseph form, symmetric), or None if the gate refused it.
     """
-    innovation = values - state.take(indices)
-    for place in _angles_among(indices.tobytes()):
-        innovation[place] = wrap(float(innovation[place]))
+    innovation = _innovation(state, indices, values)
     rows = covariance.take(indices, 0)
     spread = rows.take(indices, 1)
     spread += noise
@@ -57,14 +60,24 @@ def correct(
     if threshold < NEVER_REJECT and float(innovation.dot(inverse).dot(innovation)) >= threshold * threshold:
         return None
     gain = inverse.dot(rows)
-    # Joseph's (I - KH) P (I - KH)' + K R K', multiplied out: H only picks rows and columns; `gain` is K'.
-    updated = covariance - gain.T.dot(rows)
-    rest = updated.take(indices, 1)
-    rest -= gain.T.dot(noise)
-    updated -= rest.dot(gain)
+    # Joseph's (I - KH) P (I - KH)' + K R K' multiplied out is P - B - B' with B = K (HP - S K' / 2), since H only
+    # picks rows and columns; `gain` is K', `rows` is HP. Whatever rounding has made of K, this is symmetric.
+    half = spread.dot(gain)
+    half *= -0.5
+    half += rows
+    change = gain.T.dot(half)
+    change += change.T.copy()
     corrected = state + innovation.dot(gain)
     wrap_orientation(corrected)
-    return corrected, _symmetric(updated)
+    return corrected, covariance - change
+
+
+def _innovation(state: Array, indices: Indices, values: Sequence[float]) -> Array:
+    differences = [value - here for value, here in zip(values, state.take(indices).tolist(), strict=True)]
+    for place in _angles_among(indices.tobytes()):
+        if not -math.pi < differences[place] <= math.pi:
+            differences[place] = wrap(differences[place])
+    return np.array(differences)
 
 
 @lru_cache(maxsize=256)
@@ -72,13 +85,6 @@ def _angles_among(indices: bytes) -> tuple[int, ...]:
     """Tell which of some state variables, given as the bytes of their `Indices`, are angles."""
     every = np.frombuffer(indices, np.intp).tolist()
     return tuple(place for place, index in enumerate(every) if _FIRST_ANGLE <= index <= _LAST_ANGLE)
-
-
-def _symmetric(matrix: Array) -> Array:
-    """Even out, in place, what rounding has made of a symmetric matrix."""
-    matrix += matrix.T.copy()
-    matrix *= 0.5
-    return matrix
 
 
 def _inverse(matrix: Array) -> Array:

@@ -18,7 +18,7 @@ from bringup.filter.start import doubt_about_origin
 from bringup.filter.state import ANGULAR, POSE, Array
 from bringup.filter.streams import Surroundings
 from bringup.filter.transforms import TransformBuffer
-from bringup.filter.variances import finite, judged
+from bringup.filter.variances import finite, judged, square
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -160,7 +160,7 @@ class Localization:
         pose = frame @ transform(reading.position, reading.orientation)
         turn = six_dimensional(frame.rotation)
         vector = np.concatenate((pose.translation, rpy_from_matrix(pose.rotation)))
-        covariance = judged(turn @ finite(reading.covariance) @ turn.T, np.arange(POSE.stop)).matrix
+        covariance = judged(turn @ finite(square(reading.covariance)) @ turn.T, np.arange(POSE.stop)).matrix
         self._fusion.clear()
         self._intake.reset(ignored_up_to=reading.stamp)
         self._estimator.place(now, vector, covariance)

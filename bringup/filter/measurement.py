@@ -24,7 +24,7 @@ class Measurement(NamedTuple):
     stamp: int
     part: str
     indices: Indices
-    values: Array
+    values: tuple[float, ...]
     noise: Array
     threshold: float
     pinned: int = 0
@@ -42,19 +42,17 @@ class Selection:
     """
 
     indices: Indices
-    entries: Indices
+    entries: tuple[int, ...]
     source: Indices
     target: Indices
     noise: Array
     pinned: int
 
-    def values(self, vector: Array) -> Array:
+    def values(self, vector: tuple[float, ...]) -> tuple[float, ...]:
         """Select from the part's vector."""
-        if self.pinned == 0:
-            return vector.take(self.entries)
-        chosen = np.zeros(len(self.indices))
-        chosen[: len(self.entries)] = vector.take(self.entries)
-        return chosen
+        if len(self.entries) == len(vector):
+            return vector + (0.0,) * self.pinned
+        return *[vector[entry] for entry in self.entries], *(0.0,) * self.pinned
 
     def covariance(self, covariance: Array) -> Array:
         """Select from the part's covariance."""
@@ -75,7 +73,7 @@ def select(flags: Flags, offset: int, *, two_d_mode: bool) -> Selection:
     noise[range(count, size), range(count, size)] = _PINNED_VARIANCE
     return Selection(
         indices=np.array(indices, dtype=np.intp),
-        entries=np.array(entries, dtype=np.intp),
+        entries=tuple(entries),
         source=np.array([row * width + column for row in entries for column in entries], dtype=np.intp),
         target=np.array(
             [row * size + column for row in range(count) for column in range(count)], dtype=np.intp

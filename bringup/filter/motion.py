@@ -6,32 +6,45 @@ dR/dpitch d = (Rz ey) x D and dR/dyaw d = ez x D.
 """
 
 import math
+from struct import Struct
 
 import numpy as np
 
-from bringup.filter.state import SIZE, Array, Indices, wrap
+from bringup.filter.state import SIZE, Array, wrap
 
 # Below this the rates of roll and yaw have no meaning (pitch of +-90 degrees); it only avoids a division by zero.
 _SMALLEST_COSINE = 1e-9
 
-_IDENTITY = np.eye(SIZE)
+# One row per line: what varies (+), what is one (1), what is zero (.). Rates and accelerations stay as they are.
+_PATTERN = """
+1..++++++...+++
+.1.++++++...+++
+..1++++++...+++
+...++....+++...
+...+1.....++...
+...++1....++...
+......1.....+..
+.......1.....+.
+........1.....+
+.........1.....
+..........1....
+...........1...
+............1..
+.............1.
+..............1
+"""
 
-
-def _entries() -> Indices:
-    """Flat places of the Jacobian's varying entries, in the order in which `advance` lists them."""
-    places = [(row, column) for row in range(3) for column in (3, 4, 5, 6, 7, 8, 12, 13, 14)]
-    places += [(3, 3), (3, 4), (3, 9), (3, 10), (3, 11)]
-    places += [(4, 3), (4, 10), (4, 11)]
-    places += [(5, 3), (5, 4), (5, 10), (5, 11)]
-    places += [(6, 12), (7, 13), (8, 14)]
-    return np.array([row * SIZE + column for row, column in places], dtype=np.intp)
-
-
-_ENTRIES = _entries()
+# Doubles are written where something stands, and eight bytes of zero, which are 0.0, where nothing does: several
+# times faster than putting 42 entries into a copy of the identity.
+_JACOBIAN = Struct("=" + "".join("8x" if sign == "." else "d" for sign in "".join(_PATTERN.split())))
+_STATE = Struct(f"={SIZE}d")
 
 
 def advance(state: Array, dt: float) -> tuple[Array, Array]:
-    """Move a state on by `dt` seconds; gives the new state (15) and the motion's Jacobian (15x15) at the old."""
+    """Move a state on by `dt` seconds; gives the new state (15) and the motion's Jacobian (15x15) at the old.
+
+    Neither can be written to.
+    """
     x, y, z, roll, pitch, yaw, vx, vy, vz, wx, wy, wz, ax, ay, az = state.tolist()
     sr, cr = math.sin(roll), math.cos(roll)
     sp, cp = math.sin(pitch), math.cos(pitch)
@@ -51,23 +64,22 @@ def advance(state: Array, dt: float) -> tuple[Array, Array]:
     swing = (sr * wy + cr * wz) * dt
     lift = (cr * wy - sr * wz) * dt
 
-    jacobian = _IDENTITY.copy()
     # fmt: off
-    jacobian.put(_ENTRIES, (
-        xz * dy - xy * dz, cy * up, -north, xx * dt, xy * dt, xz * dt, xx * half, xy * half, xz * half,
-        yz * dy - yy * dz, sy * up, east, yx * dt, yy * dt, yz * dt, yx * half, yy * half, yz * half,
-        zz * dy - zy * dz, -cy * east - sy * north, 0.0, zx * dt, zy * dt, zz * dt, zx * half, zy * half, zz * half,
+    jacobian = _JACOBIAN.pack(
+        1.0, xz * dy - xy * dz, cy * up, -north, xx * dt, xy * dt, xz * dt, xx * half, xy * half, xz * half,
+        1.0, yz * dy - yy * dz, sy * up, east, yx * dt, yy * dt, yz * dt, yx * half, yy * half, yz * half,
+        1.0, zz * dy - zy * dz, -cy * east - sy * north, 0.0,
+        zx * dt, zy * dt, zz * dt, zx * half, zy * half, zz * half,
         1.0 + tp * lift, swing / (cp * cp), dt, sr * tp * dt, cr * tp * dt,
-        -swing, cr * dt, -sr * dt,
-        lift / cp, tp * swing / cp, sr / cp * dt, cr / cp * dt,
-        dt, dt, dt,
-    ))
-    # fmt: on
-    moved = np.array(
-        (
-            *(x + east, y + north, z + up),
-            *(wrap(roll + wx * dt + tp * swing), wrap(pitch + lift), wrap(yaw + swing / cp)),
-            *(vx + ax * dt, vy + ay * dt, vz + az * dt, wx, wy, wz, ax, ay, az),
-        )
+        -swing, 1.0, cr * dt, -sr * dt,
+        lift / cp, tp * swing / cp, 1.0, sr / cp * dt, cr / cp * dt,
+        1.0, dt, 1.0, dt, 1.0, dt,
+        1.0, 1.0, 1.0, 1.0, 1.0, 1.0,
     )
-    return moved, jacobian
+    moved = _STATE.pack(
+        x + east, y + north, z + up,
+        wrap(roll + wx * dt + tp * swing), wrap(pitch + lift), wrap(yaw + swing / cp),
+        vx + ax * dt, vy + ay * dt, vz + az * dt, wx, wy, wz, ax, ay, az,
+    )
+    # fmt: on
+    return np.frombuffer(moved), np.frombuffer(jacobian).reshape(SIZE, SIZE)

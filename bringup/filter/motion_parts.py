@@ -1,12 +1,17 @@
 """Measurements from velocities and from accelerations, taken from the sensor's place to the base's."""
 
-import numpy as np
-
 from bringup.filter.measurement import Measurement
 from bringup.filter.mounting import Mountings
 from bringup.filter.readings import AccelerationReading, TurningReading, TwistReading
 from bringup.filter.rigid import Transform
-from bringup.filter.rotation import cross, matrix_from_quaternion, matrix_from_rpy, up_seen_by
+from bringup.filter.rotation import (
+    Vector,
+    cross,
+    matrix_from_quaternion,
+    matrix_from_rpy,
+    up_seen_by,
+    vector,
+)
 from bringup.filter.settings import Part
 from bringup.filter.state import ACCELERATION, ANGULAR, ORIENTATION, TWIST, Array
 
@@ -23,10 +28,12 @@ class TwistMeasuring:
         What the sensor sees because the base turns under it is taken off with the present estimate's omega.
         """
         mounting = self.mountings.of(sensor)
-        vector = mounting.turned(np.array(reading.linear + reading.angular))
+        x, y, z = mounting.turned(reading.linear)
         if mounting.arm is not None:
-            vector[:3] += cross(mounting.arm, state[ANGULAR])
-        return mounting.measurement(reading.stamp, vector, reading.covariance)
+            dx, dy, dz = cross(mounting.arm, vector(state[ANGULAR].tolist()))
+            x, y, z = x + dx, y + dy, z + dz
+        values = (x, y, z, *mounting.turned(reading.angular))
+        return mounting.measurement(reading.stamp, values, reading.covariance)
 
 
 class TurningMeasuring:
@@ -38,8 +45,7 @@ class TurningMeasuring:
     def measure(self, reading: TurningReading, sensor: Transform) -> Measurement:
         """Measure from a reading; `sensor` is where the IMU stands in the base frame."""
         mounting = self.mountings.of(sensor)
-        vector = mounting.turned(np.array(reading.angular))
-        return mounting.measurement(reading.stamp, vector, reading.covariance)
+        return mounting.measurement(reading.stamp, mounting.turned(reading.angular), reading.covariance)
 
 
 class AccelerationMeasuring:
@@ -58,16 +64,17 @@ class AccelerationMeasuring:
     ) -> Measurement:
         """Measure from a reading; `sensor` is where the IMU stands in the base frame."""
         mounting = self.mountings.of(sensor)
-        force = np.array(reading.acceleration)
+        x, y, z = reading.acceleration
         if self._gravity is not None:
-            force -= self._gravity * self._up_at_sensor(reading, sensor, state)
-        vector = mounting.turned(force)
+            g = self._gravity
+            up = self._up_at_sensor(reading, sensor, state)
+            x, y, z = x - g * up[0], y - g * up[1], z - g * up[2]
+        values = mounting.turned((x, y, z))
         if mounting.arm is not None:
-            arm, omega = mounting.arm, state[ANGULAR]
-            vector = vector + cross(arm, angular_acceleration) - cross(cross(arm, omega), omega)
-        return mounting.measurement(reading.stamp, vector, reading.covariance)
+            values = _at_base(values, mounting.arm, state, angular_acceleration)
+        return mounting.measurement(reading.stamp, values, reading.covariance)
 
-    def _up_at_sensor(self, reading: AccelerationReading, sensor: Transform, state: Array) -> Array:
+    def _up_at_sensor(self, reading: AccelerationReading, sensor: Transform, state: Array) -> Vector:
         """The world's unit vector upwards in the sensor's axes: where the specific force points at rest.
 
         Gravity is taken off before the mounting's rotation (upstream mixes the two up in 2024; its fix of 2025 agrees
@@ -76,9 +83,16 @@ class AccelerationMeasuring:
         """
         if reading.orientation is None:
             base = matrix_from_rpy(*state[ORIENTATION].tolist())
-            up: Array = sensor.rotation.T @ base[2]
-        elif self._relative:
-            up = matrix_from_quaternion(reading.orientation).T @ sensor.rotation[2]
-        else:
-            up = np.array(up_seen_by(reading.orientation))
-        return up
+            return vector((sensor.rotation.T @ base[2]).tolist())
+        if self._relative:
+            return vector((matrix_from_quaternion(reading.orientation).T @ sensor.rotation[2]).tolist())
+        return up_seen_by(reading.orientation)
+
+
+def _at_base(seen: Vector, arm: Vector, state: Array, angular_acceleration: Array) -> Vector:
+    """Take off what a sensor at the end of an arm feels because the base turns, and turns ever faster."""
+    omega = vector(state[ANGULAR].tolist())
+    x, y, z = seen
+    dx, dy, dz = cross(arm, vector(angular_acceleration.tolist()))
+    cx, cy, cz = cross(cross(arm, omega), omega)
+    return x + dx - cx, y + dy - cy, z + dz - cz

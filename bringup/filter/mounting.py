@@ -4,10 +4,10 @@ import numpy as np
 
 from bringup.filter.measurement import Measurement, Selection, select, turned
 from bringup.filter.rigid import Transform
-from bringup.filter.rotation import six_dimensional
+from bringup.filter.rotation import Rows, Vector, product, rows_of, six_dimensional, vector
 from bringup.filter.settings import Flags, Part
 from bringup.filter.state import Array
-from bringup.filter.variances import Noise, finite, judged
+from bringup.filter.variances import Noise, finite, judged, square
 
 _THREE_AXES = 3
 
@@ -18,14 +18,15 @@ class Mounting:
     Most sensors send the same covariance for ever, so what has become of the last one is kept.
     """
 
-    def __init__(self, part: Part, selection: Selection, rotation: Array | None, arm: Array | None) -> None:
+    def __init__(self, part: Part, selection: Selection, rotation: Array | None, arm: Vector | None) -> None:
         self._part = part
         self._selection = selection
-        # Turns the part's vector; None where there is nothing to turn.
+        # Turns three axes at a time; None where there is nothing to turn.
         self._rotation = rotation
+        self._rows: Rows | None = None if rotation is None else rows_of(rotation)
         # From the base to the sensor (m); None where the sensor stands in the base's origin or measures no motion.
         self.arm = arm
-        self._sent: bytes | None = None
+        self._sent: tuple[float, ...] | None = None
         self._noise = Noise(np.zeros((0, 0)))
 
     @property
@@ -33,38 +34,41 @@ class Mounting:
         """What is doubtful about the covariance of the latest measurement."""
         return self._noise.doubt
 
-    def turned(self, vector: Array) -> Array:
-        """Turn a part's vector into the filter's axes."""
-        return vector if self._rotation is None else self._rotation.dot(vector)
+    def turned(self, vector: Vector) -> Vector:
+        """Turn a vector into the filter's axes."""
+        return vector if self._rows is None else product(self._rows, vector)
 
-    def measurement(self, stamp: int, vector: Array, sent: Array) -> Measurement:
-        """Select what is fused from a vector in the filter's axes and a covariance as the sensor sends it."""
-        key = sent.tobytes()
-        if key != self._sent:
-            self._sent = key
-            known = finite(sent)
-            turned = known if self._rotation is None else self._rotation @ known @ self._rotation.T
-            self._noise = self._judged(turned)
-        return self._with(stamp, vector, self._noise)
+    def measurement(self, stamp: int, values: tuple[float, ...], sent: tuple[float, ...]) -> Measurement:
+        """Select what is fused from values in the filter's axes and a covariance as the sensor sends it."""
+        if sent != self._sent:
+            self._sent = sent
+            self._noise = self._judged(self._turned_covariance(finite(square(sent))))
+        return self._with(stamp, values)
 
-    def turned_measurement(self, stamp: int, vector: Array, covariance: Array) -> Measurement:
-        """Select what is fused from a vector and a covariance that are both in the filter's axes."""
+    def turned_measurement(self, stamp: int, values: tuple[float, ...], covariance: Array) -> Measurement:
+        """Select what is fused from values and a covariance that are both in the filter's axes."""
         self._sent, self._noise = None, self._judged(finite(covariance))
-        return self._with(stamp, vector, self._noise)
+        return self._with(stamp, values)
+
+    def _turned_covariance(self, covariance: Array) -> Array:
+        if self._rotation is None:
+            return covariance
+        turn = self._rotation if len(covariance) == _THREE_AXES else six_dimensional(self._rotation)
+        return turn @ covariance @ turn.T
 
     def _judged(self, covariance: Array) -> Noise:
         return judged(self._selection.covariance(covariance), self._selection.indices)
 
-    def _with(self, stamp: int, vector: Array, noise: Noise) -> Measurement:
-        selection = self._selection
+    def _with(self, stamp: int, values: tuple[float, ...]) -> Measurement:
+        part, selection = self._part, self._selection
         return Measurement(
-            stamp=stamp,
-            part=self._part.name,
-            indices=selection.indices,
-            values=selection.values(vector),
-            noise=noise.matrix,
-            threshold=self._part.threshold,
-            pinned=selection.pinned,
+            stamp,
+            part.name,
+            selection.indices,
+            selection.values(values),
+            self._noise.matrix,
+            part.threshold,
+            selection.pinned,
         )
 
 
@@ -102,10 +106,6 @@ class Mountings:
         return Mounting(
             self._part,
             select(flagged, self._offset, two_d_mode=self._two_d_mode),
-            None if nothing_to_turn else _widened(rotation, flags),
-            frame.translation if moves else None,
+            None if nothing_to_turn else rotation,
+            vector(frame.translation.tolist()) if moves else None,
         )
-
-
-def _widened(rotation: Array, flags: Flags) -> Array:
-    return rotation if len(flags) == _THREE_AXES else six_dimensional(rotation)

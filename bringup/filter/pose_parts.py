@@ -6,9 +6,16 @@ from bringup.filter.measurement import Measurement
 from bringup.filter.mounting import Mountings
 from bringup.filter.readings import OrientationReading, PoseReading
 from bringup.filter.rigid import IDENTITY, Transform, transform
-from bringup.filter.rotation import cross_matrix, matrix_from_rpy, rpy_from_matrix, rpy_from_quaternion
+from bringup.filter.rotation import (
+    Vector,
+    cross_matrix,
+    matrix_from_rpy,
+    rpy_from_matrix,
+    rpy_from_quaternion,
+)
 from bringup.filter.settings import NANOSECONDS, Part
 from bringup.filter.state import ANGULAR, ORIENTATION, POSE, TWIST, Array, wrap
+from bringup.filter.variances import square
 
 _NO_TRANSLATION = np.zeros(3)
 
@@ -33,7 +40,9 @@ class PoseTrack:
             self._first = pose
         return self._first.inverse() @ pose
 
-    def velocity(self, stamp: int, pose: Transform, covariance: Array) -> tuple[Array, Array] | None:
+    def velocity(
+        self, stamp: int, pose: Transform, covariance: Array
+    ) -> tuple[tuple[float, ...], Array] | None:
         """Give the mean velocity since the previous pose, and its covariance, as upstream weighs it.
 
         None for the first pose, and for one that follows within no time.
@@ -43,7 +52,8 @@ class PoseTrack:
         if previous is None or stamp <= previous[0]:
             return None
         dt = (stamp - previous[0]) / NANOSECONDS
-        return _vector(previous[1].inverse() @ pose) / dt, (covariance + previous[2]) * dt
+        moved = _values(previous[1].inverse() @ pose)
+        return tuple([value / dt for value in moved]), (covariance + previous[2]) * dt
 
 
 class PoseMeasuring:
@@ -63,12 +73,12 @@ class PoseMeasuring:
         """
         as_read = to_base is IDENTITY and not self._part.differential and not self._part.relative
         if as_read and frame is IDENTITY:
-            vector = np.array(reading.position + rpy_from_quaternion(reading.orientation))
-            return self.mountings.of(frame).measurement(reading.stamp, vector, reading.covariance)
+            values = reading.position + rpy_from_quaternion(reading.orientation)
+            return self.mountings.of(frame).measurement(reading.stamp, values, reading.covariance)
         pose = transform(reading.position, reading.orientation)
         if as_read:
             return self.mountings.of(frame).measurement(
-                reading.stamp, _vector(frame @ pose), reading.covariance
+                reading.stamp, _values(frame @ pose), reading.covariance
             )
         return self._tracked(reading, pose, frame, to_base)
 
@@ -77,12 +87,13 @@ class PoseMeasuring:
     ) -> Measurement | None:
         covariance = reading.covariance
         if to_base is not IDENTITY:
-            covariance = _over_lever_arm(covariance, pose.rotation @ to_base.translation)
+            carried = _over_lever_arm(square(covariance), pose.rotation @ to_base.translation)
+            covariance = tuple(carried.ravel().tolist())
             pose = pose @ to_base
         if not self._part.differential:
-            vector = _vector(frame @ self.track.relative(pose))
-            return self.mountings.of(frame).measurement(reading.stamp, vector, covariance)
-        moved = self.track.velocity(reading.stamp, pose, covariance)
+            values = _values(frame @ self.track.relative(pose))
+            return self.mountings.of(frame).measurement(reading.stamp, values, covariance)
+        moved = self.track.velocity(reading.stamp, pose, square(covariance))
         if moved is None:
             return None
         return self.mountings.of(IDENTITY).turned_measurement(reading.stamp, *moved)
@@ -112,23 +123,28 @@ class OrientationMeasuring:
             self._heading = matrix_from_rpy(0.0, 0.0, self._offsets[2])
         mounting = self.mountings.of(sensor, self._heading)
         angles = rpy_from_quaternion(reading.orientation)
-        level = [wrap(angle - offset) for angle, offset in zip(angles, self._offsets, strict=True)]
-        vector = mounting.turned(np.array(level))
+        level = mounting.turned(_less(angles, self._offsets))
         if not (self._part.relative or self._part.differential):
-            return mounting.measurement(reading.stamp, vector, reading.covariance)
-        pose = Transform(matrix_from_rpy(*vector.tolist()), _NO_TRANSLATION)
+            return mounting.measurement(reading.stamp, level, reading.covariance)
+        pose = Transform(matrix_from_rpy(*level), _NO_TRANSLATION)
         if not self._part.differential:
-            vector = np.array(rpy_from_matrix(self.track.relative(pose).rotation))
-            return mounting.measurement(reading.stamp, vector, reading.covariance)
-        covariance = self._heading @ reading.covariance @ self._heading.T
+            level = rpy_from_matrix(self.track.relative(pose).rotation)
+            return mounting.measurement(reading.stamp, level, reading.covariance)
+        covariance = self._heading @ square(reading.covariance) @ self._heading.T
         moved = self.track.velocity(reading.stamp, pose, covariance)
         if moved is None:
             return None
         return mounting.turned_measurement(reading.stamp, moved[0][3:], moved[1])
 
 
-def _vector(pose: Transform) -> Array:
-    return np.concatenate((pose.translation, rpy_from_matrix(pose.rotation)))
+def _values(pose: Transform) -> tuple[float, ...]:
+    return *pose.translation.tolist(), *rpy_from_matrix(pose.rotation)
+
+
+def _less(angles: Vector, offsets: Vector) -> Vector:
+    roll, pitch, yaw = angles
+    a, b, c = offsets
+    return wrap(roll - a), wrap(pitch - b), wrap(yaw - c)
 
 
 def _over_lever_arm(covariance: Array, arm: Array) -> Array:

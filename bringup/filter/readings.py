@@ -3,7 +3,7 @@
 The only place here that knows the layout of ROS messages. They are read by their field names alone, so that rclpy's
 messages and those of a bag reader serve alike; who has them in another form makes a `Heard` of them. Tuples, because
 they are made for each message, and frozen dataclasses take five times as long to make.
-Stamps are nanoseconds; covariances are 6x6 or 3x3 matrices; frames have no leading slash (REP-105, tf2).
+Stamps are nanoseconds; covariances are 6x6 or 3x3 matrices, row by row; frames have no leading slash (REP-105, tf2).
 """
 
 from collections.abc import Callable
@@ -11,17 +11,15 @@ from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 
-from bringup.filter.rotation import Quaternion
+from bringup.filter.rotation import Quaternion, Vector
 from bringup.filter.settings import NANOSECONDS, Kind
-from bringup.filter.state import Array
 
 Message: TypeAlias = Any
-Vector: TypeAlias = tuple[float, float, float]
+Numbers: TypeAlias = tuple[float, ...]
 
 # The first entry of an IMU covariance that stands for "this part is not measured" (sensor_msgs/Imu).
 _NOT_MEASURED = -1.0
 _POSE = 43
-_FULL, _PLAIN = (6, 6), (3, 3)
 
 
 class Heard(NamedTuple):
@@ -30,7 +28,7 @@ class Heard(NamedTuple):
     stamp: int
     frame: str
     child: str
-    numbers: Array
+    numbers: Numbers
 
 
 class PoseReading(NamedTuple):
@@ -41,7 +39,7 @@ class PoseReading(NamedTuple):
     child: str
     position: Vector
     orientation: Quaternion
-    covariance: Array
+    covariance: Numbers
 
 
 class TwistReading(NamedTuple):
@@ -51,7 +49,7 @@ class TwistReading(NamedTuple):
     frame: str
     linear: Vector
     angular: Vector
-    covariance: Array
+    covariance: Numbers
 
 
 class OrientationReading(NamedTuple):
@@ -60,7 +58,7 @@ class OrientationReading(NamedTuple):
     stamp: int
     frame: str
     orientation: Quaternion
-    covariance: Array
+    covariance: Numbers
 
 
 class TurningReading(NamedTuple):
@@ -69,7 +67,7 @@ class TurningReading(NamedTuple):
     stamp: int
     frame: str
     angular: Vector
-    covariance: Array
+    covariance: Numbers
 
 
 class AccelerationReading(NamedTuple):
@@ -78,7 +76,7 @@ class AccelerationReading(NamedTuple):
     stamp: int
     frame: str
     acceleration: Vector
-    covariance: Array
+    covariance: Numbers
     orientation: Quaternion | None
 
 
@@ -118,8 +116,8 @@ def imu_orientation(said: Heard) -> OrientationReading | None:
     numbers = said.numbers
     if numbers[4] == _NOT_MEASURED:
         return None
-    x, y, z, w = numbers[:4].tolist()
-    return OrientationReading(said.stamp, said.frame, (x, y, z, w), numbers[4:13].reshape(_PLAIN))
+    x, y, z, w = numbers[:4]
+    return OrientationReading(said.stamp, said.frame, (x, y, z, w), numbers[4:13])
 
 
 def imu_turning(said: Heard) -> TurningReading | None:
@@ -127,8 +125,8 @@ def imu_turning(said: Heard) -> TurningReading | None:
     numbers = said.numbers
     if numbers[16] == _NOT_MEASURED:
         return None
-    x, y, z = numbers[13:16].tolist()
-    return TurningReading(said.stamp, said.frame, (x, y, z), numbers[16:25].reshape(_PLAIN))
+    x, y, z = numbers[13:16]
+    return TurningReading(said.stamp, said.frame, (x, y, z), numbers[16:25])
 
 
 def imu_acceleration(said: Heard) -> AccelerationReading | None:
@@ -138,26 +136,25 @@ def imu_acceleration(said: Heard) -> AccelerationReading | None:
         return None
     attitude: Quaternion | None = None
     if numbers[4] != _NOT_MEASURED:
-        x, y, z, w = numbers[:4].tolist()
+        x, y, z, w = numbers[:4]
         attitude = (x, y, z, w)
-    x, y, z = numbers[25:28].tolist()
-    return AccelerationReading(said.stamp, said.frame, (x, y, z), numbers[28:37].reshape(_PLAIN), attitude)
+    x, y, z = numbers[25:28]
+    return AccelerationReading(said.stamp, said.frame, (x, y, z), numbers[28:37], attitude)
 
 
-def velocity_command(twist_message: Message) -> tuple[float, ...]:
+def velocity_command(twist_message: Message) -> Numbers:
     """Read the six velocities of geometry_msgs/Twist."""
     return _vector(twist_message.linear) + _vector(twist_message.angular)
 
 
 def _pose(said: Heard, child: str) -> PoseReading:
-    x, y, z, qx, qy, qz, qw = said.numbers[:7].tolist()
-    covariance = said.numbers[7:_POSE].reshape(_FULL)
-    return PoseReading(said.stamp, said.frame, child, (x, y, z), (qx, qy, qz, qw), covariance)
+    x, y, z, qx, qy, qz, qw = said.numbers[:7]
+    return PoseReading(said.stamp, said.frame, child, (x, y, z), (qx, qy, qz, qw), said.numbers[7:_POSE])
 
 
 def _twist(said: Heard, frame: str, start: int) -> TwistReading:
-    vx, vy, vz, wx, wy, wz = said.numbers[start : start + 6].tolist()
-    covariance = said.numbers[start + 6 : start + 42].reshape(_FULL)
+    vx, vy, vz, wx, wy, wz = said.numbers[start : start + 6]
+    covariance = said.numbers[start + 6 : start + 42]
     return TwistReading(said.stamp, frame, (vx, vy, vz), (wx, wy, wz), covariance)
 
 
@@ -195,7 +192,7 @@ _HEARD: dict[Kind, Callable[[Message], Heard]] = {
 
 
 def _with_header(message: Message, child: str, numbers: list[float]) -> Heard:
-    return Heard(stamp_of(message), message.header.frame_id.lstrip("/"), child, np.array(numbers))
+    return Heard(stamp_of(message), message.header.frame_id.lstrip("/"), child, tuple(numbers))
 
 
 def _pose_numbers(part: Message) -> list[float]:

@@ -1,6 +1,7 @@
 """Rotations as 3x3 matrices, quaternions (x, y, z, w) and fixed-axis roll, pitch, yaw: R = Rz Ry Rx."""
 
 import math
+from collections.abc import Sequence
 from typing import TypeAlias
 
 import numpy as np
@@ -8,7 +9,8 @@ import numpy as np
 from bringup.filter.state import Array
 
 Quaternion: TypeAlias = tuple[float, float, float, float]
-Angles: TypeAlias = tuple[float, float, float]
+Vector: TypeAlias = tuple[float, float, float]
+Rows: TypeAlias = tuple[Vector, Vector, Vector]
 
 _GIMBAL_LOCK = 1.0 - 1e-12
 _NEARLY_PARALLEL = 0.9995
@@ -44,7 +46,7 @@ def matrix_from_quaternion(quaternion: Quaternion) -> Array:
     )
 
 
-def rpy_from_matrix(matrix: Array) -> Angles:
+def rpy_from_matrix(matrix: Array) -> Vector:
     """Roll, pitch and yaw of a rotation matrix; at a pitch of +-90 degrees the roll is taken as zero."""
     (m00, m01, _), (m10, m11, _), (m20, m21, m22) = matrix.tolist()
     if abs(m20) > _GIMBAL_LOCK:
@@ -52,7 +54,7 @@ def rpy_from_matrix(matrix: Array) -> Angles:
     return math.atan2(m21, m22), math.asin(-m20), math.atan2(m10, m00)
 
 
-def rpy_from_quaternion(quaternion: Quaternion) -> Angles:
+def rpy_from_quaternion(quaternion: Quaternion) -> Vector:
     """Roll, pitch and yaw of a quaternion of any length, as `rpy_from_matrix` gives them; zero is no rotation."""
     x, y, z, w = quaternion
     square = x * x + y * y + z * z + w * w
@@ -70,7 +72,7 @@ def rpy_from_quaternion(quaternion: Quaternion) -> Angles:
     )
 
 
-def up_seen_by(quaternion: Quaternion) -> Angles:
+def up_seen_by(quaternion: Quaternion) -> Vector:
     """The world's unit vector upwards, in the axes of a body with this attitude."""
     x, y, z, w = quaternion
     square = x * x + y * y + z * z + w * w
@@ -122,8 +124,27 @@ def cross_matrix(vector: Array) -> Array:
     return np.array(((0.0, -z, y), (z, 0.0, -x), (-y, x, 0.0)))
 
 
-def cross(first: Array, second: Array) -> Array:
-    """Cross product of two 3-vectors; several times faster than `numpy.cross` at this size."""
-    a, b, c = first.tolist()
-    x, y, z = second.tolist()
-    return np.array((b * z - c * y, c * x - a * z, a * y - b * x))
+def rows_of(matrix: Array) -> Rows:
+    """A 3x3 matrix as plain numbers, row by row: at this size they are several times faster than arrays."""
+    first, second, third = (vector(row) for row in matrix.tolist())
+    return first, second, third
+
+
+def vector(numbers: Sequence[float]) -> Vector:
+    """Three numbers as a vector."""
+    x, y, z = numbers
+    return x, y, z
+
+
+def product(rows: Rows, vector: Vector) -> Vector:
+    """A 3x3 matrix times a vector."""
+    (a, b, c), (d, e, f), (g, h, i) = rows
+    x, y, z = vector
+    return a * x + b * y + c * z, d * x + e * y + f * z, g * x + h * y + i * z
+
+
+def cross(first: Vector, second: Vector) -> Vector:
+    """Cross product of two vectors."""
+    a, b, c = first
+    x, y, z = second
+    return b * z - c * y, c * x - a * z, a * y - b * x

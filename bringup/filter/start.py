@@ -5,6 +5,7 @@ import numpy as np
 from bringup.filter.readings import Heard, odometry_pose
 from bringup.filter.rotation import rpy_from_quaternion
 from bringup.filter.state import Array
+from bringup.filter.variances import square
 
 
 def doubt_about_origin(said: Heard) -> Array:
@@ -19,6 +20,6 @@ def doubt_about_origin(said: Heard) -> Array:
     x, y, z = reading.position
     away = x * x + y * y
     turned = [angle * angle for angle in rpy_from_quaternion(reading.orientation)]
-    own = np.maximum(np.nan_to_num(reading.covariance.diagonal()), 0.0)
+    own = np.maximum(np.nan_to_num(square(reading.covariance).diagonal()), 0.0)
     own[:2] = own[:2].max()
     return np.diag(own + np.array((away, away, z * z, *turned)))

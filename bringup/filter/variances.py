@@ -1,5 +1,7 @@
 """What the covariance of a measurement can be used for, and what is doubtful about it."""
 
+import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -39,6 +41,12 @@ def judged(covariance: Array, indices: Indices) -> Noise:
         return Noise(usable, doubt)
     impossible = "correlations that no measurement can have; they are left out"
     return Noise(np.diag(usable.diagonal()), f"{doubt}; {impossible}" if doubt else impossible)
+
+
+def square(numbers: Sequence[float]) -> Array:
+    """A covariance that is told row by row, as a matrix."""
+    size = math.isqrt(len(numbers))
+    return np.array(numbers).reshape(size, size)
 
 
 def finite(covariance: Array) -> Array:

@@ -43,7 +43,7 @@ def told(measurement: Measurement, after: Snapshot, *, accepted: bool) -> str:
     fate = "fused" if accepted else "beyond its rejection threshold"
     read = zip(
         measurement.indices.tolist(),
-        measurement.values.tolist(),
+        measurement.values,
         np.sqrt(measurement.noise.diagonal()).tolist(),
         strict=True,
     )

@@ -9,7 +9,6 @@ encoding go through rclpy.
 from collections.abc import Callable
 from struct import Struct
 
-import numpy as np
 from geometry_msgs.msg import PoseWithCovarianceStamped, TwistWithCovarianceStamped
 from nav_msgs.msg import Odometry
 from rclpy.serialization import deserialize_message
@@ -32,7 +31,6 @@ _NUMBERS: dict[Kind, int] = {"odom": 85, "pose": 43, "twist": 42, "imu": 37}
 _CDR_LITTLE_ENDIAN = b"\x00\x01"
 _ENCAPSULATION = 4
 _DOUBLE = 8
-_NUMBER = np.dtype("<f8")
 _STAMP = Struct("<iI")
 _FRAMES = _ENCAPSULATION + _STAMP.size
 _HEADER = Struct("<iII")
@@ -45,7 +43,7 @@ def reader(kind: Kind) -> Callable[[bytes], Heard]:
 
     The frames of a sensor hardly ever change: as long as their bytes stay the same, so does the place of the numbers.
     """
-    count, has_child = _NUMBERS[kind], kind == "odom"
+    numbers, has_child = Struct(f"<{_NUMBERS[kind]}d"), kind == "odom"
     frame = child = ""
     texts, start = b"", _FRAMES
 
@@ -57,8 +55,8 @@ def reader(kind: Kind) -> Callable[[bytes], Heard]:
             frame, child, start = _frames(data, has_child=has_child)
             texts = data[_FRAMES:start]
         seconds, nanoseconds = _STAMP.unpack_from(data, _ENCAPSULATION)
-        numbers = np.frombuffer(data, _NUMBER, count, start)
-        return Heard(seconds * NANOSECONDS + nanoseconds, frame, child, numbers)
+        stamp = seconds * NANOSECONDS + nanoseconds
+        return Heard(stamp, frame, child, numbers.unpack_from(data, start))
 
     return read
 

@@ -31,11 +31,11 @@ def test_first_measurement_is_taken_over_and_the_second_believed(
     every = np.arange(15, dtype=np.intp)
     noise = np.eye(15) * 1e-9
     values = np.array([0.15 * index for index in range(15)])
-    estimator.process(Measurement(1000, "all", every, values, noise, NEVER_REJECT))
+    estimator.process(Measurement(1000, "all", every, tuple(values), noise, NEVER_REJECT))
     assert (estimator.state == values).all()
     assert (estimator.covariance == noise).all()
     estimator.covariance = np.eye(15) * 0.5
-    estimator.process(Measurement(1002, "all", every, 2 * values, noise, NEVER_REJECT))
+    estimator.process(Measurement(1002, "all", every, tuple(2 * values), noise, NEVER_REJECT))
     difference = estimator.state - 2 * values
     difference[ORIENTATION] = np.mod(difference[ORIENTATION] + math.pi, 2 * math.pi) - math.pi
     assert np.abs(difference).max() < 0.001

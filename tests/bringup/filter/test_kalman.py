@@ -20,7 +20,7 @@ def _at(*indices: int) -> Indices:
 def _correct(
     state: Array, covariance: Array, index: int, value: float, variance: float, threshold: float = FOR_EVER
 ) -> tuple[Array, Array] | None:
-    return kalman.correct(state, covariance, _at(index), np.array([value]), np.array([[variance]]), threshold)
+    return kalman.correct(state, covariance, _at(index), [value], np.array([[variance]]), threshold)
 
 
 def test_one_variable_is_weighed_by_variances() -> None:
@@ -83,7 +83,7 @@ def test_covariance_stays_symmetric_and_positive(run: list[tuple[float, list[int
         random = np.random.default_rng(seed)
         state, covariance = kalman.predict(state, covariance, noise, dt)
         spread = random.normal(size=(len(indices), len(indices)))
-        reading = random.normal(size=len(indices))
+        reading = random.normal(size=len(indices)).tolist()
         result = kalman.correct(
             state, covariance, _at(*indices), reading, usable_noise(spread @ spread.T), FOR_EVER
         )

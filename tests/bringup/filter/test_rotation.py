@@ -6,19 +6,22 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from bringup.filter.rotation import (
+    Vector,
     cross,
     cross_matrix,
     interpolate,
     matrix_from_quaternion,
     matrix_from_rpy,
+    product,
     quaternion_from_rpy,
+    rows_of,
     rpy_from_matrix,
 )
 from bringup.filter.state import wrap
 
 angle = st.floats(-math.pi, math.pi)
 attitudes = st.tuples(angle, st.floats(-1.5, 1.5), angle)
-vectors = st.tuples(*[st.floats(-10.0, 10.0)] * 3).map(np.array)
+vectors = st.tuples(*[st.floats(-10.0, 10.0)] * 3)
 
 
 @given(attitudes)
@@ -47,9 +50,15 @@ def test_length_of_a_quaternion_does_not_matter() -> None:
 
 
 @given(vectors, vectors)
-def test_cross_products_agree_with_numpy(first: np.ndarray, second: np.ndarray) -> None:
+def test_cross_products_agree_with_numpy(first: Vector, second: Vector) -> None:
     assert cross(first, second) == pytest.approx(np.cross(first, second))
-    assert cross_matrix(first) @ second == pytest.approx(np.cross(first, second))
+    assert cross_matrix(np.array(first)) @ second == pytest.approx(np.cross(first, second))
+
+
+@given(attitudes, vectors)
+def test_products_agree_with_numpy(rpy: Vector, turned: Vector) -> None:
+    matrix = matrix_from_rpy(*rpy)
+    assert product(rows_of(matrix), turned) == pytest.approx(matrix @ turned, abs=1e-12)
 
 
 @given(st.floats(-1000.0, 1000.0))
