@@ -17,7 +17,8 @@ from rcl_interfaces.msg import ParameterType
 from orchestra.errors import RunError
 from orchestra.ros.tools.frames import Frames, Transform, angles, interpolated, matrix
 from orchestra.ros.tools.graph.ports import participants_ports
-from orchestra.ros.tools.graph.rollcall import RollCall, announcement, farewell
+from orchestra.ros.tools.graph.rollcall import RollCall
+from orchestra.ros.tools.graph.wire.own import ANNOUNCER_AND_DETECTOR, announcement, farewell
 from orchestra.ros.tools.measuring import Intervals, Window, bandwidth_text, rate_text
 from orchestra.ros.tools.parameter_values import is_empty, plain_value, retyped, value_of, value_of_text
 
@@ -186,6 +187,6 @@ def test_a_roll_call_is_announced_and_taken_back() -> None:
         call.close()
         first, second = heard.recv(2000), heard.recv(2000)
     prefix = first[8:20]
-    assert first == announcement(prefix, 7410)
+    assert first == announcement(prefix, 7410, ANNOUNCER_AND_DETECTOR, 1)
     assert second == farewell(prefix)
     assert prefix.startswith(b"\x01\x0f\x00\x01")

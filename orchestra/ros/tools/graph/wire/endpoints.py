@@ -5,6 +5,7 @@ Source: the names of topics and services on the wire (REP 2007's `rt/`, `rq/` an
 
 from __future__ import annotations
 
+from collections import Counter
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
@@ -40,6 +41,8 @@ class Endpoints:
     def __init__(self, domain: int) -> None:
         self.member = Member(domain, self._hear, awaited=(PUBLICATIONS, SUBSCRIPTIONS))
         self._found: dict[Peer, dict[bytes, tuple[int, Described | None]]] = {}
+        self._counts: Counter[tuple[str, bool]] = Counter()
+        self._counted_at = 0
 
     def complete(self) -> bool:
         """Tell whether nothing is missing."""
@@ -65,7 +68,10 @@ class Endpoints:
 
     def count(self, topic: str, *, writing: bool) -> int:
         """Return how many endpoints a topic has, by its name on the wire."""
-        return sum(one.topic == topic and one.writes is writing for one in self._all())
+        if self._counted_at != self.member.changes:
+            self._counted_at = self.member.changes
+            self._counts = Counter((one.topic, one.writes) for one in self._all())
+        return self._counts[topic, writing]
 
     def _all(self) -> Iterator[Described]:
         for peer in self.member.peers.values():

@@ -80,6 +80,7 @@ class Member:
         self._renew_at = time.monotonic() + _RENEW
         self.peers: dict[bytes, Peer] = {}
         self.news_at = time.monotonic()
+        self.changes = 0  # of what is known
 
     def met(self) -> bool:
         """Tell whether all participants have answered."""
@@ -131,7 +132,7 @@ class Member:
             return
         sample = peer.take(heard, now)
         if sample is not None:
-            self.news_at = now
+            self._changed(now)
             with suppress(
                 struct.error
             ):  # it is no description: of somebody who does not keep to the protocol
@@ -140,6 +141,7 @@ class Member:
     def _meet(self, source: bytes, heard: Data, now: float) -> None:
         if heard.payload is None:
             self.peers.pop(source, None)
+            self._changed(now)
             return
         if source in self.peers:
             return
@@ -162,7 +164,11 @@ class Member:
         peer = Peer(name, (port, ports.get(known.DEFAULT_UNICAST, port + 1)), said, self._awaited)
         peer.is_of_ros = is_of_ros
         self.peers[source] = peer
+        self._changed(now)
+
+    def _changed(self, now: float) -> None:
         self.news_at = now
+        self.changes += 1
 
     def _speak(self, now: float) -> None:
         self._look(now)
@@ -181,6 +187,7 @@ class Member:
         self._ports = frozenset(ports_here(self._domain))
         for gone in [source for source, peer in self.peers.items() if peer.port not in self._ports]:
             del self.peers[gone]
+            self._changed(now)
 
     def _call(self, now: float) -> None:
         """Announce ourselves to those who have not answered."""

@@ -69,7 +69,8 @@ class Peer:
             whole = heard if isinstance(heard, Data) else received.piece(heard)
             if whole is not None and received.take(whole):
                 sample = whole
-            self._at, self._patience = now + _AGAIN, _AGAIN  # more may be on the way
+            more = received.next <= received.asked  # is on the way
+            self._at, self._patience = now + _AGAIN if more else now, _AGAIN
         elif isinstance(heard, Gap):
             received.lack(heard)
         elif self._is_news(received, heard):
@@ -106,6 +107,7 @@ class Peer:
             if not received.whole:
                 wanted = received.missing
                 base = wanted[0] if wanted else 0
+                received.asked = wanted[-1] if wanted else 0
                 reader = READERS.get(writer, READER)
                 asked = acknowledgement(reader, writer, base, wanted, self._number())
                 (discovery if writer in READERS else user).append(asked)

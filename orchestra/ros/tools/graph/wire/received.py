@@ -19,20 +19,29 @@ class Received:
     def __init__(self) -> None:
         self.first = 1
         self.last: int | None = None  # until it tells
+        self.asked = 0  # the last one that was asked for
         self.samples: dict[int, Data | None] = {}
+        self._next = 1
         self._pieces: dict[int, dict[int, bytes]] = {}
+
+    @property
+    def next(self) -> int:
+        """The first number that has not come."""
+        self._next = max(self._next, self.first)
+        while self._next in self.samples:
+            self._next += 1
+        return self._next
 
     @property
     def missing(self) -> list[int]:
         """The first numbers of what the writer says that it has, and that has not come."""
-        last = self.first - 1 if self.last is None else self.last
-        lacking = (number for number in range(self.first, last + 1) if number not in self.samples)
-        return list(islice(lacking, _MOST))
+        numbers = range(self.next, (self.last or 0) + 1)
+        return list(islice((number for number in numbers if number not in self.samples), _MOST))
 
     @property
     def whole(self) -> bool:
         """Whether all has come."""
-        return self.last is not None and not self.missing
+        return self.last is not None and self.next > self.last
 
     def tell(self, heartbeat: Heartbeat) -> None:
         """Hear what there is."""
@@ -40,7 +49,7 @@ class Received:
 
     def lack(self, gap: Gap) -> None:
         """Hear what there is not."""
-        for number in gap.numbers:
+        for number in (*islice(range(max(gap.start, self.next), gap.end), _MOST), *gap.some):
             self.samples.setdefault(number, None)
 
     def take(self, sample: Data) -> bool:

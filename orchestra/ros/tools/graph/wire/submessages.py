@@ -60,10 +60,12 @@ class Heartbeat(NamedTuple):
 
 
 class Gap(NamedTuple):
-    """Numbers of samples that there are none of."""
+    """Numbers of samples that there are none of: from one on to before another, and some."""
 
     writer: bytes
-    numbers: frozenset[int]
+    start: int
+    end: int
+    some: frozenset[int]
 
 
 class Acknowledgement(NamedTuple):
@@ -150,6 +152,8 @@ def _data(content: bytes, flags: int, order: str) -> Data:
 
 def _fragment(content: bytes, flags: int, order: str) -> Fragment:
     to_qos, _, writer, high, low, first, _, size, whole = struct.unpack_from(f"{order}2xH4s4siIIHHI", content)
+    if not size:
+        raise struct.error("pieces of nothing")
     qos, at = _qos(content, 4 + to_qos, flags, order)
     return Fragment(writer, (high << 32) + low, first, size, whole, qos, content[at:], order)
 
@@ -173,7 +177,7 @@ def _heartbeat(content: bytes, _flags: int, order: str) -> Heartbeat:
 def _gap(content: bytes, _flags: int, order: str) -> Gap:
     _, writer, high, low = struct.unpack_from(f"{order}4s4siI", content)
     base, some = _set(content, 16, order)
-    return Gap(writer, frozenset(range((high << 32) + low, base)) | some)
+    return Gap(writer, (high << 32) + low, base, some)
 
 
 def _acknowledgement(content: bytes, _flags: int, order: str) -> Acknowledgement:
