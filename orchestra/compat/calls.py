@@ -5,9 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.place import here
 from orchestra.compat.text import template
-from orchestra.description.text import Opaque, Template, new_call
+from orchestra.description.text import Call, Opaque, Template, new_call, new_template
 from orchestra.description.written import called
 
 if TYPE_CHECKING:
@@ -15,7 +16,7 @@ if TYPE_CHECKING:
 
     from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.place import Step
-    from orchestra.description.text import Call, Part
+    from orchestra.description.text import Part
     from orchestra.location import Span
 
 
@@ -26,6 +27,7 @@ class CallSubstitution(Substitution):
     """
 
     _name: str
+    _kept: tuple[tuple[list[Substitution], ...], Template] | None = None
 
     def __init__(self) -> None:
         self._place = here(self)
@@ -47,6 +49,25 @@ class CallSubstitution(Substitution):
         )
         return new_call(self._name, tuple(arguments), place.span)
 
+    def _whole(self) -> Template | None:
+        """Return the text that the call alone is; None where only the code of launch files knows what it comes to.
+
+        It is kept as long as the arguments are the same texts.
+        """
+        given = tuple(self._arguments())
+        kept = self._kept
+        if kept is not None and kept[0] == given and kept[1].span is self._place.span:
+            return kept[1]
+        if not all(_is_known(item) for argument in given for item in argument):
+            return None
+        parts = self._parts(self._place.span)
+        if len(parts) != 1 or type(parts[0]) is not Call:
+            return None
+        made = new_template(parts, self._raw(), parts[0].span)
+        if all(type(item) is TextSubstitution for argument in given for item in argument):
+            self._kept = tuple(map(list, given)), made
+        return made
+
     def _paths(self) -> Sequence[tuple[Step, ...]]:
         """Return where the arguments of the call stand among those of the constructor."""
         return [(name,) for name in getattr(self, "_parameters", ())]
@@ -61,3 +82,10 @@ class CallSubstitution(Substitution):
     def _raw(self) -> str:
         arguments = ("".join(item._raw() for item in argument) for argument in self._arguments())
         return called(self._name, arguments)
+
+
+def _is_known(item: Substitution) -> bool:
+    """Return whether no code of launch files says what a substitution comes to, nor how it is described."""
+    return type(item) is TextSubstitution or (
+        isinstance(item, CallSubstitution) and item._whole() is not None
+    )

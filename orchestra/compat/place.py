@@ -4,21 +4,24 @@ from __future__ import annotations
 
 import os
 import sys
+from contextlib import contextmanager
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.dataclass import dataclass
 from orchestra.fields import field
-from orchestra.location import FIELDS, Span, displayed
+from orchestra.location import FIELDS, Span, displayed, stretch
 from orchestra.witness.once import real
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
     from types import CodeType, FrameType
 
-# Codes with the positions of all their instructions; a code that is kept keeps its id.
-_unpacked: dict[int, tuple[CodeType, list[_Positions]]] = {}
-_MOST_CODES: Final = 32
+# What is known of codes; a code that is kept keeps its id.
+_known: dict[int, Instructions] = {}
+_MOST_CODES: Final = 256
+# Where everything stands that is made now, whoever makes it.
+_standing: list[Place] = []
 _OWN = os.path.join(os.path.dirname(os.path.dirname(__file__)), "")  # noqa: PTH118, PTH120 - compared with file names of code
 _Positions: TypeAlias = tuple[int | None, int | None, int | None, int | None]
 
@@ -70,12 +73,13 @@ class Place:
             self._span = span_of(self._code, self._instruction)
         return self._span
 
+    def of(self, made: object) -> Place:
+        """Return the same place as that of what was made there."""
+        return Place(self._code, self._instruction, None if made is None else type(made))
+
     def at(self, *path: Way) -> Argument:
         """Return the place of an argument of the call, or of what it holds: a keyword, then keys and indexes."""
-        made = object.__new__(Argument)
-        _set_path(made, path)
-        _set_place(made, self)
-        return made
+        return argument(self, path)
 
 
 @dataclass(frozen=True, slots=True)
@@ -95,17 +99,32 @@ class Argument(Span):
             if name not in FIELDS:
                 raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
             span = self.place.span
+            if name == "file":  # as in a span
+                return span.file
             for known in FIELDS:
                 object.__setattr__(self, known, getattr(span, known))
             return getattr(span, name)
+
+    def __deepcopy__(self, memo: object) -> Argument:
+        """Return the same: nobody changes it, and what is made of a span has no path."""
+        return self
 
     def inside(self, *steps: Way) -> Argument:
         """Return the place of something that the argument holds."""
         return self.place.at(*self.path, *steps)
 
 
+_new = object.__new__
 _set_path: Callable[[Argument, tuple[Way, ...]], None] = vars(Argument)["path"].__set__
 _set_place: Callable[[Argument, Place], None] = vars(Argument)["place"].__set__
+
+
+def argument(place: Place, path: tuple[Way, ...]) -> Argument:
+    """Return the place of an argument of the call at a place, or of what it holds."""
+    made = _new(Argument)
+    _set_path(made, path)
+    _set_place(made, place)
+    return made
 
 
 def within(span: Span, *steps: Way) -> Span:
@@ -113,8 +132,20 @@ def within(span: Span, *steps: Way) -> Span:
     return span.inside(*steps) if isinstance(span, Argument) else span
 
 
+@contextmanager
+def standing(place: Place) -> Iterator[None]:
+    """Let what is made for a while stand at a place: it makes up for what has not been made there."""
+    _standing.append(place)
+    try:
+        yield
+    finally:
+        _standing.pop()
+
+
 def here(made: object = None) -> Place:
     """Return the place in the user's code that led to this call: where `made` was made, by whatever subclass."""
+    if _standing:
+        return _standing[-1].of(made)
     frame: FrameType | None = sys._getframe(1)
     outermost = frame
     while frame is not None and (frame.f_code.co_filename.startswith(_OWN) or _is_constructor(frame, made)):
@@ -137,8 +168,42 @@ def is_own(file: str) -> bool:
 
 def span_of(code: CodeType, instruction: int) -> Span:
     """Return the range of source text of an instruction; columns are counted in code points."""
-    line, end_line, column, end_column = _positions(code, instruction // 2)
-    return span_in(code.co_filename, (line or code.co_firstlineno, end_line, column, end_column))
+    known = _known.get(id(code))
+    if known is None:
+        if len(_known) >= _MOST_CODES:
+            _known.clear()
+        known = _known[id(code)] = Instructions(code)
+    return stretch(known, 2 * instruction, 2 * instruction + 1)
+
+
+class Instructions:
+    """The instructions of a code, as a text in which two offsets each are where one begins and where it ends.
+
+    The positions are unpacked once, for there is no way to one of them.
+    """
+
+    __slots__ = ("_code", "_positions")
+
+    def __init__(self, code: CodeType) -> None:
+        self._code = code
+        self._positions: list[_Positions] | None = None
+
+    @property
+    def file(self) -> str:
+        """The file, as it is shown to people."""
+        return shown(self._code.co_filename)
+
+    def place(self, offset: int) -> tuple[int, int]:
+        """Return line and column."""
+        instruction, end = divmod(offset, 2)
+        span = span_in(self._code.co_filename, self._at(instruction // 2))
+        return (span.end_line, span.end_column) if end else (span.line, span.column)
+
+    def _at(self, index: int) -> _Positions:
+        if self._positions is None:
+            self._positions = list(self._code.co_positions())
+        known = self._positions[index] if index < len(self._positions) else (None, None, None, None)
+        return (known[0] or self._code.co_firstlineno, *known[1:])
 
 
 def span_in(file: str, positions: _Positions) -> Span:
@@ -159,16 +224,6 @@ def shown(file: str) -> str:
 @lru_cache(maxsize=4096)
 def _shown(file: str, _working_directory: str) -> str:
     return displayed(file, real)
-
-
-def _positions(code: CodeType, index: int) -> _Positions:
-    """Return the positions of an instruction; those of a code are unpacked once, for there is no way to one of them."""
-    known = _unpacked.get(id(code))
-    if known is None:
-        if len(_unpacked) >= _MOST_CODES:
-            _unpacked.clear()
-        known = _unpacked[id(code)] = code, list(code.co_positions())
-    return known[1][index] if index < len(known[1]) else (None, None, None, None)
 
 
 def code_points(file: str, line: int, offset: int) -> int:

@@ -16,6 +16,7 @@ from orchestra.compat.reported import ReportedError
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+    from types import FrameType
 
     from orchestra.errors import Problems
     from orchestra.location import Span
@@ -43,6 +44,10 @@ class Refusing:
     """The root of such classes. `_refused` ones lack something that was wrong, `_lost` ones cannot be used at all."""
 
     _refused = False
+
+    def _taken(self, keywords: dict[str, Any], caller: FrameType) -> bool:  # noqa: ARG002 - for subclasses
+        """Take the keywords of a call that nothing is wrong with; false where the constructor has to look at them."""
+        return False
 
     def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
@@ -73,6 +78,8 @@ def _refusing(constructor: Callable[..., None]) -> Callable[..., None]:
         caller = sys._getframe(1)
         if not _collectors or is_own(caller.f_code.co_filename):
             constructor(self, *arguments, **keywords)
+            return
+        if not arguments and self._taken(keywords, caller):
             return
         try:
             constructor(self, *arguments, **keywords)

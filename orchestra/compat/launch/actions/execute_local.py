@@ -37,7 +37,7 @@ if TYPE_CHECKING:
     from orchestra.description.handlers import Handler
     from orchestra.location import Span
 
-_OVERRIDE = "OVERRIDE_LAUNCH_PROCESS_OUTPUT"
+OVERRIDE = "OVERRIDE_LAUNCH_PROCESS_OUTPUT"
 
 
 class ExecuteLocal(ModelledAction):
@@ -75,7 +75,7 @@ class ExecuteLocal(ModelledAction):
         self.__shell = shell
         self.__timeouts = {"sigterm_timeout": sigterm_timeout, "sigkill_timeout": sigkill_timeout}
         self.__emulate_tty = emulate_tty
-        self.__output = _normalized_output(os.environ.get(_OVERRIDE, output))
+        self.__output = _normalized_output(os.environ.get(OVERRIDE, output))
         self.__output_format = output_format
         self.__cached_output = cached_output
         self.__log_cmd = log_cmd

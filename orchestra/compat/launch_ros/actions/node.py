@@ -7,10 +7,10 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.extensions import RUNNING, extension_fields
-from orchestra.compat.launch.actions.execute_process import ExecuteProcess
 from orchestra.compat.launch_ros.actions.node_action_extension import NodeActionExtension
 from orchestra.compat.launch_ros.models import params, remaps
 from orchestra.compat.launch_ros.node_words import parameter_words, rules
+from orchestra.compat.launch_ros.plain_nodes import PlainNode
 from orchestra.compat.launch_ros.substitutions.executable_in_package import ExecutableInPackage
 from orchestra.compat.launch_ros.utilities.namespace_utils import make_namespace_absolute, prefix_namespace
 from orchestra.compat.launch_ros.utilities.normalize_parameters import normalize_parameters
@@ -39,7 +39,7 @@ _ROS_ARGUMENTS: Final = "--ros-args"
 _PLAIN: Final = frozenset({"env", "origin"})
 
 
-class Node(ExecuteProcess):
+class Node(PlainNode):
     """Start a node: an executable of a package, without `package` any program.
 
     Instead of them a Python `module` or `script` may be given. `name` and `namespace` are the node's, `exec_name`
@@ -49,6 +49,7 @@ class Node(ExecuteProcess):
     is given.
     """
 
+    _may_be_plain = True
     _more_keywords = (*RUNNING, "lifecycle", "params_schema")
 
     UNSPECIFIED_NODE_NAME = "<node_name_unspecified>"
@@ -170,6 +171,9 @@ class Node(ExecuteProcess):
 
     def _resolved_as(self, name: str | None, namespace: str | None, rules: Iterable[tuple[str, str]]) -> None:
         """Take note of what a visit has come to. `rules` are the remappings of all nodes, then the node's own."""
+        if self._plainly() is not None:
+            super()._resolved_as(name, namespace, rules)
+            return
         self.__expanded_node_name = self.UNSPECIFIED_NODE_NAME if name is None else name.removeprefix("/")
         self.__expanded_node_namespace = self.UNSPECIFIED_NODE_NAMESPACE if namespace is None else namespace
         self.__expanded_remappings = list(rules) or None

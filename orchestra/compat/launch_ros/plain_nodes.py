@@ -1,0 +1,276 @@
+"""Nodes whose arguments are of the usual kinds: one walk through them makes the fields of the model.
+
+Launch files have hundreds of such nodes, and what the constructor keeps of them in upstream's forms is seldom looked
+at. It is made when somebody does. Nothing is read here that the constructor would read otherwise, and whatever it
+might have something to say about is left to it.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.compat.launch.actions.execute_local import OVERRIDE
+from orchestra.compat.launch.actions.execute_process import ExecuteProcess
+from orchestra.compat.launch_ros.plain_parameters import parameters
+from orchestra.compat.launch_ros.plain_texts import UnusualError, copied, entity, plain_text
+from orchestra.compat.place import Key, Place, ValueOf, argument, standing
+from orchestra.description.actions.node import Node as NodeModel
+from orchestra.description.outputs import OUTPUTS
+from orchestra.description.parts import Pair, Remap
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Mapping
+    from types import FrameType
+
+    from orchestra.description.entity import Action as Model
+
+
+class Plain:
+    """What a node is made of: the fields of its model, and its arguments, with lists and dictionaries of its own.
+
+    `resolved` and `prepared` are what a visit has come to.
+    """
+
+    __slots__ = ("fields", "given", "prepared", "resolved")
+
+    def __init__(self, fields: dict[str, Any], given: dict[str, Any]) -> None:
+        self.fields = fields
+        self.given = given
+        self.resolved: tuple[Any, ...] | None = None
+        self.prepared: tuple[Any, ...] | None = None
+
+    def model(self, place: Place, common: Mapping[str, Any]) -> Any:
+        """Return the model; `common` are the fields that every action has."""
+        origin, fields = common["origin"], self.fields
+        if len(common) == 1:
+            return entity(NodeModel, fields, place.span, origin)
+        ((word, condition),) = [(name, value) for name, value in common.items() if name != "origin"]
+        if condition.constant is None:
+            name = "if_" if word == "if" else word
+            return entity(NodeModel, {**fields, name: condition}, place.span, origin)
+        said = {name: value for name, value in fields.items() if value is not None}
+        return NodeModel.at(place.span, **said, **common)
+
+
+class PlainNode(ExecuteProcess):
+    """What a node is before somebody asks for more than its model: then it is constructed from its arguments.
+
+    That is for the very class that says `_may_be_plain`: those of users may look at what the constructor keeps.
+    """
+
+    _may_be_plain = False
+
+    def _taken(self, keywords: dict[str, Any], caller: FrameType) -> bool:
+        kind = type(self)
+        if "_may_be_plain" not in vars(kind) or _says_output(os.environ):
+            return False
+        place = Place(caller.f_code, caller.f_lasti, kind)
+        made = plain(keywords, place)
+        if made is None:
+            return False
+        condition = keywords.get("condition")
+        self.__dict__ = {"_place": place, "_plain": made, "_Action__condition": condition}
+        return True
+
+    if not TYPE_CHECKING:  # else any attribute would be one
+
+        def __getattr__(self, name: str) -> Any:
+            """Return what the constructor makes."""
+            if "_plain" not in vars(self):
+                return super().__getattr__(name)
+            self._construct()
+            return getattr(self, name)
+
+    def _construct(self) -> None:
+        """Do what the constructor does; what users have set since stays."""
+        own = vars(self)
+        made: Plain = own.pop("_plain")
+        self.__dict__ = {}
+        with standing(own["_place"]):
+            self.__init__(**made.given)  # type: ignore[misc] # with the keywords of the subclass
+        vars(self).update(own)
+        if made.resolved is not None:
+            self._resolved_as(*made.resolved)
+        if made.prepared is not None:
+            self._prepared_as(*made.prepared)
+
+    def _plainly(self) -> Plain | None:
+        """Return what the node is made of as long as nobody has asked for more, or set something."""
+        own = vars(self)
+        made: Plain | None = own.get("_plain")
+        if made is not None and len(own) > _OF_PLAIN:
+            self._construct()
+            return None
+        return made
+
+    def _resolved_as(self, name: str | None, namespace: str | None, rules: Any) -> None:
+        """Take note of what a visit has come to."""
+        made = self._plainly()
+        if made is not None:
+            made.resolved = name, namespace, rules
+
+    def _prepared_as(self, name: str, cmd: list[str], cwd: str | None, env: dict[str, str]) -> None:
+        made = self._plainly()
+        if made is None:
+            super()._prepared_as(name, cmd, cwd, env)
+        else:
+            made.prepared = name, cmd, cwd, env
+
+    def _to_model(self, common: Mapping[str, Any]) -> Model:
+        made = self._plainly()
+        if made is None:
+            return super()._to_model(common)
+        model: Model = made.model(self._place, common)
+        return model
+
+
+def _says_output(environ: Any) -> bool:
+    """Return whether the environment says where the output of all processes goes."""
+    known = getattr(
+        environ, "_data", None
+    )  # the table itself: to go through `os.environ` takes ten times as long
+    return OVERRIDE in environ if known is None else _OVERRIDE in known
+
+
+def plain(given: dict[str, Any], place: Place) -> Plain | None:
+    """Return what a node is made of that is constructed from keywords at a place; None where one is not usual."""
+    fields = _NOTHING.copy()
+    kept = given.copy()
+    try:
+        for name, value in given.items():
+            if value is not None:
+                _READ[name](name, value, place, fields, kept)
+            elif name not in _OPTIONAL:
+                return None
+    except (KeyError, UnusualError):
+        return None
+    return None if fields["exec"] is None else Plain(fields, kept)
+
+
+def _word(field: str) -> Callable[..., None]:
+    """Return what reads a text."""
+
+    def read(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+        fields[field] = plain_text(value, place, (name,))
+        if type(value) is list:
+            kept[name] = list(value)
+
+    return read
+
+
+def _words(field: str, *, empty: Any) -> Callable[..., None]:
+    """Return what reads a list of texts, of which each is a word."""
+
+    def read(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+        if type(value) is not list:
+            raise UnusualError
+        fields[field] = (
+            tuple([plain_text(item, place, (name, index)) for index, item in enumerate(value)]) or empty
+        )
+        kept[name] = copied(value)
+
+    return read
+
+
+def _flag(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    del kept
+    if value is True:
+        fields[name] = plain_text("true", place, (name,))
+    elif value is not False:
+        raise UnusualError
+    elif name == "emulate_tty":
+        fields[name] = plain_text("false", place, (name,))
+
+
+def _delay(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    del kept
+    if type(value) not in _NUMBERS or value < 0 or not math.isfinite(value):
+        raise UnusualError
+    fields[name] = plain_text(repr(value), place, (name,))
+
+
+def _output(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    del kept
+    if type(value) is str and value not in OUTPUTS:
+        raise UnusualError
+    fields[name] = made = plain_text(value, place, (name,))
+    if type(value) is not str and made.constant is not None:
+        raise UnusualError
+
+
+def _condition(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    """Leave a condition to the visit."""
+
+
+def _environment(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    if type(value) is not dict:
+        raise UnusualError
+    span = argument(place, (name,))
+    fields["env"] = tuple(
+        [
+            entity(
+                Pair,
+                {
+                    "name": plain_text(key, place, (name, Key(index))),
+                    "value": plain_text(text, place, (name, ValueOf(index))),
+                },
+                span,
+            )
+            for index, (key, text) in enumerate(value.items())
+        ]
+    )
+    kept[name] = {key: copied(text) for key, text in value.items()}
+
+
+def _read_parameters(
+    name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]
+) -> None:
+    fields["param"], kept[name] = parameters(name, value, place)
+
+
+def _remaps(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    if type(value) is not list:
+        raise UnusualError
+    span = argument(place, (name,))
+    made = []
+    for index, rule in enumerate(value):
+        if type(rule) is not tuple or len(rule) != _SIDES:
+            raise UnusualError
+        source = plain_text(rule[0], place, (name, index, 0))
+        target = plain_text(rule[1], place, (name, index, 1))
+        made.append(entity(Remap, {"from_": source, "to": target}, span))
+    fields["remap"] = tuple(made)
+    kept[name] = copied(value)
+
+
+_SIDES: Final = 2
+_OVERRIDE: Final = OVERRIDE.encode()
+# What a node has as long as it is plain: its place, its condition, and what it is made of.
+_OF_PLAIN: Final = 3
+_NUMBERS: Final = (int, float)
+_NOTHING: Final = NodeModel._unwritten()
+_OPTIONAL: Final = frozenset(
+    {"package", "name", "namespace", "exec_name", "parameters", "remappings", "arguments", "ros_arguments"}
+    | {"output", "prefix", "cwd", "additional_env", "condition", "emulate_tty", "respawn_delay", "on_exit"}
+)
+_READ: Final[dict[str, Callable[..., None]]] = {
+    "package": _word("pkg"),
+    "executable": _word("exec"),
+    "name": _word("name"),
+    "namespace": _word("namespace"),
+    "exec_name": _word("exec_name"),
+    "prefix": _word("launch_prefix"),
+    "cwd": _word("cwd"),
+    "parameters": _read_parameters,
+    "remappings": _remaps,
+    "arguments": _words("args", empty=None),
+    "ros_arguments": _words("ros_args", empty=()),
+    "output": _output,
+    "emulate_tty": _flag,
+    "respawn": _flag,
+    "respawn_delay": _delay,
+    "additional_env": _environment,
+    "condition": _condition,
+}

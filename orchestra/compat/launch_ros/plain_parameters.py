@@ -1,0 +1,82 @@
+"""Parameters of the usual kinds: dictionaries of values and of dictionaries, and files."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.compat.launch_ros.plain_texts import (
+    UnusualError,
+    copied,
+    entity,
+    joined,
+    plain_text,
+    whole_text,
+)
+from orchestra.compat.place import argument
+from orchestra.description.parts import Param
+from orchestra.description.text import new_constant, new_template, new_words
+from orchestra.description.written import escaped
+
+if TYPE_CHECKING:
+    from orchestra.compat.place import Place
+    from orchestra.description.text import Part
+    from orchestra.location import Span
+
+
+def parameters(name: str, value: Any, place: Place) -> tuple[tuple[Param, ...], list[Any]]:
+    """Return the parts of the model for a list of parameters, and a copy of the list."""
+    if type(value) is not list:
+        raise UnusualError
+    made: list[Param] = []
+    own: list[Any] = []
+    for index, item in enumerate(value):
+        path = (name, index)
+        if type(item) is dict:
+            span = argument(place, path)
+            own.append(_entries(item, ((), "", ""), span, made))
+        else:
+            file = plain_text(item, place, path)
+            made.append(entity(Param, {**_NO_PARAMETER, "from_": file}, argument(place, path)))
+            own.append(copied(item))
+    return tuple(made), own
+
+
+def _entries(
+    items: dict[Any, Any], around: tuple[tuple[Part, ...], str, str], span: Any, made: list[Param]
+) -> dict[Any, Any]:
+    """Add the parameters of a dictionary, whose names begin with what is around it; return a copy of it."""
+    before, written, known = around
+    own = {}
+    for key, value in items.items():
+        if type(key) is not str:
+            raise UnusualError
+        parts = (*before, new_words(key, span)) if key else before
+        raw, name = written + escaped(key), known + key
+        if type(value) is dict:
+            inner = ((*parts, new_words(".", span)), raw + ".", name + ".")
+            own[key] = _entries(value, inner, span, made)
+            continue
+        called = new_template(parts, raw, span)
+        read, own[key] = _value(value, argument(span.place, (*span.path, name)))
+        made.append(entity(Param, {**_NO_PARAMETER, "name": called, "value": read}, span))
+    return own
+
+
+def _value(value: Any, span: Span) -> tuple[Any, Any]:
+    """Return what the value of a parameter is to the model, and a copy of it."""
+    kind = type(value)
+    if kind in _SCALARS:
+        return new_constant(value, span), value
+    if kind is not list and kind is not tuple:
+        return whole_text(value), value
+    kinds = set(map(type, value))
+    if kinds <= _SCALARS:
+        if len(kinds) > 1 and kinds not in ({int, float}, {bool, int}):
+            raise UnusualError
+        items = map(float, value) if kinds == {int, float} else value
+        return new_constant(tuple(items), span), kind(value)
+    return joined(value, span), kind(value)
+
+
+_SCALARS: Final = frozenset({str, bool, int, float})
+_NO_PARAMETER: Final = Param._unwritten()

@@ -1,0 +1,81 @@
+"""Texts of the usual kinds in the arguments of launch files, as parts of models."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.compat.calls import CallSubstitution
+from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
+from orchestra.compat.place import argument
+from orchestra.description.model import Model
+from orchestra.description.text import Template, new_template, new_words
+from orchestra.description.written import escaped
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from orchestra.compat.place import Place, Way
+    from orchestra.description.text import Part
+    from orchestra.location import Span
+
+
+class UnusualError(Exception):
+    """An argument is none of the usual ones."""
+
+
+def whole_text(value: Any) -> Template:
+    """Return the text that a substitution alone is."""
+    made = value._whole() if isinstance(value, CallSubstitution) else None
+    if made is None:
+        raise UnusualError
+    return made
+
+
+def plain_text(value: Any, place: Place, path: tuple[Way, ...]) -> Template:
+    """Return a text, a substitution, or several of both."""
+    kind = type(value)
+    if kind is TextSubstitution:
+        value, kind = value.text, str
+    if kind is str:
+        span = argument(place, path)
+        return new_template((new_words(value, span),) if value else (), escaped(value), span)
+    if kind is list or kind is tuple:
+        return joined(value, argument(place, path))
+    return whole_text(value)
+
+
+def joined(items: Any, span: Span) -> Template:
+    """Return several texts and substitutions as one that stands at a place."""
+    parts: list[Part] = []
+    raw = ""
+    for item in items:
+        text = item.text if type(item) is TextSubstitution else item
+        if type(text) is str:
+            if text:
+                parts.append(new_words(text, span))
+            raw += escaped(text)
+        else:
+            whole = whole_text(text)
+            parts += whole.parts
+            raw += whole.raw
+    return new_template(tuple(parts), raw, parts[0].span if len(parts) == 1 else span)
+
+
+def copied(value: Any) -> Any:
+    """Return a list, or what is in a tuple, so that nobody else changes it."""
+    if type(value) is list:
+        return list(map(copied, value))
+    return tuple(map(copied, value)) if type(value) is tuple else value
+
+
+def entity(kind: type[Any], values: dict[str, Any], span: Span, origin: Any = None) -> Any:
+    """Return what `Entity.made` makes of all of the fields."""
+    made = _new(kind)
+    _set_values(made, values)
+    _set_beside(made, {"span": span, "origin": origin})
+    return made
+
+
+_new = object.__new__
+_set_beside: Final[Callable[[Any, dict[str, Any]], None]] = vars(Model)["__pydantic_private__"].__set__
+_set_values: Final[Callable[[Any, dict[str, Any]], None]] = vars(Model)["__dict__"].__set__

@@ -1,0 +1,249 @@
+"""Nodes that are made in one walk through their arguments are what the constructor makes of them."""
+
+from __future__ import annotations
+
+import copy
+import re
+from typing import TYPE_CHECKING, Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from orchestra.compat.building import model_of
+from orchestra.compat.launch import Substitution
+from orchestra.compat.launch.conditions import IfCondition, UnlessCondition
+from orchestra.compat.launch.substitutions import (
+    EnvironmentVariable,
+    LaunchConfiguration,
+    PathJoinSubstitution,
+    TextSubstitution,
+    ThisLaunchFileDir,
+)
+from orchestra.compat.launch_ros.actions import Node
+from orchestra.compat.launch_ros.descriptions import ParameterFile, ParameterValue
+from orchestra.compat.launch_ros.substitutions import FindPackageShare
+from orchestra.compat.refusing import collecting
+from orchestra.description.entity import Entity
+from orchestra.errors import Problems
+from orchestra.location import Span
+from tests.compat.contexts import loading
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator
+
+
+class _Own(Substitution):
+    def perform(self, context: Any) -> str:
+        del context
+        return "own"
+
+
+@pytest.fixture(autouse=True, scope="module")
+def _loading() -> Iterator[None]:
+    with loading({"PATH": "/usr/bin:/bin"}):
+        yield
+
+
+def _made(keywords: dict[str, Any], *, plainly: bool = True) -> Node:
+    """Return a node that code of a launch file makes, at the same place each time."""
+    with pytest.MonkeyPatch.context() as patch, collecting(Problems(), ()):
+        if not plainly:
+            patch.setattr(Node, "_taken", lambda *_: False)
+        return Node(**keywords)
+
+
+def _model(node: Node) -> Any:
+    return model_of(node)
+
+
+def _is_plain(node: Node) -> bool:
+    return "_plain" in vars(node)
+
+
+def _told(node: Node) -> tuple[str, dict[str, Span]]:
+    """Return all that is said of the model of a node, and where each part of it stands."""
+    model = model_of(node)
+    spans: dict[str, Span] = {}
+
+    def walk(value: Any, way: str) -> None:
+        span = value if isinstance(value, Span) else getattr(value, "span", None)
+        if span is not None:
+            spans[way] = span
+        if isinstance(value, Entity):
+            for name, item in vars(value).items():
+                walk(item, f"{way}.{name}")
+        elif isinstance(value, tuple):
+            for index, item in enumerate(value):
+                walk(item, f"{way}[{index}]")
+        for name in ("parts", "arguments"):
+            if hasattr(value, name):
+                walk(getattr(value, name), f"{way}.{name}")
+
+    walk(model, "")
+    fields = sorted((name, repr(value)) for name, value in vars(model).items())
+    return repr((type(model), fields, model.faults, model.faulty)), spans
+
+
+_BY_NAME: dict[str, Callable[[], Any]] = {
+    "LaunchConfiguration": lambda: LaunchConfiguration("x"),
+    "with a default": lambda: LaunchConfiguration("y", default=["a", LaunchConfiguration("x")]),
+    "joined": lambda: PathJoinSubstitution([FindPackageShare("demo"), "config", "a b.yaml"]),
+    "of the environment": lambda: EnvironmentVariable("HOME", default_value=""),
+    "folder": ThisLaunchFileDir,
+    "text": lambda: TextSubstitution(text="$(t)"),
+    "own": _Own,
+}
+_WORDS = st.sampled_from(["", "a", "a b", "$(var x)", "it's", "\\", "ü", "/ns", "screen", "true", "1.5"])
+_SUBS = st.sampled_from(sorted(_BY_NAME)).map(lambda name: _BY_NAME[name]())
+_MIXED = st.lists(st.one_of(_WORDS, _SUBS), max_size=3)
+_TEXTS = st.one_of(_WORDS, _WORDS, _SUBS, _MIXED, _MIXED.map(tuple))
+_SCALARS = st.one_of(_WORDS, st.booleans(), st.integers(-2, 2), st.floats(allow_nan=False))
+_VALUES = st.one_of(
+    *(_SCALARS, _SUBS, _MIXED, st.lists(_SCALARS, max_size=3), st.lists(st.floats(0, 1) | st.integers(0, 2))),
+    *(_SCALARS.map(ParameterValue), st.none(), st.lists(st.lists(_WORDS, max_size=2), max_size=2).map(tuple)),
+)
+_NAMES = st.one_of(st.sampled_from(["a", "b.c", "", "$x"]), st.sampled_from(["d", "e"]))
+_DICTIONARIES = st.recursive(
+    st.dictionaries(_NAMES, _VALUES, max_size=3),
+    lambda inner: st.dictionaries(_NAMES, _VALUES | inner, max_size=2),
+    max_leaves=3,
+)
+_ARGUMENTS = st.fixed_dictionaries(
+    {"executable": _TEXTS},
+    optional={
+        **dict.fromkeys(("package", "name", "namespace", "exec_name", "prefix", "cwd"), st.none() | _TEXTS),
+        "parameters": st.none()
+        | st.lists(_DICTIONARIES | _TEXTS | st.just("p.yaml").map(ParameterFile), max_size=3),
+        "remappings": st.none() | st.lists(st.tuples(_TEXTS, _TEXTS), max_size=3),
+        "arguments": st.none() | st.lists(_TEXTS, max_size=3),
+        "ros_arguments": st.none() | st.lists(_TEXTS, max_size=3),
+        "output": st.sampled_from(
+            [None, "screen", "log", "both", "scren", ["screen"], LaunchConfiguration("o")]
+        ),
+        "emulate_tty": st.sampled_from([None, True, False, "true"]),
+        "respawn": st.sampled_from([True, False, "true"]),
+        "respawn_delay": st.sampled_from([None, 0, 2, 1.5, -1.0, float("inf"), "2"]),
+        "additional_env": st.none() | st.dictionaries(_WORDS, _TEXTS, max_size=2),
+        "condition": st.sampled_from(
+            [None, IfCondition(LaunchConfiguration("c")), UnlessCondition("false"), IfCondition("perhaps")]
+        ),
+        "shell": st.booleans(),
+    },
+)
+
+
+@given(_ARGUMENTS)
+@settings(max_examples=300, deadline=None)
+def test_the_model_is_the_one_of_the_constructor(keywords: dict[str, Any]) -> None:
+    try:
+        ordinary = _made(keywords, plainly=False)
+    except TypeError as error:
+        with pytest.raises(type(error), match=re.escape(str(error))):
+            _made(keywords)
+        return
+    plain = _made(keywords)
+    assert not _is_plain(ordinary)
+    if not _is_plain(plain):
+        return
+    try:
+        expected = _told(ordinary)
+    except Exception as error:  # noqa: BLE001 - whatever a value is refused with
+        with pytest.raises(type(error)):
+            _told(plain)
+        return
+    assert _told(plain) == expected
+    assert _is_plain(plain)
+    # When somebody has looked at it, it still is.
+    assert [*map(str, plain.cmd[0])] == [*map(str, ordinary.cmd[0])]
+    assert not _is_plain(plain)
+    assert _told(plain) == expected
+
+
+_USUAL: dict[str, Any] = {
+    "package": "demo",
+    "executable": "talker",
+    "name": ["a", LaunchConfiguration("x")],
+    "namespace": LaunchConfiguration("x"),
+    "parameters": ["p.yaml", {"a": {"b": [1, 2.5]}, "c": [LaunchConfiguration("x"), "/d"]}],
+    "remappings": [("a", ["/", LaunchConfiguration("x")])],
+    "arguments": ["--x", LaunchConfiguration("x")],
+    "output": "screen",
+    "emulate_tty": True,
+    "additional_env": {"A": "1"},
+    "condition": IfCondition(LaunchConfiguration("c")),
+}
+
+
+def test_usual_nodes_are_made_so() -> None:
+    node = _made(_USUAL)
+    assert _is_plain(node)
+    assert _model(node).if_ is not None
+    assert _is_plain(node)
+
+
+@pytest.mark.parametrize("name", ["parameters", "remappings", "arguments", "additional_env"])
+def test_what_happens_to_arguments_later_is_not_seen(name: str) -> None:
+    keywords = copy.deepcopy(_USUAL)
+    node = _made(keywords)
+    expected = _told(node)
+    for held in keywords["parameters"][1:], keywords["parameters"][1]["a"]["b"], keywords["remappings"][0][1]:
+        held.clear()
+    keywords[name].clear()
+    assert _told(node) == expected
+    assert node.cmd  # whose words are made now
+    assert _told(node) == expected
+
+
+def test_what_is_changed_in_a_node_counts() -> None:
+    node = _made(_USUAL)
+    node.cmd.append([TextSubstitution(text="-v")])
+    assert [word.raw for word in _model(node).ros_args] == ["-v"]
+    node = _made(_USUAL)
+    node._Node__node_executable = "listener"  # what some files do
+    assert _model(node).exec.raw == "listener"
+    assert node.node_package == "demo"
+
+
+def test_what_a_visit_comes_to_is_kept_until_somebody_asks() -> None:
+    node = _made(_USUAL)
+    node._resolved_as("a1", "/x", iter([("a", "/b")]))
+    node._prepared_as("talker-1", ["talker"], None, {"A": "1"})
+    assert _is_plain(node)
+    assert (node.node_name, node.expanded_remapping_rules) == ("/x/a1", [("a", "/b")])
+    assert (node.name, node.cmd, node.env) == ("talker-1", ["talker"], {"A": "1"})
+    assert node.process_details is not None
+
+
+def test_a_copy_is_a_node_of_its_own() -> None:
+    node = _made(_USUAL)
+    copied = copy.copy(node)
+    copied._Node__node_executable = "listener"
+    assert (_model(node).exec.raw, _model(copied).exec.raw) == ("talker", "listener")
+    assert copy.deepcopy(node).node_package == "demo"
+
+
+def test_other_kinds_of_nodes_are_constructed(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Mine(Node):
+        pass
+
+    with collecting(Problems(), ()):
+        assert not _is_plain(Mine(executable="talker"))
+        monkeypatch.setenv("OVERRIDE_LAUNCH_PROCESS_OUTPUT", "log")
+        assert _model(Node(executable="talker", output="screen")).output.raw == "log"
+    assert not _is_plain(Node(executable="talker"))  # nobody collects what is wrong
+
+
+def test_parameter_files_stand_where_they_are_written() -> None:
+    node = _made(_USUAL)
+    expected = _told(node)
+    assert node.node_package == "demo"
+    file = vars(node)["_Node__parameters"][0]
+    assert str(file._place.span) == str(node._place.span)
+    assert _told(node) == expected
+
+
+def test_a_condition_that_is_no_text_is_refused_as_ever() -> None:
+    node = _made({"executable": "talker", "condition": IfCondition("perhaps")})
+    with pytest.raises(Exception, match="expected true or false"):
+        _model(node)
