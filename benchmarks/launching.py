@@ -76,11 +76,11 @@ def environment(folder: Path) -> dict[str, str]:
 
 @contextmanager
 def started(
-    command: Sequence[str], site: Site, stdout: int | None = subprocess.DEVNULL
+    command: Sequence[str], site: Site, stdout: int | None = subprocess.DEVNULL, *, may_hang: bool = False
 ) -> Iterator[subprocess.Popen[bytes]]:
     """Run a command in a session of its own; all of it is ended where it has not ended by itself.
 
-    Raises `RuntimeError` where it then has failed.
+    Raises `RuntimeError` where it then has failed. What `may_hang` has not failed when it was killed by `end`.
     """
     errors = site.folder / "errors"
     with (
@@ -106,7 +106,8 @@ def started(
             raise
         finally:
             status = finished(popen)
-    if status not in (0, 128 + signal.SIGINT, 128 + signal.SIGTERM, -signal.SIGINT, -signal.SIGTERM):
+    well = (0, 128 + signal.SIGINT, 128 + signal.SIGTERM, -signal.SIGINT, -signal.SIGTERM)
+    if status not in well and not (may_hang and status == -signal.SIGKILL):
         raise RuntimeError(f"{command} ended with {status}: {errors.read_text()[-2000:]}")
 
 

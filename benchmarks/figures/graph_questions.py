@@ -72,7 +72,7 @@ def measure(site: Site, size: int) -> Mapping[str, Sample]:
         )
         there = Site(site.folder, variables)
         nodes = [
-            stack.enter_context(launching.started([sys.executable, "-c", _NODE, name], there))
+            stack.enter_context(launching.started([sys.executable, "-c", _NODE, name], there, may_hang=True))
             for name in names
         ]
         stack.callback(launching.end, [node.pid for node in nodes])

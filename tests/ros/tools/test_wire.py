@@ -14,7 +14,6 @@ import pytest
 
 from orchestra.ros.tools.graph.names import nodes, services, topics
 from orchestra.ros.tools.graph.seeing import looking
-from orchestra.ros.tools.graph.wire import member
 from orchestra.ros.tools.graph.wire.endpoints import service, service_type, type_of
 from orchestra.ros.tools.graph.wire.own import PUBLICATIONS, READERS, announcement, endpoint, farewell
 from orchestra.ros.tools.graph.wire.parameters import (
@@ -60,7 +59,7 @@ def test_what_is_written_is_read() -> None:
         acknowledgement(_READER, _WRITER, number, [*wanted, number + 256], 1),
         acknowledgement(_READER, _WRITER, 0, (), 2),
     )
-    heard = [Data(_WRITER, number, {}, b"\0\3\0\0text", "<"), Heartbeat(_WRITER, 1, number)]
+    heard: list[Any] = [Data(_WRITER, number, {}, b"\0\3\0\0text", "<"), Heartbeat(_WRITER, 1, number)]
     heard += [
         Acknowledgement(_READER, _WRITER, number, wanted),
         Acknowledgement(_READER, _WRITER, 0, frozenset()),
@@ -213,7 +212,7 @@ def _seen() -> Iterator[list[Any]]:
 def test_what_gets_lost_is_asked_for_again(monkeypatch: pytest.MonkeyPatch) -> None:
     whole = list(_seen())
     assert whole[0] == ["/robot1/actor", "/robot1/machine"]
-    monkeypatch.setattr(member.socket, "socket", _Lossy)
+    monkeypatch.setattr(socket, "socket", _Lossy)
     assert list(_seen()) == whole
 
 
