@@ -48,7 +48,7 @@ class Telling:
     @classmethod
     def of(cls, command: str, options: Namespace) -> Telling:
         """Return how the errors of a command with these options are told."""
-        words = [word for word in getattr(options, "words", ()) if ":=" in word]
+        words = [word for word in getattr(options, "words", ()) if ":=" in word or command == "run"]
         files = [f"--params-file {file}" for file in getattr(options, "params_file", ())]
         given = " ".join([*words, *launch_prefix.words(options), *files])
         asked = getattr(options, "format", "text")

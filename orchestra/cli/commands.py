@@ -57,10 +57,14 @@ COMMANDS: Final[dict[str, Command]] = {
     "doctor": Command("orchestra.cli.ros.doctor", "say what is wrong in the running graph"),
     "bag": Command("orchestra.cli.ros.bag", "record messages and play them again"),
     "teleop": Command("orchestra.cli.ros.teleop", "drive a robot with the keys"),
+    "multicast": Command("orchestra.cli.ros.multicast", "try whether discovery can reach other machines"),
+    "daemon": Command("orchestra.cli.ros.daemon", "nothing: there is no daemon"),
     "completion": Command(
         "orchestra.cli.completion", "print what makes a shell complete these command lines"
     ),
 }
+# Other names of commands, as the ROS 2 tools have them.
+ALIASES: Final = {"wtf": "doctor"}
 
 
 def overview() -> str:

@@ -7,7 +7,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, TypeVar
 
 from orchestra.cli.boundary import Telling, guarded
-from orchestra.cli.commands import COMMANDS, overview
+from orchestra.cli.commands import ALIASES, COMMANDS, overview
 from orchestra.cli.leaving import end_at_once, threads
 from orchestra.errors import UsageError
 from orchestra.nearest import nearest
@@ -60,6 +60,7 @@ def _dispatch(words: Sequence[str]) -> int:
     if not words:
         raise UsageError("a command is missing")
     name, *rest = words
+    name = ALIASES.get(name, name)
     if name in ("-h", "--help", "help"):
         sys.stdout.write(overview())
         return 0

@@ -64,6 +64,10 @@ def test_every_command_explains_itself(orchestra: Command, name: str) -> None:
     assert f"usage: orchestra {name}" in found.stdout
 
 
+def test_a_command_has_the_other_name_that_the_ros_2_tools_give_it(orchestra_beside: Command) -> None:
+    assert orchestra_beside("wtf", "--help").stdout.startswith("usage: orchestra doctor")
+
+
 def test_version(orchestra_beside: Command) -> None:
     assert orchestra_beside("--version").stdout == f"orchestra {version('orchestra')}\n"
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.cli.parser import CommandParser
 from orchestra.cli.ros.asking import become
-from orchestra.cli.ros.options import flag, graph, seconds
+from orchestra.cli.ros.options import graph, seconds
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -35,7 +35,20 @@ def parser() -> CommandParser:
     made.add_argument(
         "--format", choices=("text", "json"), default="text", help="how to write it (default: text)"
     )
-    flag("-r", "--report", tell="tell of the machine, the middleware and the whole graph too")(made)
+    report = made.add_mutually_exclusive_group()
+    report.add_argument(
+        "-r",
+        "--report",
+        action="store_true",
+        help="tell of the machine, the middleware and the whole graph too",
+    )
+    report.add_argument(
+        "-rf", "--report-failed", action="store_true", help="the same, but only where something is wrong"
+    )
+    made.add_argument(
+        "-ep", "--exclude-packages", action="store_true", help="nothing: no versions are compared"
+    )
+    made.add_argument("-iw", "--include-warnings", action="store_true", help="nothing: all is told")
     which = made.add_mutually_exclusive_group()
     which.add_argument(
         "--only", action="append", default=[], choices=CHECKS, metavar="CHECK", help="only this check"

@@ -114,4 +114,4 @@ def _xml(packages: InstalledPackages, options: Namespace) -> tuple[str, object]:
 
 def _unknown(packages: InstalledPackages, name: str) -> RunError:
     near = nearest(name, packages.names())
-    return RunError(f"there is no package {name}" + (f"; did you mean {near}?" if near else ""))
+    return RunError(f"Package not found: '{name}'" + (f"; did you mean {near}?" if near else ""))

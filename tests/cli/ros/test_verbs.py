@@ -122,7 +122,7 @@ def test_packages_are_listed_with_their_executables(orchestra_here: Command, pre
     unknown = orchestra_here("pkg", "prefix", "demmo", **here)
     assert (unknown.returncode, unknown.stderr) == (
         1,
-        "error: there is no package demmo; did you mean demo?\n",
+        "error: Package not found: 'demmo'; did you mean demo?\n",
     )
 
 

@@ -25,7 +25,8 @@ def examine(options: Namespace) -> int:
         seen = observed(graph, options)
         domain = graph.node.context.get_domain_id()
     findings = [finding for name in options.checks for finding in CHECKS[name](seen)]
-    told = report(seen, domain) if options.report else None
+    reports = options.report or (options.report_failed and findings)
+    told = report(seen, domain) if reports else None
     data: dict[str, Any] = {"domain": domain, "nodes": sorted(seen.system.nodes), "checks": options.checks}
     data["findings"] = [
         {"check": one.check, "message": one.message, "about": list(one.about), "details": one.details}
