@@ -1,12 +1,16 @@
 """Takes single values out of a node's parameters, with their types checked and their defaults noted."""
 
 import math
+import re
 from collections.abc import Mapping, Sequence
 from typing import Protocol, TypeVar
 
 import numpy as np
 
 _Value = TypeVar("_Value")
+
+# 1e-9 and 1.0e9 are numbers to ROS and in YAML 1.2; readers of YAML 1.1, such as PyYAML, give them as text.
+_EXPONENT = re.compile(r"[-+]?\d+(\.\d*)?[eE][-+]?\d+")
 
 
 class ParameterError(Exception):
@@ -26,8 +30,8 @@ class Report(Protocol):
 class Reader:
     """Reads parameters by name and remembers each name with the value that is in force.
 
-    A value of the wrong type is told to the report and replaced by the default. Whole numbers count as doubles,
-    and any sequence of numbers as a list of doubles. A parameter without a value is not set.
+    A value of the wrong type is told to the report and replaced by the default. Whole numbers count as doubles, text
+    such as 1e-9 too, and any sequence of numbers as a list of doubles. A parameter without a value is not set.
     """
 
     def __init__(self, values: Mapping[str, object], report: Report) -> None:
@@ -59,8 +63,13 @@ class Reader:
         """Read a finite number as a double."""
         value = self._values.get(name, default)
         number = _double(value)
-        if number is None or not math.isfinite(number):
+        if number is None:
             number = self._refused(name, value, "a number", default)
+        elif not math.isfinite(number):
+            self.report.warning(
+                f"parameter {name} must be a finite number, not {value!r}; {default!r} is used instead"
+            )
+            number = default
         self.in_force[name] = number
         return number
 
@@ -114,6 +123,10 @@ class Reader:
             self.report.error(f"parameter {name} must be a list of numbers, not {value!r}; it is not used")
             self.in_force[name] = []
             return None
+        if not all(map(math.isfinite, doubles)):
+            self.report.warning(f"parameter {name} must be a list of finite numbers; it is not used")
+            self.in_force[name] = []
+            return None
         self.in_force[name] = list(doubles)
         return doubles
 
@@ -136,6 +149,8 @@ class Reader:
 
 
 def _double(value: object) -> float | None:
+    if isinstance(value, str) and _EXPONENT.fullmatch(value):
+        return float(value)
     if isinstance(value, bool) or not isinstance(value, int | float | np.number):
         return None
     return float(value)
@@ -144,5 +159,5 @@ def _double(value: object) -> float | None:
 def _doubles(value: object) -> tuple[float, ...] | None:
     if isinstance(value, str) or not isinstance(value, Sequence):
         return None
-    doubles = [number for number in map(_double, value) if number is not None and math.isfinite(number)]
+    doubles = [number for number in map(_double, value) if number is not None]
     return tuple(doubles) if len(doubles) == len(value) else None

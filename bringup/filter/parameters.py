@@ -56,7 +56,7 @@ def read_settings(values: Mapping[str, object], report: Report) -> tuple[Setting
         publication=_publication(reader),
         control=_control(reader, sensors),
     )
-    tell_unread(reader)
+    tell_unread(reader, _OF_CONTROL)
     return settings, reader.in_force
 
 

@@ -2,7 +2,8 @@
 
 import difflib
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator, Sequence
+from itertools import takewhile
 
 from bringup.filter.parameter_reader import Reader
 
@@ -22,15 +23,21 @@ _ENDINGS = {
 }
 # As near as a slip of the keys.
 _SIMILAR = 0.6
+# How alike a name is to one that begins with it; slips of the keys are nearer.
+_BEGINNING = 0.8
 
 
-def tell_unread(reader: Reader) -> None:
-    """Tell what is set and has no effect: why, or what may have been meant."""
+def tell_unread(reader: Reader, others: Sequence[str]) -> None:
+    """Tell what is set and has no effect: why, or what may have been meant.
+
+    `others` are names that would count if something else were set.
+    """
     for name in reader.unread():
-        reader.report.warning(f"parameter {name} is unknown and has no effect; {_hint(name, reader)}")
+        hint = _hint(name, reader, others)
+        reader.report.warning(f"parameter {name} is unknown and has no effect; {hint}")
 
 
-def _hint(name: str, reader: Reader) -> str:
+def _hint(name: str, reader: Reader, others: Sequence[str]) -> str:
     sensor = _SENSOR.fullmatch(name)
     if sensor is not None:
         kind, number, ending = sensor.group(1), int(sensor.group(2)), sensor.group(3)
@@ -39,15 +46,16 @@ def _hint(name: str, reader: Reader) -> str:
             return f"{kind}{missing} is missing, and sensors are counted from 0 without a gap"
         if ending is not None and ending[1:] in _ENDINGS[kind] and not reader.has(f"{kind}{number}"):
             return f"{kind}{number}, its topic, is missing"
-    near = _nearest(name, (*reader.in_force, *_names_of_sensor(sensor)))
+    near = _nearest(name, (*reader.in_force, *others, *_names_of_sensors(name)))
     return f"did you mean {near}?" if _likeness(name, near) >= _SIMILAR else f"the nearest name is {near}"
 
 
-def _names_of_sensor(sensor: re.Match[str] | None) -> Iterable[str]:
-    """What could be said of a sensor of this name."""
-    if sensor is None:
-        return ()
-    return (f"{sensor.group(1)}{sensor.group(2)}_{ending}" for ending in _ENDINGS[sensor.group(1)])
+def _names_of_sensors(name: str) -> Iterator[str]:
+    """What could be said of sensors with the numbers that are in a name, or of the first ones."""
+    for number in sorted(set(re.findall(r"\d+", name))) or ["0"]:
+        for kind, endings in _ENDINGS.items():
+            yield f"{kind}{number}"
+            yield from (f"{kind}{number}_{ending}" for ending in endings)
 
 
 def _nearest(name: str, known: Iterable[str]) -> str:
@@ -55,12 +63,19 @@ def _nearest(name: str, known: Iterable[str]) -> str:
 
 
 def _likeness(name: str, candidate: str) -> float:
-    """How alike two names are, from 0 to 1, be it with their words in another order."""
+    """How alike two names are, from 0 to 1, be it with their words in another order, or the one cut short."""
     name, candidate = name.lower(), candidate.lower()
     return max(
+        _beginning(name, candidate) / len(name) * _BEGINNING,
         difflib.SequenceMatcher(None, name, candidate).ratio(),
         difflib.SequenceMatcher(None, _sorted(name), _sorted(candidate)).ratio(),
     )
+
+
+def _beginning(name: str, candidate: str) -> int:
+    """With how many characters both begin."""
+    pairs = zip(name, candidate, strict=False)
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))
 
 
 def _sorted(name: str) -> str:

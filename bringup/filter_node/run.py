@@ -1,12 +1,14 @@
 """Runs the filter's node until it is told to end."""
 
 import gc
+import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from threading import Event, Thread
 from time import monotonic, sleep
 
 import rclpy
+from rclpy.impl.implementation_singleton import rclpy_implementation
 from rclpy.node import Node
 from rclpy.signals import SignalHandlerOptions
 
@@ -25,17 +27,33 @@ def run() -> int:
     Both signals must be blocked by the caller: they are waited for in a thread of their own, so that nothing is
     ever interrupted half-way and the node leaves the graph at once.
     """
-    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    try:
+        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    except rclpy_implementation.RCLError as error:
+        return _refuse(error)
     try:
         with _node() as node:
             return _spin(node)
+    except ParameterError as error:
+        return _refuse(error)
     finally:
         rclpy.shutdown()
 
 
+def _refuse(error: Exception) -> int:
+    """Say why the node cannot start where it has no logger yet, as with a parameter file that ROS cannot read."""
+    sys.stderr.write(f"ekf: {error}\n")
+    return 1
+
+
 @contextmanager
 def _node() -> Iterator[Node]:
-    node = rclpy.create_node("ekf", automatically_declare_parameters_from_overrides=True)
+    try:
+        node = rclpy.create_node("ekf", automatically_declare_parameters_from_overrides=True)
+    except ValueError as error:
+        raise ParameterError(
+            f"a parameter has no type, such as an empty list; leave it out ({error})"
+        ) from error
     try:
         yield node
     finally:

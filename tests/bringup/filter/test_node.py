@@ -393,6 +393,24 @@ def test_a_covariance_of_a_wrong_size_ends_it_with_one_line(start: Callable[...,
     assert "Traceback" not in ekf.said
 
 
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("process_noise_covariance: [0.5, 0]", "Sequence should be of same type"),
+        ("odom0_config: []", "an empty list"),
+    ],
+)
+def test_a_parameter_file_that_ros_cannot_read_is_told_in_a_line(
+    start: Callable[..., Ekf], tmp_path: Path, line: str, said: str
+) -> None:
+    file = tmp_path / "ekf.yaml"
+    file.write_text(f"/**:\n  ros__parameters:\n    {line}\n")
+    ekf = start("--params-file", str(file))
+    assert ekf.process.wait(DEADLINE) == 1
+    assert said in ekf.said
+    assert "Traceback" not in ekf.said
+
+
 def test_what_is_wrong_but_not_fatal_is_logged(start: Callable[..., Ekf], bench: Bench) -> None:
     file = "/nowhere/trace.txt"
     wrong = _parameters(frequenci=3.0, initial_state="[1.0]", debug="true", debug_out_file=file)

@@ -54,6 +54,14 @@ def test_whole_numbers_count_as_doubles(settings_of: Callable[..., Settings]) ->
     assert (settings.estimation.process_noise == np.eye(15) * 2.0).all()
 
 
+def test_exponents_that_yaml_takes_for_text_are_numbers(settings_of: Callable[..., Settings]) -> None:
+    parameters = yaml.safe_load(f"{{sensor_timeout: 1e-1, initial_estimate_covariance: {['1e-3'] * 15}}}")
+    assert parameters["sensor_timeout"] == "1e-1", "PyYAML reads YAML 1.1"
+    settings = settings_of(**parameters)
+    assert settings.timing.sensor_timeout == NANOSECONDS // 10
+    assert (settings.estimation.initial_covariance == np.eye(15) * 1e-3).all()
+
+
 def test_a_full_covariance_is_read_row_by_row(settings_of: Callable[..., Settings]) -> None:
     values = np.arange(225.0)
     settings = settings_of(initial_estimate_covariance=list(values))
@@ -164,6 +172,13 @@ def test_a_value_of_another_type_is_an_error_that_names_it(
         ({"imu0_differental": True}, "did you mean imu0_differential?"),
         ({"base_link_output_frame": "b"}, "did you mean base_link_frame_output?"),
         ({"zzz": 1}, "zzz is unknown and has no effect; the nearest name is"),
+        ({"odm0": "o"}, "did you mean odom0?"),
+        ({"odmo0_config": VX}, "did you mean odom0_config?"),
+        ({"imuO": "i"}, "did you mean imu0?"),
+        ({"control_confg": [True] * 6}, "did you mean control_config?"),
+        ({"gravity": 9.8}, "did you mean gravitational_acceleration?"),
+        ({"sensor_timeout": float("inf")}, "sensor_timeout must be a finite number"),
+        ({"initial_estimate_covariance": [float("nan")] * 15}, "must be a list of finite numbers"),
     ],
 )
 def test_what_upstream_goes_on_with_is_a_warning_and_no_error(
