@@ -12,8 +12,10 @@ import _thread
 import ctypes
 import logging
 import signal
+import sys
 import time
 from ctypes import CFUNCTYPE, PYFUNCTYPE, Structure, c_bool, c_char_p, c_void_p, py_object
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from orchestra.ros.interfaces import layouts
@@ -21,9 +23,13 @@ from orchestra.ros.interfaces.layouts import Bytes, String
 
 if TYPE_CHECKING:
     from collections.abc import Callable
+    from types import FrameType
 
 log = logging.getLogger(__name__)
-_AFTER = 0.002  # seconds in which a thread that has let go of the interpreter is in the kernel
+_LOOK = 0.0005  # seconds between two looks at where a thread is
+_AT_MOST = 1.0  # seconds; a thread that computes for longer is interrupted where it is
+_WAITS = ("State:", "voluntary_ctxt_switches:")  # proc(5)
+_SLEEPS = "S"
 _HEADER = 4  # bytes of the encapsulation, which the middleware writes itself
 
 _Result = TypeVar("_Result")
@@ -92,20 +98,40 @@ def uninterrupted(convert: Callable[..., _Result], *arguments: object) -> _Resul
     """Call a short function that may be repeated, once more if it is interrupted, and pass the interrupt on.
 
     rclpy does not expect KeyboardInterrupt from a conversion, and would lose it. Another thread sends the signal
-    again, so that it comes when this thread is out of here, and has begun with the call in which it may wait: to one
-    that comes between it and the kernel the call would pay no heed.
+    again when this one has left the function that rclpy has called, and sleeps in a call: to one that comes between it
+    and the kernel the call would pay no heed.
     """
     try:
         return convert(*arguments)
     except KeyboardInterrupt:
         result = convert(*arguments)
-        _thread.start_new_thread(_interrupt, (_thread.get_ident(),))
+        called = sys._getframe(1)  # noqa: SLF001 - who calls this one is known in no other way
+        _thread.start_new_thread(_interrupt, (_thread.get_ident(), _thread.get_native_id(), called))
         return result
 
 
-def _interrupt(thread: int) -> None:
-    time.sleep(_AFTER)
+def _interrupt(thread: int, number: int, called: FrameType) -> None:
+    until, before, now = time.monotonic() + _AT_MOST, None, _asleep(number)
+    # The same sleep, seen twice: one for the interpreter, which this thread had, would have ended in between.
+    while time.monotonic() < until and (_is_in(called, thread) or now is None or now != before):
+        time.sleep(_LOOK)
+        before, now = now, _asleep(number)
     signal.pthread_kill(thread, signal.SIGINT)
+
+
+def _is_in(called: FrameType, thread: int) -> bool:
+    """Tell whether a thread is still in a function."""
+    frame = sys._current_frames().get(thread)  # noqa: SLF001 - as above
+    while frame is not None and frame is not called:
+        frame = frame.f_back
+    return frame is not None
+
+
+def _asleep(number: int) -> str | None:
+    """Return which one of its sleeps a thread is in, by its number in the kernel; None where it runs."""
+    status = Path(f"/proc/self/task/{number}/status").read_text("utf-8", "replace")
+    state, sleep = (next(line for line in status.splitlines() if line.startswith(name)) for name in _WAITS)
+    return sleep if state.split()[1] == _SLEEPS else None
 
 
 def _capsule_of(function: object) -> object:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 import time
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.errors import RunError
 from orchestra.ros.tools.graph.asking import LOOK, Deadline, ask
@@ -16,6 +16,8 @@ if TYPE_CHECKING:
     from argparse import Namespace
 
     from orchestra.ros.tools.graph.seeing import Graph
+
+_NANOSECONDS: Final = 10**9
 
 
 def list_services(options: Namespace) -> int:
@@ -65,7 +67,7 @@ def find(options: Namespace) -> int:
 
 def call(options: Namespace) -> int:
     """Call a service, and write what it answers."""
-    # All of rclpy and of messages, and only this needs it.
+    # All of messages, and of rclpy for its clock; only this needs it.
     from orchestra.ros.tools.graph.joining import joined  # noqa: PLC0415
     from orchestra.ros.tools.messages.plain import plain  # noqa: PLC0415
     from orchestra.ros.tools.messages.reading import fill_from  # noqa: PLC0415
@@ -75,11 +77,11 @@ def call(options: Namespace) -> int:
     kind = service_class(options.type)
     request = kind.Request()
     timed = fill_from(sys.stdin.read() if options.stdin else options.values, request)
-    with joined(options) as graph:
+    with (joined if options.use_sim_time else looking)(options) as graph:
         while True:
             began = time.monotonic()
             for owner, field, _ in timed:
-                setattr(owner, field, graph.node.get_clock().now().to_msg())
+                setattr(owner, field, _now(graph, options))
             response = _called(graph, options, kind, name, request)
             _say(options, f"response:\n{response!r}\n\n")
             if as_json(options):
@@ -88,6 +90,16 @@ def call(options: Namespace) -> int:
             if options.rate is None:
                 return 0
             graph.wait(lambda: False, began + 1 / options.rate - time.monotonic())
+
+
+def _now(graph: Graph, options: Namespace) -> Any:  # noqa: ANN401 - of an untyped package
+    """Return the time as a message."""
+    if options.use_sim_time:
+        return graph.node.get_clock().now().to_msg()
+    from builtin_interfaces.msg import Time  # noqa: PLC0415 - few requests have a time
+
+    seconds, nanoseconds = divmod(time.time_ns(), _NANOSECONDS)
+    return Time(sec=seconds, nanosec=nanoseconds)
 
 
 def _called(graph: Graph, options: Namespace, kind: Any, name: str, request: Any) -> Any:  # noqa: ANN401 - untyped package
