@@ -23,7 +23,7 @@ from orchestra.resolve.packages import InstalledPackages, has_manifests
 from orchestra.resolve.python.calling import take_environment
 from orchestra.resolve.python.connection import LoadingConnection
 from orchestra.resolve.python.isolation import isolated
-from orchestra.resolve.resolve import begin, carry_through, outcome
+from orchestra.resolve.resolve import begin, carry_through, end, outcome
 from orchestra.resolve.single import single_node
 from orchestra.settings.find import without_settings
 from orchestra.settings.settle import settle
@@ -143,6 +143,7 @@ def opened(
             if launch is not None:
                 launch.plan = replace(launch.plan, problems=problems.ordered)
         yield launch
+        end(run)
 
 
 def _provided_for(resolved: Resolved, inputs: Inputs, problems: Problems) -> Resolved:

@@ -21,7 +21,7 @@ from orchestra.settings.settle import comments_in, unused
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from orchestra.cli.look.worker import Work
+    from orchestra.cli.look.looker import Looker
     from orchestra.resolve.inputs import Inputs
 
 _LACKS = (Code.MISSING_ARGUMENT, Code.UNDEFINED_VARIABLE)
@@ -100,24 +100,34 @@ def _looks(targets: Sequence[Target], inputs: Inputs, manner: Manner, kept: Kept
         return [looker.look(target)[0] for target in targets]
     # What is written alike stands together: whoever looks at it has read its like before.
     order = sorted(range(len(targets)), key=lambda number: _kind(targets[number]))
-    with TemporaryDirectory(prefix="orchestra-check-") as scratch:
-
-        def begin() -> Work:
-            looker = Looker(inputs)
-            looker.watch(os.path.realpath(scratch))
-
-            def look(place: int) -> Done:
-                target = targets[order[place]]
-                finding, record = looker.look(target)
-                kept.keep(target, finding, record)
-                return Done(finding.as_data(), last=looker.is_spent)
-
-            return look
-
-        pool = Pool(begin, max(1, min(manner.jobs, len(targets))), manner.patience)
-        with _frozen():
-            found = {order[place]: result for place, result in pool.results(len(targets))}
+    with TemporaryDirectory(prefix="orchestra-check-") as scratch, _frozen():
+        ordered = [targets[number] for number in order]
+        pool = Pool(
+            lambda: _Looking(ordered, Looker(inputs), kept, scratch),
+            max(1, min(manner.jobs, len(targets))),
+            manner.patience,
+        )
+        found = {order[place]: result for place, result in pool.results(len(targets))}
     return [_finding(target, found[number]) for number, target in enumerate(targets)]
+
+
+class _Looking:
+    """Looks at files in a process of its own, and keeps what is found."""
+
+    def __init__(self, targets: Sequence[Target], looker: Looker, kept: Kept, scratch: str) -> None:
+        self._targets, self._looker, self._kept = targets, looker, kept
+        looker.watch(os.path.realpath(scratch))
+
+    def turn(self, piece: int) -> Done:
+        """Return what is found in one of the files."""
+        target = self._targets[piece]
+        finding, record = self._looker.look(target)
+        self._kept.keep(target, finding, record)
+        return Done(finding.as_data(), last=self._looker.is_spent)
+
+    def end(self) -> None:
+        """Write what is to be kept."""
+        self._kept.written()
 
 
 @contextmanager

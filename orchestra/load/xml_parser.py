@@ -53,6 +53,8 @@ def parse(whole: Source, begin: int = 0, end: int | None = None) -> Element:
     except expat.ExpatError as error:
         at = elements.offset(max(parser.ErrorByteIndex, 0))
         raise NotXmlError(explained(error.code, at, whole, elements.opened())) from None
+    finally:
+        del elements.parser  # they hold each other, and all that has been read
     return elements.roots[0]
 
 

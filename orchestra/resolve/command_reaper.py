@@ -23,6 +23,7 @@ import sys
 _PR_SET_PDEATHSIG = 1
 _PR_SET_CHILD_SUBREAPER, _PR_GET_CHILD_SUBREAPER = 36, 37
 _CONTROL = 0
+_LIBC = ctypes.CDLL(None, use_errno=True)
 _NOT_STARTED = 127
 
 
@@ -90,6 +91,8 @@ def _end_children() -> None:
 
 def children() -> list[int]:
     """Return the children of this process; none of their numbers can be used again before it waits for them."""
+    if not has_children():
+        return []
     found = []
     for entry in os.listdir("/proc"):  # noqa: PTH208 - pathlib is slow to import
         if not entry.isdigit():
@@ -102,6 +105,15 @@ def children() -> list[int]:
         if parent == os.getpid():
             found.append(int(entry))
     return found
+
+
+def has_children() -> bool:
+    """Tell whether this process has children, in one question: most often there are none, and many other processes."""
+    try:
+        os.waitid(os.P_ALL, 0, os.WEXITED | os.WNOHANG | os.WNOWAIT)
+    except ChildProcessError:
+        return False
+    return True
 
 
 def kill(child: int) -> None:
@@ -126,8 +138,7 @@ def end_with_parent() -> None:
 
 
 def _prctl(option: int, value: object) -> None:
-    libc = ctypes.CDLL(None, use_errno=True)
-    if libc.prctl(option, value, 0, 0, 0) != 0:
+    if _LIBC.prctl(option, value, 0, 0, 0) != 0:
         raise OSError(ctypes.get_errno(), f"prctl {option}")
 
 

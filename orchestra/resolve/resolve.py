@@ -109,6 +109,11 @@ def begin(
     return run
 
 
+def end(run: Resolution) -> None:
+    """Undo that a resolution and its context hold each other: what they have goes at once when nobody needs them."""
+    del run.context.perform_opaque
+
+
 def _engine(run: Resolution) -> Any:  # noqa: ANN401 - a ResolvingEngine
     # Here, because only Python launch files need it and what it imports.
     from orchestra.resolve.python.engine import ResolvingEngine  # noqa: PLC0415

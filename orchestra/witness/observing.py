@@ -81,7 +81,7 @@ class Observer:
             for path, before in self._seen.items():
                 self._complete(record, path, before)
             if self.ran_code:
-                record.absorb(self._installed)
+                record.depend(self._installed)
             if self.ran_code and self.foreign:
                 record.unknown = record.unknown or f"code outside Python has been loaded: {min(self.foreign)}"
         self.record = None
@@ -107,7 +107,7 @@ class Observer:
         """Record that the result has a part that is recorded already."""
         if self.active and self.record is not None and id(part) not in self._parts:
             self._parts[id(part)] = part  # kept, so that no other one gets its number
-            self.record.absorb(part)
+            self.record.depend(part)
 
     @contextmanager
     def aside(self) -> Iterator[None]:

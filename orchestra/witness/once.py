@@ -20,7 +20,7 @@ def once(key: tuple[Any, ...], find: Callable[[], _FoundT]) -> _FoundT:
     can say what depends on it, for that may have changed what is looked at.
     """
     watching = observer()
-    if not (watching.installed and watching.active and watching.certain):
+    if not (watching.installed and watching.certain and watching.active):
         return find()
     known = watching.kept.get(key)
     if known is not None:
@@ -39,8 +39,14 @@ def once(key: tuple[Any, ...], find: Callable[[], _FoundT]) -> _FoundT:
 
 def real(path: str) -> str:
     """Return what `os.path.realpath` returns; what is above a file is looked at once for all files of its folder."""
+    if not path.startswith("/"):  # another working folder makes another one of it
+        return os.path.realpath(path)
+    return once(("real", path), lambda: _real(path))
+
+
+def _real(path: str) -> str:
     folder, name = os.path.split(path)
-    if not folder.startswith("/") or name in ("", ".", "..") or "\0" in path:
+    if name in ("", ".", "..") or "\0" in path:
         return os.path.realpath(path)
     whole = os.path.join(once(("real", folder), lambda: os.path.realpath(folder)), name)
     return os.path.realpath(whole) if os.path.islink(whole) else whole

@@ -23,7 +23,8 @@ class Record:
     signature where that may be trusted. `looks` are other looks at paths, by the kind of look: what `stat` told, where
     links lead to, what is in folders. `variables` are those of the environment, None where unset; `names` is a digest
     of the names of all of them, where these were listed. `answers` are those to questions, by their words. `unknown`
-    tells why nobody can say what the result depends on; empty where that is not so.
+    tells why nobody can say what the result depends on; empty where that is not so. `parts` are records of what others
+    may depend on as well.
     """
 
     files: dict[str, tuple[str, Signature | None]] = field(default_factory=dict)
@@ -32,9 +33,36 @@ class Record:
     names: str = ""
     answers: dict[str, Any] = field(default_factory=dict)
     unknown: str = ""
+    parts: list[Record] = field(default_factory=list)
+
+    def depend(self, part: Record) -> None:
+        """Depend on what another one depends on, too."""
+        self.parts.append(part)
+        self.unknown = self.unknown or part.unknown
+
+    def every(self) -> list[Record]:
+        """Return it with its parts and theirs, each once."""
+        if not self.parts:
+            return [self]
+        found = {id(self): self}
+        waiting = [self]
+        while waiting:
+            for part in waiting.pop().parts:
+                if id(part) not in found:
+                    found[id(part)] = part
+                    if part.parts:
+                        waiting.append(part)
+        return list(found.values())
+
+    def whole(self) -> Record:
+        """Return a record without parts that depends on the same; what is here counts before what is there."""
+        whole = Record()
+        for record in self.every():
+            whole.absorb(record)
+        return whole
 
     def absorb(self, other: Record) -> None:
-        """Depend on what another one depends on, too; what has been seen first counts."""
+        """Depend on what another one without parts depends on, too; what has been seen first counts."""
         _add(self.files, other.files)
         for kind, looks in other.looks.items():
             _add(self.looks.setdefault(kind, {}), looks)
@@ -44,7 +72,7 @@ class Record:
         self.unknown = self.unknown or other.unknown
 
     def as_data(self) -> dict[str, Any]:
-        """Return it as JSON data."""
+        """Return it as JSON data, without its parts."""
         return {
             "files": self.files,
             "looks": self.looks,

@@ -10,7 +10,7 @@ import os
 import stat
 import time
 from contextlib import suppress
-from typing import Any, Final
+from typing import Any, BinaryIO, Final
 
 from orchestra.witness.digest import digest_of
 from orchestra.witness.place import entry
@@ -27,16 +27,15 @@ class Store:
     def __init__(self, folder: str, most: int = _MOST) -> None:
         self._folder = folder
         self._most = most
-        self._made = False
 
     def read(self, key: str) -> tuple[Record, Any] | None:
         """Return what a result depends on, and the result; None where there is none that can be read."""
         path = self._path(key)
         try:
             with open(path, "rb") as file:
-                status = os.fstat(file.fileno())
-                if status.st_uid != os.geteuid() or status.st_mode & _OF_OTHERS:
-                    return None  # somebody else may have written it
+                status = status_of_ours(file)
+                if status is None:
+                    return None
                 digest, _, body = file.read().partition(b"\n")
             if digest.decode("ascii", "replace") != digest_of(body):
                 return None
@@ -51,36 +50,14 @@ class Store:
                 os.utime(path)  # those that are used last are kept longest
         return record, result
 
-    def names(self) -> frozenset[str]:
-        """Return the names of the entries that there are."""
-        try:
-            return frozenset(os.listdir(self._folder))
-        except OSError:
-            return frozenset()
-
-    def has(self, key: str, names: frozenset[str]) -> bool:
-        """Tell whether one of these is the entry for a key."""
-        return os.path.basename(self._path(key)) in names
-
     def write(self, key: str, record: Record, result: Any) -> None:
         """Keep a result, in place of any earlier one. Where the disk refuses, nothing is kept."""
         if record.unknown:
             return
-        body = json.dumps({"key": key, "record": record.as_data(), "result": result}).encode(
+        body = json.dumps({"key": key, "record": record.whole().as_data(), "result": result}).encode(
             "utf-8", "surrogatepass"
         )
-        path = self._path(key)
-        own = f"{path}.{os.getpid()}"
-        try:
-            if not self._made:
-                os.makedirs(self._folder, mode=0o700, exist_ok=True)
-                self._made = True
-            with open(own, "wb", opener=_for_us_alone) as file:
-                file.write(digest_of(body).encode() + b"\n" + body)
-            os.replace(own, path)
-        except OSError:
-            with suppress(OSError):  # nothing could be written
-                os.unlink(own)
+        replaced(self._path(key), digest_of(body).encode() + b"\n" + body)
 
     def prune(self) -> None:
         """Remove what was not used for longest, if there is too much."""
@@ -105,7 +82,31 @@ class Store:
         return entry(self._folder, key)
 
 
-def _for_us_alone(path: str, flags: int) -> int:
+def status_of_ours(file: BinaryIO) -> os.stat_result | None:
+    """Return the status of an open file; None where somebody else may have written it."""
+    status = os.fstat(file.fileno())
+    return None if status.st_uid != os.geteuid() or status.st_mode & _OF_OTHERS else status
+
+
+def replaced(path: str, content: bytes) -> None:
+    """Have a file with this content in place of any earlier one, for us alone; none where the disk refuses."""
+    own = f"{path}.{os.getpid()}"
+    try:
+        try:
+            descriptor = _for_us_alone(own)
+        except FileNotFoundError:
+            os.makedirs(os.path.dirname(path), mode=0o700, exist_ok=True)
+            descriptor = _for_us_alone(own)
+        with open(descriptor, "wb") as file:
+            file.write(content)
+        os.replace(own, path)
+    except OSError:
+        with suppress(OSError):  # nothing could be written
+            os.unlink(own)
+
+
+def _for_us_alone(path: str) -> int:
+    flags = os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_CLOEXEC
     return os.open(path, flags, 0o600)  # values of the environment are in it
 
 

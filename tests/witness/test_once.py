@@ -33,7 +33,7 @@ for unknown in (False, False, True, False):
         watching.unknown("somebody writes files")
     once(("file",), look)
     record = watching.end()
-    told.append((len(calls), f"{folder}/file" in record.looks.get("mode", {})))
+    told.append((len(calls), f"{folder}/file" in record.whole().looks.get("mode", {})))
 print(told)
 """
 

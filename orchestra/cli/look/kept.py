@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import json
 import os
-from typing import TYPE_CHECKING
+import time
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.cli.look.finding import Finding
 from orchestra.cli.look.questions import Questions
+from orchestra.witness.batches import Batches
 from orchestra.witness.identity import identity
 from orchestra.witness.place import folder
-from orchestra.witness.store import Store
 from orchestra.witness.world import World
 
 if TYPE_CHECKING:
@@ -19,15 +20,19 @@ if TYPE_CHECKING:
     from orchestra.witness.record import Record
 
 
+_WAITING: Final = 1.0  # seconds that findings wait to be written, for then they are lost with this process
+
+
 class Kept:
     """The findings that earlier checks have left in the user's cache; without a folder for that there are none."""
 
     def __init__(self, inputs: Inputs, *, wanted: bool = True) -> None:
         place = folder(inputs.environment) if wanted else None
-        self._store = None if place is None else Store(os.path.join(place, "check"))  # noqa: PTH118 - pathlib is slow
+        self._store = None if place is None else Batches(os.path.join(place, "check"))  # noqa: PTH118 - pathlib is slow
+        self._new: list[tuple[str, Record, Any]] = []
+        self._since = time.monotonic()
         if self._store is not None:
             self._world = World(inputs.environment, Questions(inputs.environment).answer)
-            self._names = self._store.names()
             self._identity = identity(inputs.environment)
             self._given = repr(
                 (
@@ -45,8 +50,7 @@ class Kept:
         """Return what was found in a file if nothing has changed that it depends on."""
         if self._store is None:
             return None
-        key = self._key(target)
-        found = self._store.read(key) if self._store.has(key, self._names) else None
+        found = self._store.read(self._key(target))
         if found is None or not self._world.holds(found[0]):
             return None
         try:
@@ -55,14 +59,23 @@ class Kept:
             return None
 
     def keep(self, target: Target, finding: Finding, record: Record) -> None:
-        """Keep a finding for later checks."""
-        if self._store is not None:
-            self._store.write(self._key(target), record, finding.as_data())
+        """Keep a finding for later checks, once it is `written`."""
+        if self._store is not None and not record.unknown:
+            self._new.append((self._key(target), record, finding.as_data()))
+            if time.monotonic() - self._since > _WAITING:
+                self.written()
+
+    def written(self) -> None:
+        """Write what is to be kept."""
+        if self._store is not None and self._new:
+            self._store.write(self._new)
+            self._new.clear()
+        self._since = time.monotonic()
 
     def tidy(self) -> None:
-        """Remove what was not used for longest, where there is too much."""
+        """Remove what was kept first, where there is too much."""
         if self._store is not None:
-            self._store.prune()
+            self._store.tidy()
 
     def _key(self, target: Target) -> str:
         path = os.path.abspath(target.path)  # noqa: PTH100 - pathlib is slow

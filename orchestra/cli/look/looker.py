@@ -22,6 +22,7 @@ from orchestra.resolve.python.isolation import isolated
 from orchestra.resolve.rcl.files import read_parameter_file
 from orchestra.settings.comments import MARK
 from orchestra.settings.settle import settle
+from orchestra.witness.looking import read
 from orchestra.witness.observing import observer
 from orchestra.witness.once import real
 from orchestra.witness.variables import ObservedEnvironment
@@ -153,7 +154,6 @@ def _of_this_host(problem: Problem) -> Problem:
 
 def _has_comments(path: str) -> bool:
     try:
-        with open(path, "rb") as file:  # noqa: PTH123 - pathlib is slow
-            return MARK.encode() in file.read()
+        return MARK.encode() in read(path)
     except OSError:
         return False

@@ -26,6 +26,7 @@ if TYPE_CHECKING:
     from orchestra.cli.look.worker import Work
 
 _CHUNK: Final = 1 << 16
+_PATIENCE: Final = 5.0  # seconds for what a process has left to do
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,6 +77,7 @@ class Pool:
             while shares.left or any(worker.pieces for worker in self._workers.values()):
                 self._share_out(shares)
                 yield from self._gathered(shares)
+            self._let_go()
         finally:
             self._end(*self._workers.values())
             self._selector.close()
@@ -110,9 +112,7 @@ class Pool:
         """Wait until something happens, and yield what has come of it."""
         for key, _ in self._selector.select(max(0.0, self._deadline() - time.monotonic())):
             worker: _Worker = key.data
-            chunk = os.read(worker.channels.answers, _CHUNK)
-            if chunk:
-                worker.received += chunk
+            if _hears(worker):
                 yield from self._complete(worker, shares)
             else:
                 yield from self._dead(worker, shares)
@@ -129,19 +129,29 @@ class Pool:
 
     def _complete(self, worker: _Worker, shares: Shares) -> Iterable[tuple[int, Any]]:
         """Return what a process has answered, if all of that has come."""
-        answer = received(worker.received)
+        answer = _answer_of(worker)
         if answer is None:
             return ()
-        if "failed" in answer:
-            raise RuntimeError(answer["failed"])  # it is what the other process has met with
         pieces, results = worker.pieces, answer["results"]
         worker.pieces = []
-        worker.received.clear()
         shares.took(worker.number, time.monotonic() - worker.since)
         shares.put_back(worker.number, pieces[len(results) :])
         if answer["last"]:
             self._end(worker)
         return zip(pieces, results, strict=False)
+
+    def _let_go(self) -> None:
+        """Let processes do what is left, and end by themselves."""
+        for worker in self._workers.values():
+            with suppress(BrokenPipeError):  # it is dead, and there is nothing left for it
+                send(worker.channels.orders, [])
+        deadline = time.monotonic() + _PATIENCE
+        while self._workers and (seconds := deadline - time.monotonic()) > 0:
+            for key, _ in self._selector.select(seconds):
+                if _hears(key.data):
+                    _answer_of(key.data)
+                else:
+                    self._end(key.data)
 
     def _dead(self, worker: _Worker, shares: Shares) -> Iterator[tuple[int, Any]]:
         status = self._end(worker)
@@ -170,6 +180,23 @@ class Pool:
         for pid in left:
             _, status = os.waitpid(pid, 0)
         return status
+
+
+def _hears(worker: _Worker) -> bool:
+    """Take what a process has sent; tell whether it is still there."""
+    chunk = os.read(worker.channels.answers, _CHUNK)
+    worker.received += chunk
+    return bool(chunk)
+
+
+def _answer_of(worker: _Worker) -> dict[str, Any] | None:
+    """Return what a process has answered, if all of that has come. Raises `RuntimeError` for what it has met with."""
+    answer: dict[str, Any] | None = received(worker.received)
+    if answer is not None:
+        worker.received.clear()
+        if "failed" in answer:
+            raise RuntimeError(answer["failed"])
+    return answer
 
 
 def _told(status: int) -> str:

@@ -9,16 +9,14 @@ import struct
 import sys
 import traceback
 from time import monotonic
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from orchestra.dataclass import dataclass
 from orchestra.resolve.command_reaper import end_with_parent
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from typing import BinaryIO, NoReturn, TypeAlias
-
-    Work: TypeAlias = Callable[[int], "Done"]
+    from typing import BinaryIO, NoReturn
 
 _HEAD: Final = struct.Struct("!Q")
 
@@ -31,12 +29,22 @@ class Done:
     last: bool = False
 
 
+class Work(Protocol):
+    """What a process of a pool does."""
+
+    def turn(self, piece: int) -> Done:
+        """Turn a piece, told by its number, into a result."""
+
+    def end(self) -> None:
+        """Do what is left to do: this process takes no more."""
+
+
 @dataclass(frozen=True, slots=True)
 class Channels:
     """What a process of a pool has to do with the one that has forked it.
 
-    `orders` and `answers` are descriptors. `progress` is memory of both: the place, in what was ordered last, of the
-    piece that is being worked on, and when that was begun.
+    `orders` and `answers` are descriptors; an order without a piece is the last one. `progress` is memory of both: the
+    place, in what was ordered last, of the piece that is being worked on, and when that was begun.
     """
 
     orders: int
@@ -53,13 +61,17 @@ def work(channels: Channels, begin: Callable[[], Work], parent: int) -> NoReturn
         if os.getppid() == parent:
             os.dup2(os.open(os.devnull, os.O_RDONLY), 0)
             os.dup2(2, 1)
-            turn = begin()
+            doing = begin()
             with open(channels.orders, "rb", closefd=False) as stream:
-                while (pieces := receive(stream)) is not None:
-                    results = _results(pieces, turn, channels.progress, own)
+                while pieces := receive(stream):
+                    results = _results(pieces, doing, channels.progress, own)
                     if os.getpid() != own:  # code of a piece has forked, and this is the other one
                         break
+                    if results["last"]:
+                        doing.end()
                     send(channels.answers, results)
+                else:
+                    doing.end()
             status = 0
     except KeyboardInterrupt:  # raised by code of the piece: a real one ends this process at once
         status = 128 + signal.SIGINT
@@ -71,12 +83,12 @@ def work(channels: Channels, begin: Callable[[], Work], parent: int) -> NoReturn
         os._exit(status)
 
 
-def _results(pieces: Sequence[int], turn: Work, progress: memoryview[float], own: int) -> dict[str, Any]:
+def _results(pieces: Sequence[int], work: Work, progress: memoryview[float], own: int) -> dict[str, Any]:
     results: list[Any] = []
     last = False
     for place, piece in enumerate(pieces):
         progress[0], progress[1] = place, monotonic()
-        done = turn(piece)
+        done = work.turn(piece)
         results.append(done.result)
         last = done.last
         if last or os.getpid() != own:

@@ -12,6 +12,9 @@ import signal
 import sys
 import warnings
 from _locale import LC_ALL, setlocale
+
+# What `signal` has makes a member of an enumeration of each number first, which takes twenty times as long.
+from _signal import getsignal  # type: ignore[import-not-found] # it is there wherever `signal` is
 from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, Final
 
@@ -67,7 +70,7 @@ def put_back(table: MutableMapping[str, Any], content: MutableMapping[str, Any])
 
 def _handlers() -> dict[int, Any]:
     """Return what is done about each signal."""
-    return {number: signal.getsignal(number) for number in range(1, signal.NSIG)}
+    return {number: getsignal(number) for number in range(1, signal.NSIG)}
 
 
 def _put_handlers(before: dict[int, Any]) -> None:

@@ -15,7 +15,7 @@ from contextlib import contextmanager, suppress
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.place import here, is_own, span_in
-from orchestra.resolve.command_reaper import children, kill, set_subreaper
+from orchestra.resolve.command_reaper import children, has_children, kill, set_subreaper
 from orchestra.witness.observing import observer
 
 if TYPE_CHECKING:
@@ -143,6 +143,8 @@ class _Call:
 
 def _children() -> list[int]:
     """Return the children of this process, from where the kernel lists them, where it does."""
+    if not has_children():
+        return []
     try:
         return [child for task in os.listdir("/proc/self/task") for child in _children_of(task)]  # noqa: PTH208 - no paths are wanted
     except OSError:
