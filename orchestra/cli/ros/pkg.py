@@ -1,4 +1,4 @@
-"""`orchestra pkg`: the packages that are installed."""
+"""`orchestra pkg`: the packages that are installed, and new ones."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.cli.boundary import OK
 from orchestra.cli.ros.options import flag, word
+from orchestra.cli.ros.pkg_create import create, creating
 from orchestra.cli.ros.verbs import Verb, VerbParser
 from orchestra.errors import RunError
 from orchestra.nearest import nearest
@@ -41,6 +42,7 @@ _VERBS: Final = {
         ),
     ),
     "xml": Verb("show the package.xml of a package", "", (_PACKAGE, _tag)),
+    "create": Verb("make the folder of a new Python package", "", (creating,)),
 }
 
 
@@ -56,6 +58,7 @@ def run(options: Namespace) -> int:
         "prefix": _prefix,
         "executables": _executables,
         "xml": _xml,
+        "create": lambda _packages, options: create(options),
     }
     text, data = answers[options.verb](InstalledPackages(os.environ), options)
     sys.stdout.write(json.dumps(data) + "\n" if options.format == "json" else text)
@@ -92,6 +95,8 @@ def _xml(packages: InstalledPackages, options: Namespace) -> tuple[str, object]:
     if share is None:
         raise _unknown(packages, options.package)
     path = Path(share) / "package.xml"
+    if not path.is_file():  # of a Python package that was installed where it stands, it is beside its folder
+        path = Path(share).parent / "package.xml"
     if not path.is_file():
         raise RunError(f"package {options.package} has no package.xml in {share}")
     text = path.read_text("utf-8")

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from importlib import import_module
 from typing import TYPE_CHECKING
+from xml.etree import ElementTree as ET
 
 import pytest
 
@@ -133,3 +134,37 @@ def test_a_package_xml_is_shown(orchestra_here: Command, prefix: Path) -> None:
     (prefix / "share" / "demo" / "package.xml").write_text(text)
     assert orchestra_here("pkg", "xml", "demo", **here).stdout == text
     assert orchestra_here("pkg", "xml", "demo", "-t", "depend", **here).stdout == "a\nb\n"
+
+
+def test_a_package_is_created_that_can_be_installed(orchestra_here: Command, tmp_path: Path) -> None:
+    words = ("pkg", "create", "my_robot", "--destination-directory", str(tmp_path), "--node-name", "my_node")
+    made = orchestra_here(*words, "--dependencies", "std_msgs", "--description", "a < b 'c'")
+    assert made.returncode == 0
+    folder = tmp_path / "my_robot"
+    assert {path.removeprefix(f"creating {folder}/") for path in made.stdout.splitlines()} == {
+        *("package.xml", "setup.py", "setup.cfg"),
+        *("resource/my_robot", "my_robot/__init__.py", "my_robot/my_node.py"),
+    }
+    manifest = ET.fromstring((folder / "package.xml").read_text("utf-8"))  # noqa: S314 - we have written it
+    assert [one.text for one in manifest.findall("depend")] == ["rclpy", "std_msgs"]
+    assert manifest.findtext("description") == "a < b 'c'"
+    asked = [sys.executable, "setup.py", "--name", "--description"]
+    told = subprocess.run(asked, cwd=folder, capture_output=True, text=True, check=True)
+    assert told.stdout.splitlines()[-2:] == ["my_robot", "a < b 'c'"]
+    compile((folder / "my_robot" / "my_node.py").read_text("utf-8"), "my_node.py", "exec")
+    again = orchestra_here(*words)
+    assert (again.returncode, again.stderr) == (1, f"error: The directory already exists: {folder}\n")
+
+
+@pytest.mark.parametrize(
+    "words",
+    [("My",), ("a-b",), ("test",), ("a_b", "--node-name", "1"), ("a_b", "--build-type", "ament_cmake")],
+)
+def test_a_package_that_could_not_be_used_is_not_created(
+    orchestra_here: Command, tmp_path: Path, words: tuple[str, ...]
+) -> None:
+    folder = tmp_path / "here"
+    folder.mkdir()
+    done = orchestra_here("pkg", "create", *words, "--destination-directory", str(folder))
+    assert done.returncode == 2
+    assert list(folder.iterdir()) == []
