@@ -102,3 +102,25 @@ def test_a_run_that_does_not_keep_up_says_by_how_much(start: Start) -> None:
     assert whole is not None
     factors = [factor for _, factor, _ in lines]
     assert 0.5 * min(factors) < float(whole[1]) / float(whole[2]) < 1.5 * max(factors)
+
+
+@pytest.mark.long
+def test_a_process_that_was_stopped_loses_no_simulated_time(start: Start) -> None:
+    with start(DOMAIN, "-p", "status_period:=0.2") as run:
+        run.wait_for("robot1: pose")
+        run.process.send_signal(signal.SIGSTOP)
+        time.sleep(1.0)
+        run.process.send_signal(signal.SIGCONT)
+        run.wait_for("behind real time")
+        # Three times the status of two robots without a word of it: it is in step again.
+        quiet = 0
+        while quiet < 6:
+            quiet = 0 if "behind real time" in run.wait_for("[simulation]: ") else quiet + 1
+        run.process.send_signal(signal.SIGINT)
+        status, said = run.end()
+    whole = re.search(r"simulated (\S+) s in (\S+) s", said)
+    assert status == 0
+    assert whole is not None
+    # A lag of up to half a second is not told.
+    assert float(whole[2]) - float(whole[1]) < 0.9
+    assert "given up" not in said
