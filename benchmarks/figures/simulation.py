@@ -1,8 +1,7 @@
 """The simulation of two robots, as fast as it goes: real seconds for a simulated one, alone and with both filters.
 
 The floor is the same physics step by step, without sensors, messages or anything else. Filters are heard before the
-world begins. The bars are 20 and 8 times real time; a processor that does the bare physics 300 times as fast as real time
-has ratios of 15 and 37 there.
+world begins. The bars are 20 and 8 times real time: where the bare physics runs at 300 times, ratios of 15 and 37.
 """
 
 from __future__ import annotations
