@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import os
 import signal
+import socket
 
 import pytest
 
+from orchestra.ros.tools.graph.servers import Servers
 from tests.ros.tools.conftest import Graph
 
 _ACTOR = "/robot1/actor"
@@ -172,3 +174,23 @@ def test_a_command_whose_reader_has_gone_ends_quietly(graph: Graph) -> None:
         process.stdout.close()
         assert process.wait() == 141
         assert process.stderr.read() == ""
+
+
+def test_a_discovery_server_that_is_not_there_is_told() -> None:
+    with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as bound:
+        bound.bind(("127.0.0.1", 0))
+        there = f"127.0.0.1:{bound.getsockname()[1]}"
+        assert Servers(there).complaint() is None
+        assert Servers(f"127.0.0.1:1;{there}").complaint() is None
+    told = Servers(f";{there}; localhost:1").complaint()
+    assert told == f"nobody answers at ;{there}; localhost:1, which ROS_DISCOVERY_SERVER names"
+    for setting in ("", "TCPv4:[127.0.0.1]:1"):
+        assert Servers(setting).complaint() is None
+
+
+def test_the_graph_of_a_server_that_is_not_there_is_empty_with_a_warning(graph: Graph) -> None:
+    done = Graph({**graph.environment, "ROS_DISCOVERY_SERVER": "127.0.0.1:1"}).ask(
+        "node", "list", "--spin-time", "0.1"
+    )
+    assert (done.status, done.output) == (0, "")
+    assert "warning: nobody answers at 127.0.0.1:1, which ROS_DISCOVERY_SERVER names\n" in done.errors

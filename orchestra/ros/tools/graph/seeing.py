@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING, Any, Final, Protocol, TypeVar
 
 from orchestra.errors import RunError
 from orchestra.ros.tools.graph.ending import Ending
+from orchestra.ros.tools.graph.servers import Servers
 from orchestra.ros.tools.graph.wire.speaking import domain_on_wire
+from orchestra.ros.tools.telling import warn
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -71,6 +73,7 @@ class Graph:
         self._spin_time = spin_time
         self._met = False
         self._attendance = attendance
+        self._servers = Servers(os.environ.get("ROS_DISCOVERY_SERVER", ""))
 
     def spin(self, seconds: float = _PAUSE) -> None:
         """Let what has come in be heard, and wait for it at most so long."""
@@ -138,6 +141,9 @@ class Graph:
         """Leave the graph, and take back what was said to others to make them known."""
         self._attendance.close()
         self.node.destroy_node()
+        complaint = self._servers.complaint()
+        if complaint:
+            warn(f"warning: {complaint}")
 
 
 @contextmanager
