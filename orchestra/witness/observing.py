@@ -105,7 +105,7 @@ class Observer:
 
     def depend(self, part: Record) -> None:
         """Record that the result has a part that is recorded already."""
-        if self.active and self.record is not None and id(part) not in self._parts:
+        if id(part) not in self._parts and self.record is not None and not self._aside:
             self._parts[id(part)] = part  # kept, so that no other one gets its number
             self.record.depend(part)
 
@@ -120,8 +120,9 @@ class Observer:
 
     def variable(self, name: str) -> None:
         """Record that a variable of the environment is read."""
-        if self.active and self.record is not None:
-            self.record.variables.setdefault(name, self._environment.get(name))
+        record = self.record
+        if record is not None and not self._aside and name not in record.variables:
+            record.variables[name] = self._environment.get(name)
 
     def all_names(self) -> None:
         """Record that the names of all variables are read."""

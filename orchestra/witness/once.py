@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from orchestra.witness.observing import observer
 
@@ -11,6 +11,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 _FoundT = TypeVar("_FoundT")
+_WATCHING: Final = observer()
 
 
 def once(key: tuple[Any, ...], find: Callable[[], _FoundT]) -> _FoundT:
@@ -19,7 +20,7 @@ def once(key: tuple[Any, ...], find: Callable[[], _FoundT]) -> _FoundT:
     It is where this process is not watched, for nobody knows how long that goes on, and after anything of which nobody
     can say what depends on it, for that may have changed what is looked at.
     """
-    watching = observer()
+    watching = _WATCHING
     if not (watching.installed and watching.certain and watching.active):
         return find()
     known = watching.kept.get(key)
