@@ -23,7 +23,7 @@ if TYPE_CHECKING:
     from orchestra.ros.tools.graph.wire.submessages import Data
 
 _ANYBODY: Final = b"\0\0\0\0"
-_AGAIN, _LONGEST = 0.03, 0.5  # s until something is sent again, and at most
+_AGAIN, _LONGEST = 0.1, 0.5  # s until something is sent again, and at most
 _GUID: Final = 16
 
 

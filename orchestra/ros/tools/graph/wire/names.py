@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import struct
+import time
 from typing import TYPE_CHECKING, Final
 
 from orchestra.ros.tools.graph.wire.member import Member
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
 _TOPIC: Final = "ros_discovery_info"
 _TYPE: Final = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
 _WRITER: Final = b"\0\0\1\3"  # its first one; should it be another, that one is heard of all the same
+_NAMELESS: Final = 2.0  # s, after which one that has said nothing is taken to have no nodes
 _GID: Final = 16
 _GIDS_OF: Final = 2  # readers, writers
 
@@ -37,9 +39,12 @@ class Names:
         return [node for peer in self.member.peers.values() for node in self._found.get(peer, (0, []))[1]]
 
     def _is_known(self, peer: Peer) -> bool:
-        return not peer.is_of_ros or (
-            peer in self._found and all(one.whole for one in peer.writers if one.samples)
-        )
+        if not peer.is_of_ros:
+            return True
+        if peer in self._found:
+            return all(one.whole for one in peer.writers if one.samples)
+        has_said_nothing = any(one.whole for one in peer.writers)
+        return has_said_nothing and time.monotonic() - peer.met_at > _NAMELESS
 
     def _hear(self, peer: Peer, sample: Data) -> None:
         if sample.payload is None or sample.number < self._found.get(peer, (0,))[0]:

@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 _NAME: Final = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
 _LOOKS: Final = 16  # a second, without which nothing can be said to be silent
 _STEP: Final = 0.005
+_MET: Final = 3
 
 
 class WireNode:
@@ -113,6 +114,8 @@ class WireNode:
         news_at = max((one.member.news_at for one in self._asked), default=self._looks_from)
         if news_at > self._looks_from:
             self._looks_from, self._looks = news_at, 0
+        if all(one.member.met() for one in self._asked):
+            seconds *= _MET  # they are there, and only slow
         return self._looks >= _LOOKS * seconds and time.monotonic() - self._looks_from > seconds
 
     def rest(self) -> None:
