@@ -15,7 +15,7 @@ from reprlib import recursive_repr
 
 from orchestra.fields import UNWRITTEN, ForLibrary, fields, getstate, own_fields, refusals, setstate
 
-__all__ = ["changer", "dataclass", "maker"]
+__all__ = ["changer", "dataclass", "maker", "opened"]
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -260,9 +260,7 @@ class _Maker:
     def _compile(self) -> None:
         known = self._known
         items: Any = fields(self._cls)
-        slots = {"__slots__": self._cls.__slots__, "__setattr__": object.__setattr__}
-        known.update(_unwritten=UNWRITTEN, _new=object.__new__, _cls=self._cls)
-        known["_open"] = type(f"_Open{self._cls.__name__}", self._cls.__bases__, slots)
+        known.update(_unwritten=UNWRITTEN, _new=object.__new__, _cls=self._cls, _open=opened(self._cls))
         lines = ["self = _new(_open)", *(_assignment(item, known, frozen=False) for item in items)]
         lines += ["self.__class__ = _cls", "return self"]
         words = [_parameter(item, known) for item in items if item.init]
@@ -277,15 +275,20 @@ def _called(*args: Any, **named: Any) -> Any:
     return globals()["_maker"].make(*args, **named)
 
 
+def opened(cls: Any) -> type:
+    """Return a class of the same layout whose objects can become ones of this class, and whose fields are open."""
+    # Both make up one slot of a type, which is quick only where neither is one of Python code.
+    quick = {"__setattr__": object.__setattr__, "__delattr__": object.__delattr__}
+    return type(f"_Open{cls.__name__}", cls.__bases__, {"__slots__": cls.__slots__, **quick})
+
+
 def changer(cls: Callable[..., T], name: str) -> Callable[[T, Any], T]:
     """Return what makes an object like another one but for one field, as `replace` does, in a tenth of the time.
 
     It is compiled, so that it pays where many objects are made anew; for classes as `maker` is.
     """
+    known: dict[str, Any] = {"_new": object.__new__, "_cls": cls, "_open": opened(cls)}
     frozen: Any = cls
-    slots = {"__slots__": frozen.__slots__, "__setattr__": object.__setattr__}
-    known: dict[str, Any] = {"_new": object.__new__, "_cls": cls}
-    known["_open"] = type(f"_Open{frozen.__name__}", frozen.__bases__, slots)
     items: Any = fields(frozen)
     lines = ["made = _new(_open)", f"made.{name} = value"]
     lines += [f"made.{item.name} = record.{item.name}" for item in items if item.name != name]

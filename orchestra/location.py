@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import os
-from typing import TYPE_CHECKING, Final, Protocol
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
-from orchestra.dataclass import dataclass
+from orchestra.dataclass import dataclass, maker, opened
 
 if TYPE_CHECKING:
+    import re
     from collections.abc import Callable
 
 
@@ -122,6 +123,80 @@ class Location:
         return str(self.span)
 
 
+class Matched:
+    """A text that an expression has matched as a whole: what stands in it has the places of the groups.
+
+    These are worked out when somebody asks for one, which is then the same object each time.
+    """
+
+    __slots__ = ("_match", "_spans", "whole")
+
+    def __init__(self, whole: Whole, match: re.Match[str]) -> None:
+        self.whole = whole
+        self._match = match
+        self._spans: dict[int, Span] = {}
+
+    def span(self, group: int) -> Span:
+        """Return the place of a group."""
+        span = self._spans.get(group)
+        if span is None:
+            begin, end = self._match.span(group)
+            span = self._spans[group] = stretch(self.whole, begin, end)
+        return span
+
+
+class LocationOfGroup(Location):
+    """The location of a group in a text that was matched; equal to any other one that says the same."""
+
+    __slots__ = ("group", "matched")
+
+    matched: Matched
+    group: int
+
+    def __new__(cls, span: Span, included_from: tuple[Span, ...] = ()) -> Location:  # type: ignore[misc]
+        """Return an ordinary location: what is made of it with a change has a place of its own."""
+        return Location(span, included_from)
+
+    @property
+    def span(self) -> Span:
+        """The place."""
+        return self.matched.span(self.group)
+
+    def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Location):
+            return NotImplemented
+        if isinstance(other, LocationOfGroup) and other.matched.whole is self.matched.whole:
+            same = offsets_of(self.span) == offsets_of(other.span)
+        else:
+            same = self.span == other.span
+        return same and self.included_from == other.included_from
+
+    __hash__ = Location.__hash__
+
+    def __repr__(self) -> str:
+        return repr(Location(self.span, self.included_from))
+
+    def __reduce__(self) -> tuple[type[Location], tuple[Span, tuple[Span, ...]]]:
+        return Location, (self.span, self.included_from)
+
+
+_OpenLocation: Any = opened(LocationOfGroup)
+
+
+def location_of(matched: Matched, group: int, included_from: tuple[Span, ...]) -> Location:
+    """Return the location of a group."""
+    location = _new(_OpenLocation)
+    location.included_from = included_from
+    location.matched = matched
+    location.group = group
+    location.__class__ = LocationOfGroup
+    made: Location = location
+    return made
+
+
+new_location = maker(Location)
+
+
 def point(file: str, line: int = 1, column: int = 1) -> Span:
     """Return the empty span at one place."""
     return Span(file, line, column, line, column)
@@ -132,6 +207,8 @@ def is_python(place: Span | Location) -> bool:
 
     Most launch files that exist are in Python; what upstream lets pass in them is told, not refused.
     """
+    if type(place) is LocationOfGroup:
+        return place.matched.whole.file.endswith(".py")
     span = place.span if isinstance(place, Location) else place
     return span.file.endswith(".py")
 

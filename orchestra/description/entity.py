@@ -18,7 +18,7 @@ from orchestra.description.model import Model, field
 from orchestra.description.source import Keyed
 from orchestra.description.text import Template
 from orchestra.errors import Problem
-from orchestra.location import Span
+from orchestra.location import Location, Matched, Span, location_of, new_location
 
 if TYPE_CHECKING:
     from pydantic_core import ErrorDetails
@@ -111,7 +111,17 @@ class Entity(Model):
         beside: Any = (
             self.__pydantic_private__
         )  # where there is none, nobody has said where the entity stands
-        span: Span = beside["span"]
+        span: Any = beside["span"] or self._settle()
+        placed: Span = span
+        return placed
+
+    def _settle(self) -> Span | None:
+        """Work out the place of an entity in a text that was matched."""
+        beside = self.__pydantic_private__
+        at: tuple[Matched, int] | None = None if beside is None else beside.pop("at", None)
+        if beside is None or at is None:
+            return None
+        span = beside["span"] = at[0].span(at[1])
         return span
 
     @property
@@ -133,9 +143,24 @@ class Entity(Model):
         beside = self.__pydantic_private__
         return None if beside is None else beside.get("origin")
 
+    def location(self, included_from: tuple[Span, ...]) -> Location:
+        """Return where the entity stands, in a file that these includes have led to."""
+        beside: Any = self.__pydantic_private__
+        at: tuple[Matched, int] | None = beside.get("at")
+        return new_location(self.span, included_from) if at is None else location_of(*at, included_from)
+
     def mark_faulty(self) -> None:
         """Say that a part of the entity was wrong and has been left out."""
         self._beside["faulty"] = True
+
+    def __eq__(self, other: object) -> bool:
+        """Tell whether the other one says the same in the same place."""
+        if isinstance(other, Entity):
+            self._settle()
+            other._settle()
+        return super().__eq__(other)
+
+    __hash__ = Model.__hash__
 
     def conflict(self) -> Conflict | None:
         """Return why the keys that stand here cannot stand together, None where they can."""
@@ -220,11 +245,11 @@ class Action(Conditional):
     """What a launch description is made of."""
 
 
-def new_entity(model: type[_EntityT], values: dict[str, Any], span: Span) -> _EntityT:
-    """Return an entity of a file: all of its fields, which nothing is wrong with, and its place."""
+def matched_entity(model: type[_EntityT], values: dict[str, Any], matched: Matched, group: int) -> _EntityT:
+    """Return an entity of a file: all of its fields, which nothing is wrong with. It stands where a group does."""
     entity = object.__new__(model)
     _set_values(entity, values)
-    _set_beside(entity, {"span": span})
+    _set_beside(entity, {"span": None, "at": (matched, group)})
     return entity
 
 

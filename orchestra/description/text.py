@@ -1,15 +1,19 @@
-"""Text with substitutions, as the loaders read it: every part knows where it stands."""
+"""Text with substitutions, as the loaders read it: every part knows where it stands.
+
+Of a text in a file that was matched by what was learned of others, parts and places are made when somebody asks for
+them: most are read once, as what they come to.
+"""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Self, TypeAlias
 
-from orchestra.dataclass import dataclass, maker
-from orchestra.location import Span
+from orchestra.dataclass import dataclass, maker, opened
+from orchestra.location import Location, Matched, Span, inside, location_of, new_location
 from orchestra.values import ParameterValue
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
 
 @dataclass(frozen=True, slots=True)
@@ -58,6 +62,10 @@ class Template:
     span: Span
     quoted: bool = False
     faulty: bool = False
+
+    def location(self, included_from: tuple[Span, ...]) -> Location:
+        """Return where it stands, in a file that these includes have led to."""
+        return new_location(self.span, included_from)
 
     @property
     def action(self) -> Any:  # noqa: ANN401 - any object
@@ -130,3 +138,152 @@ def whole_span_of(value: tuple[Template | Constant, ...]) -> Span | None:
 def raw_of(value: Template | tuple[Template, ...]) -> str:
     """Return a value as written, the items of a list with blanks between them."""
     return " ".join(item.raw for item in value) if isinstance(value, tuple) else value.raw
+
+
+@dataclass(frozen=True, slots=True)
+class PlainCall:
+    """A call whose arguments are words, as it is written: each with the two offsets at which it stands in it.
+
+    `variable` is the variable whose value it is, where it says nothing else.
+    """
+
+    name: str
+    arguments: tuple[tuple[str, int, int], ...]
+    length: int
+    variable: str | None
+
+
+Piece: TypeAlias = "str | PlainCall"
+
+
+@dataclass(frozen=True, slots=True)
+class Pieces:
+    """What is concatenated; and the variables that are, in order, where all calls are such."""
+
+    pieces: tuple[Piece, ...]
+    variables: tuple[str, ...] | None
+
+    def filled(self, values: Sequence[str]) -> str:
+        """Return the text with these values of the variables."""
+        if len(self.pieces) == 1:
+            return values[0]
+        following = iter(values)
+        return "".join([piece if type(piece) is str else next(following) for piece in self.pieces])
+
+
+def pieces_of(pieces: Sequence[Piece]) -> Pieces:
+    """Return them with the variables among them."""
+    names = [piece.variable for piece in pieces if isinstance(piece, PlainCall)]
+    variables = tuple(name for name in names if name is not None)
+    return Pieces(tuple(pieces), variables if len(variables) == len(names) else None)
+
+
+class MatchedTemplate(Template):
+    """A text that stands where the group of a match does; equal to any other template that says the same.
+
+    `constant` is the text where nothing needs evaluating.
+    """
+
+    __slots__ = ("_parts", "constant", "group", "matched", "pieces")
+
+    _parts: tuple[Part, ...] | None
+    constant: str | None
+    pieces: Pieces | None
+    matched: Matched
+    group: int
+
+    def __new__(cls, *values: Any, **named: Any) -> Template:  # type: ignore[misc] # noqa: ANN401 - any field
+        """Return an ordinary one: what is made of it with a change has values of its own."""
+        return Template(*values, **named)
+
+    @property
+    def span(self) -> Span:
+        """The place."""
+        return self.matched.span(self.group)
+
+    def location(self, included_from: tuple[Span, ...]) -> Location:
+        """Return where it stands, in a file that these includes have led to."""
+        return location_of(self.matched, self.group, included_from)
+
+    @property
+    def parts(self) -> tuple[Part, ...]:
+        """What is concatenated, each part with its place."""
+        made = self._parts
+        if made is None:
+            pieces = (self.raw,) if self.pieces is None else self.pieces.pieces
+            made = _placed(pieces, self.span)
+            object.__setattr__(self, "_parts", made)
+        return made
+
+    def __eq__(self, other: object) -> bool:
+        return self.ordinary == getattr(other, "ordinary", other)
+
+    def __hash__(self) -> int:
+        return hash(self.ordinary)
+
+    def __repr__(self) -> str:
+        return repr(self.ordinary)
+
+    def __reduce__(self) -> Any:  # noqa: ANN401 - what makes it, and of what
+        return Template, (self.parts, self.raw, self.span, self.quoted, self.faulty)
+
+    @property
+    def ordinary(self) -> Template:
+        """The same as a template that has its parts."""
+        return new_template(self.parts, self.raw, self.span, self.quoted, self.faulty)
+
+
+_Open: Any = opened(MatchedTemplate)
+_new = object.__new__
+
+
+def matched_words(text: str, quoted: bool, matched: Matched, group: int) -> Template:
+    """Return a text of literal words."""
+    made = _new(_Open)
+    made.raw = made.constant = text
+    made.quoted = quoted
+    made.faulty = False
+    made.matched = matched
+    made.group = group
+    made.pieces = None
+    made._parts = None  # noqa: SLF001 - it is being made
+    made.__class__ = MatchedTemplate
+    template: Template = made
+    return template
+
+
+def matched_template(text: str, quoted: bool, matched: Matched, group: int, pieces: Pieces) -> Template:
+    """Return a text of words and calls."""
+    made = _new(_Open)
+    made.raw = text
+    made.quoted = quoted
+    made.faulty = False
+    made.matched = matched
+    made.group = group
+    made.pieces = pieces
+    made.constant = text if pieces.variables == () else None
+    made._parts = None  # noqa: SLF001 - as above
+    made.__class__ = MatchedTemplate
+    template: Template = made
+    return template
+
+
+def _placed(pieces: Sequence[Piece], whole: Span) -> tuple[Part, ...]:
+    parts: list[Part] = []
+    at = 0
+    for piece in pieces:
+        if isinstance(piece, PlainCall):
+            parts.append(_call(piece, whole, at))
+            at += piece.length
+        elif piece:
+            parts.append(new_words(piece, inside(whole, at, at + len(piece))))
+            at += len(piece)
+    return tuple(parts)
+
+
+def _call(call: PlainCall, whole: Span, at: int) -> Call:
+    arguments = []
+    for text, first, last in call.arguments:
+        span = inside(whole, at + first, at + last)
+        arguments.append(new_template((new_words(text, span),), text, span))
+    return new_call(call.name, tuple(arguments), inside(whole, at, at + call.length))

@@ -17,6 +17,8 @@ from orchestra.location import Location, Span, displayed, point
 from orchestra.witness.once import once, real
 
 if TYPE_CHECKING:
+    import io
+
     from orchestra.description.entity import Action
     from orchestra.load.alike.one_by_one import Format
 
@@ -32,6 +34,7 @@ FORMATS: dict[str, str] = {
 ONE_BY_ONE: dict[str, str] = {"xml_file": "xml_items", "yaml_file": "yaml_items"}
 
 _LARGEST = 64 * 1024 * 1024
+_PIECE = 64 * 1024  # of a file that does not say how long it is
 _LONG = 1_000  # characters
 
 
@@ -79,8 +82,8 @@ def _one_by_one(text: str, file: str, module: str, reader: Reader) -> tuple[Acti
 
 def _text(path: str, file: str, problems: Problems, location: Location) -> str | None:
     try:
-        with Path(path).open("rb") as stream:
-            content = stream.read(_LARGEST + 1)
+        with open(path, "rb", buffering=0) as stream:  # noqa: PTH123 - pathlib is slow
+            content = _content(stream)
     except OSError as error:
         problems.error(Code.UNREADABLE_FILE, f"cannot read {file}: {error.strerror}", location)
         return None
@@ -93,6 +96,17 @@ def _text(path: str, file: str, problems: Problems, location: Location) -> str |
         at = Location(point(file, error.line, error.column), location.included_from)
         problems.error(Code.SYNTAX, str(error), at)
         return None
+
+
+def _content(stream: io.FileIO) -> bytes:
+    """Return what is in a file, at most one byte more than it may have; room for that takes long to get."""
+    pieces: list[bytes] = []
+    left = _LARGEST + 1
+    size = os.fstat(stream.fileno()).st_size
+    while left and (piece := stream.read(min(max(size + 1, _PIECE), left))):
+        pieces.append(piece)
+        left -= len(piece)
+    return b"".join(pieces)
 
 
 def has_format(path: str) -> bool:

@@ -7,7 +7,6 @@ written beside it.
 from __future__ import annotations
 
 import linecache
-import os
 import sys
 from contextlib import contextmanager
 from functools import lru_cache
@@ -18,6 +17,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.compat import faults
 from orchestra.compat.explanation import told
 from orchestra.compat.launch.launch_description import LaunchDescription
+from orchestra.compat.place import show
 from orchestra.compat.refusing import collecting, is_lost
 from orchestra.compat.seam import connection
 from orchestra.compat.wrong import WrongType
@@ -47,15 +47,17 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
     linecache.checkcache(path)
     file = displayed(path, real)
     at = point(file)
-    reason = _unreadable(path)
-    if reason is not None:
+    try:
+        source = _source(path)
+    except OSError as error:  # what code raises when it opens files of its own is another thing
         location = Location(included_from[0], included_from[1:]) if included_from else Location(at)
-        problems.error(Code.UNREADABLE_FILE, f"cannot read {file}: {reason}", location)
+        problems.error(Code.UNREADABLE_FILE, f"cannot read {file}: {error.strerror}", location)
         return None
     try:
         connection().prepare()
+        show(path, file)
         with collecting(problems, included_from):
-            module = load_module(path)
+            module = load_module(path, source)
             at = _definition(module, at)
             with _in_place(module):
                 made = _made(module)
@@ -114,14 +116,10 @@ def _meant(module: ModuleType) -> FunctionType | None:
     return None if meant is None else own[meant]
 
 
-def _unreadable(path: str) -> str | None:
-    """Return why a file cannot be read; what code raises when it opens files of its own is another thing."""
-    try:
-        with open(path, "rb") as stream:  # noqa: PTH123 - no object is wanted
-            stream.read(1)
-    except OSError as error:
-        return error.strerror
-    return None
+def _source(path: str) -> bytes:
+    """Return what is in a file."""
+    with open(path, "rb") as stream:  # noqa: PTH123 - no object is wanted
+        return stream.read()
 
 
 def _grave(problem: Problem) -> Problem:
@@ -129,13 +127,12 @@ def _grave(problem: Problem) -> Problem:
     return replace(problem, severity=Severity.ERROR)
 
 
-def load_module(path: str) -> ModuleType:
-    """Run a Python file as a module of its own, which stays out of `sys.modules`."""
+def load_module(path: str, source: bytes) -> ModuleType:
+    """Run a Python file, of which this is in it, as a module of its own, which stays out of `sys.modules`."""
     module = ModuleType(_MODULE)
     module.__file__ = path
     module.__spec__ = ModuleSpec(_MODULE, None, origin=path)
-    status = os.stat(path)  # noqa: PTH116 - no object is wanted
-    code = _compiled(path, status.st_mtime_ns, status.st_size)
+    code = _compiled(path, source)
     with _in_place(module):
         exec(code, vars(module))  # noqa: S102 - a launch file is code
     return module
@@ -155,9 +152,8 @@ def _in_place(module: ModuleType) -> Iterator[None]:
 
 
 @lru_cache(maxsize=256)
-def _compiled(path: str, _modified: int, _size: int) -> CodeType:
-    with open(path, "rb") as stream:  # noqa: PTH123 - no object is wanted
-        return compile(stream.read(), path, "exec", dont_inherit=True)
+def _compiled(path: str, source: bytes) -> CodeType:
+    return compile(source, path, "exec", dont_inherit=True)
 
 
 def _made(module: ModuleType) -> Any:  # noqa: ANN401 - whatever the user's function returns

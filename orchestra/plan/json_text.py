@@ -59,6 +59,8 @@ class _Writing:
         """Choose how values of a type are written, which is then known."""
         if issubclass(kind, Enum):
             write: Write = lambda value, line: self.text(value.value, line)  # noqa: E731 - one of several
+        elif issubclass(kind, Location):
+            write = self._location
         elif is_dataclass(kind):
             write = self._record(kind)
         else:

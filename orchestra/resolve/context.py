@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
 from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias
 
@@ -10,11 +10,13 @@ from orchestra.dataclass import dataclass, maker
 from orchestra.description.text import Opaque
 from orchestra.errors import Problems
 from orchestra.fields import field
-from orchestra.location import Location, Span
+from orchestra.location import Location, Span, new_location
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
+    from orchestra.description.entity import Entity
+    from orchestra.description.text import Template
 
 ReadKind: TypeAlias = Literal["variable", "environment", "parameter", "namespace"]
 # Who set what is read: `caller` is the environment in which we were called, `code` that of a launch file in Python.
@@ -66,7 +68,6 @@ class Value:
 
 
 # What a resolution makes thousands of.
-new_location = maker(Location)
 new_read = maker(Read)
 new_value = maker(Value)
 
@@ -85,11 +86,38 @@ POISON: Final = Poison()
 Evaluated: TypeAlias = Value | Poison
 
 
+@dataclass(frozen=True, slots=True)
+class Variable:
+    """A variable's value; `leaked_from` is the include that set it where that include has ended.
+
+    `settled` is where a file declared or set it with no condition around that. `noted` has what is noted where it is
+    read, once that is asked for: it is the same each time.
+    """
+
+    value: Evaluated
+    location: Location
+    leaked_from: Span | None = None
+    setter: Setter = "let"
+    settled: Location | None = None
+    noted: list[Read] = field(default_factory=list, compare=False, repr=False)
+
+
+def read_of(name: str, value: Value, variable: Variable) -> Read:
+    """Return what is noted of a variable that is read."""
+    written = value.location if value.verbatim else None
+    return new_read(
+        "variable", name, value.text, variable.setter, variable.location, value.through, written, value
+    )
+
+
 class Variables(Protocol):
     """The launch configurations of the current scope."""
 
     def get(self, name: str, reader: Location) -> Evaluated | None:
         """Return the value, None where it is unset; `reader` is the place that asks."""
+
+    def known(self, names: Sequence[str]) -> tuple[list[str], tuple[Read, ...]] | None:
+        """Return the values of variables and what is noted of each; None where there is something to tell of one."""
 
     def names(self) -> tuple[str, ...]:
         """Return the names that are set, for suggestions."""
@@ -166,3 +194,7 @@ class Context:
     def at(self, span: Span) -> Location:
         """Return the location of a span of the current file."""
         return new_location(span, self.included_from)
+
+    def place(self, written: Template | Entity) -> Location:
+        """Return the location of something in the current file, which is worked out when it is asked for."""
+        return written.location(self.included_from)

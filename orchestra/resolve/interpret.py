@@ -78,7 +78,7 @@ def visit(actions: Sequence[Action], run: Resolution) -> None:
     run.depth += 1
     around = run.around
     for action in actions:
-        if not run.goes_on(action.span):
+        if not run.goes_on(action):
             break
         if action.faults:
             _report_faults(action, run)

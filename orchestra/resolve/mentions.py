@@ -14,17 +14,16 @@ from orchestra.description.actions.arg import Arg
 from orchestra.description.actions.include import Include
 from orchestra.description.actions.opaque import OpaqueAction
 from orchestra.description.entity import Entity
-from orchestra.description.text import Call, Opaque, Template, Words
+from orchestra.description.text import Call, MatchedTemplate, Opaque, Template, Words
 from orchestra.errors import Problems
 from orchestra.fields import replace
-from orchestra.resolve.context import CommandResult, Context, Value
+from orchestra.resolve.context import CommandResult, Context, Value, Variable
 from orchestra.resolve.evaluate import evaluate
 from orchestra.resolve.ledger import Hidden
 from orchestra.resolve.paths import beside
-from orchestra.resolve.scope import Variable
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Sequence
     from contextlib import AbstractContextManager
 
     from orchestra.description.entity import Action, Conditional
@@ -121,7 +120,8 @@ def names_behind(
     return names, more
 
 
-_PLAIN = frozenset({Template, str, bool, type(None)})  # most of what is in an entity, and never one itself
+# Most of what is in an entity, and never one itself.
+_PLAIN = frozenset({Template, MatchedTemplate, str, bool, type(None)})
 _FIXED = frozenset({"dirname", "filename", "find-pkg-prefix", "find-pkg-share"})
 
 
@@ -136,6 +136,9 @@ class _Glance:
         del reader
         variable = self.variables.get(name)
         return None if variable is None else variable.value
+
+    def known(self, names: Sequence[str]) -> None:
+        """Return nothing: each is looked at by itself."""
 
     def names(self) -> tuple[str, ...]:
         """Return the names that are set."""

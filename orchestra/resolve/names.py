@@ -7,6 +7,7 @@ rcl (`rcl_validate_topic_name`, `rcl_expand_topic_name`, the lexer of its comman
 from __future__ import annotations
 
 import re
+from functools import lru_cache
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
@@ -52,6 +53,7 @@ def node_name_fault(name: str) -> Fault | None:
     return rmw_node_name_fault(name) or _double_underscore(name)
 
 
+@lru_cache(maxsize=1024)
 def namespace_fault(namespace: str) -> Fault | None:
     """Return why a node cannot be given this full namespace, None where it can; the root is `/`."""
     return rmw_namespace_fault(namespace) or _double_underscore(namespace)
@@ -83,6 +85,7 @@ def full_topic_name_fault(name: str) -> Fault | None:
     return _path_fault(name, _LONGEST_TOPIC_NAME)
 
 
+@lru_cache(maxsize=1024)
 def rule_name_fault(name: str) -> Fault | None:
     """Return why this cannot be a side of a remap rule of topics and services, None where it can.
 
@@ -120,6 +123,7 @@ def topic_name_fault(name: str) -> Fault | None:
     return _substitution_fault(name) or _repeated_slash(name)
 
 
+@lru_cache(maxsize=1024)  # of many nodes few are in a namespace of their own
 def joined(base: str | None, namespace: str | None) -> str | None:
     """Return the absolute namespace that upstream makes of a base and what is added to it; None for two Nones.
 

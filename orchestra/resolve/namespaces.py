@@ -10,9 +10,9 @@ from orchestra.resolve.names import joined, mended, namespace_fault
 from orchestra.resolve.refusals import refuse_value
 
 if TYPE_CHECKING:
+    from orchestra.description.entity import Entity
     from orchestra.description.text import Template
     from orchestra.errors import Problems
-    from orchestra.location import Span
     from orchestra.resolve.resolution import Resolution
 
 
@@ -46,6 +46,6 @@ def pushed(base: Value) -> Read:
     return new_read("namespace", "", base.text, "push", base.location, base.through)
 
 
-def namespace_at(written: Template | None, at: Span, run: Resolution) -> Evaluated | None:
-    """Return the namespace of a node that is described at a place: what is written, below what has been pushed."""
-    return below(run.scope.namespace(run.at(at)), run.evaluate(written), run.problems)
+def namespace_at(written: Template | None, node: Entity, run: Resolution) -> Evaluated | None:
+    """Return the namespace of a node: what is written, below what has been pushed."""
+    return below(run.scope.namespace(run.place(node)), run.evaluate(written), run.problems)

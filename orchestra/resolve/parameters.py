@@ -6,7 +6,7 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from orchestra.description.parts import VALUE_TYPES, Override
-from orchestra.description.text import Constant, Template, Words, span_of, whole_span_of
+from orchestra.description.text import Constant, MatchedTemplate, Template, Words, span_of, whole_span_of
 from orchestra.errors import Code
 from orchestra.location import is_python, point
 from orchestra.nearest import nearest
@@ -138,7 +138,7 @@ def _inline(
         run.problems.error(Code.BAD_NAME, message, run.at(param.name.span))
         return [None]
     name = f"{above[-1][0]}.{own}" if above else own
-    keys = (*above, (name, run.at(param.name.span)))
+    keys = (*above, (name, run.place(param.name)))
     if param.param is not None:
         below = partial(_inline, above=keys, run=run, everywhere=everywhere, quotes=quotes)
         return [item for nested in param.param for item in below(nested)]
@@ -147,17 +147,18 @@ def _inline(
     type_word = run.word(param.type, VALUE_TYPES)
     if isinstance(type_word, Poison):
         return [None]
-    at = run.at(span_of(param.value) or param.span)
+    written = param.value
+    at = run.place(written) if isinstance(written, Template) else run.at(span_of(written) or param.span)
     plain = _read_at_once(param, quotes=quotes)
     if plain is not None:
         return [new_parameter(name, plain, at, everywhere, keys, (), ())]
     with run.scope.tracing() as reads:
-        value = _typed(name, param.value, type_word, run, at, quotes=quotes)
+        value = _typed(name, written, type_word, run, at, quotes=quotes)
     if isinstance(value, Poison):
         return [None]
-    if everywhere and not quotes and type_word is None and isinstance(param.value, Constant):
+    if everywhere and not quotes and type_word is None and isinstance(written, Constant):
         value = _retyped(value, at, run)
-    items = param.value if isinstance(param.value, tuple) else ()
+    items = written if isinstance(written, tuple) else ()
     places = tuple(run.at(item.span) for item in items)
     return [new_parameter(name, value, at, everywhere, keys, places, tuple(reads))]
 
@@ -165,7 +166,12 @@ def _inline(
 def _read_at_once(param: Param | SetParameter, *, quotes: bool) -> ParameterValue | None:
     """Return the value of a text without a type that everybody reads alike; None where it takes a closer look."""
     value = param.value
-    if not isinstance(value, Template) or param.type is not None or value.faulty or len(value.parts) != 1:
+    if not isinstance(value, Template) or param.type is not None:
+        return None
+    if type(value) is MatchedTemplate:
+        text = value.constant
+        return None if not text else text if value.quoted and quotes else read_alike(text)
+    if value.faulty or len(value.parts) != 1:
         return None
     part = value.parts[0]
     if type(part) is not Words:

@@ -7,33 +7,22 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from orchestra.dataclass import dataclass
-from orchestra.description.entity import Action
+from orchestra.description.entity import Action, Entity
 from orchestra.description.fields import FLAG_WORDS
 from orchestra.description.launch import Description
-from orchestra.description.text import Words
+from orchestra.description.text import MatchedTemplate
 from orchestra.errors import Code, Problems
 from orchestra.fields import field, replace
-from orchestra.location import Location, Span
+from orchestra.location import Location, Span, location_of
 from orchestra.nearest import nearest
 from orchestra.resolve.booleans import boolean
-from orchestra.resolve.context import (
-    POISON,
-    Context,
-    Evaluated,
-    Poison,
-    Value,
-    new_location,
-    new_value,
-)
+from orchestra.resolve.context import POISON, Context, Evaluated, Poison, Value, new_value
 from orchestra.resolve.evaluate import evaluate
 from orchestra.resolve.found import Found
 from orchestra.resolve.impossible.held import Held
 from orchestra.resolve.inputs import Inputs
 from orchestra.resolve.ledger import Ledger
-from orchestra.resolve.model import (
-    FileParameters,
-    ResolvedDependency,
-)
+from orchestra.resolve.model import FileParameters, ResolvedDependency
 from orchestra.resolve.occasions import Action as CollectedAction
 from orchestra.resolve.occasions import Occasion
 from orchestra.resolve.packages.extensions import extends
@@ -141,12 +130,14 @@ class Resolution:
         """The file that is being visited; user code may visit actions by hand, in none."""
         return self.frames[-1] if self.frames else Frame("", self.scope)
 
-    def goes_on(self, span: Span) -> bool:
+    def goes_on(self, place: Action | Span) -> bool:
         """Count a step of the visit; false where there have been more than any description needs."""
         self.steps += 1
         if self.steps == _MOST_STEPS:
             message = f"the description comes to more than {_MOST_STEPS} actions"
-            self.problems.error(Code.INCLUDE_CYCLE, message, self.at(span))
+            self.problems.error(
+                Code.INCLUDE_CYCLE, message, self.at(place.span if isinstance(place, Action) else place)
+            )
         return self.steps < _MOST_STEPS
 
     @property
@@ -171,22 +162,24 @@ class Resolution:
         """Return the location of a span of the file that is being visited."""
         return self.context.at(span)
 
+    def place(self, written: Template | Entity) -> Location:
+        """Return the location of something in the file that is being visited; quicker than `at` its span."""
+        return written.location(self.context.included_from)
+
     def evaluate(self, template: Template | None) -> Evaluated | None:
         """Evaluate a text in the current scope; None stays None."""
         if template is None:
             return None
-        parts, context = template.parts, self.context
-        # As `evaluate` does it, for most texts.
-        if len(parts) == 1 and type(parts[0]) is Words and not template.faulty:
-            return new_value(parts[0].text, new_location(template.span, context.included_from), verbatim=True)
+        context = self.context
+        if type(template) is MatchedTemplate and template.constant is not None:  # as `evaluate` does it
+            at = location_of(template.matched, template.group, context.included_from)
+            return new_value(template.constant, at, verbatim=True)
         return evaluate(template, context)
 
     def text(self, template: Template | None) -> str | Poison | None:
         """Return what a text comes to."""
-        if template is not None and len(template.parts) == 1 and not template.faulty:
-            part = template.parts[0]
-            if type(part) is Words:
-                return part.text
+        if type(template) is MatchedTemplate and template.constant is not None:
+            return template.constant
         value = self.evaluate(template)
         return value.text if isinstance(value, Value) else value
 

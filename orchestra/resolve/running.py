@@ -93,7 +93,7 @@ def _says_nothing(action: Running, run: Resolution) -> bool:
 
 def _as_it_is(action: Running, program: Program, run: Resolution) -> ResolvedProcess:
     """Return the process of an action that says nothing of how it runs: `_resolved` gives the same, in more time."""
-    location, frame = run.at(action.span), run.frame
+    location, frame = run.place(action), run.frame
     places = output(action.output, run, location)
     return new_process(
         kind=program.kind,
@@ -137,7 +137,7 @@ def _as_it_is(action: Running, program: Program, run: Resolution) -> ResolvedPro
 def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedProcess:
     """Return the process that an action starts."""
     sound = Sound()
-    location = run.at(action.span)
+    location = run.place(action)
     on_exit = sound(run.word(action.on_exit, ON_EXIT))
     places = output(action.output, run, location)
     again = sound(restart(action, run))
@@ -290,6 +290,6 @@ def _environment(action: Running, run: Resolution) -> dict[str, tuple[Environmen
         name, value = run.text(pair.name), run.evaluate(pair.value)
         if not isinstance(name, str) or not isinstance(value, Value):
             return POISON
-        change = EnvironmentChange(value.text, run.at(pair.value.span), value.through)
+        change = EnvironmentChange(value.text, run.place(pair.value), value.through)
         changes[name] = (*changes.get(name, ()), change)
     return changes

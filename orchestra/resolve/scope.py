@@ -15,15 +15,15 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.fields import field, replace
-from orchestra.location import Location, Span
-from orchestra.resolve.context import POISON, Evaluated, Read, Setter, Value, new_read
+from orchestra.resolve.context import POISON, Evaluated, Read, Setter, Value, Variable, read_of
 from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.model import EnvironmentChange, InlineParameter, ParameterSource, ResolvedRemap
 from orchestra.resolve.scalars import flow
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator, Mapping, Sequence
 
+    from orchestra.location import Location, Span
     from orchestra.resolve.context import ReadKind
 
 
@@ -32,22 +32,6 @@ NAMESPACE = "ros_namespace"
 _ABSENT: Final = object()
 
 _Names: TypeAlias = set[str]
-
-
-@dataclass(frozen=True, slots=True)
-class Variable:
-    """A variable's value; `leaked_from` is the include that set it where that include has ended.
-
-    `settled` is where a file declared or set it with no condition around that. `noted` has what is noted where it is
-    read, once that is asked for: it is the same each time.
-    """
-
-    value: Evaluated
-    location: Location
-    leaked_from: Span | None = None
-    setter: Setter = "let"
-    settled: Location | None = None
-    noted: list[Read] = field(default_factory=list, compare=False, repr=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,6 +82,22 @@ class Scope:
                 variable.noted.append(read_of(name, variable.value, variable))
             self._reads.append(variable.noted[0])
         return variable.value
+
+    def known(self, names: Sequence[str]) -> tuple[list[str], tuple[Read, ...]] | None:
+        """Return the values of variables and what is noted of each; None where there is something to tell of one."""
+        texts, noted = [], []
+        for name in names:
+            variable = self.variables.get(name)
+            if variable is None or variable.leaked_from is not None or type(variable.value) is not Value:
+                return None
+            if not variable.noted:
+                variable.noted.append(read_of(name, variable.value, variable))
+            texts.append(variable.value.text)
+            noted.append(variable.noted[0])
+        self.ledger.read.update(names)
+        if self._reads is not None:
+            self._reads += noted
+        return texts, tuple(noted)
 
     def note(self, kind: ReadKind, name: str, value: str) -> None:
         """Note that something other than a variable is read."""
@@ -274,14 +274,6 @@ class Tracing:
         self._scope._reads = self._outer  # noqa: SLF001 - as above
         if self._outer is not None:
             self._outer += self._reads
-
-
-def read_of(name: str, value: Value, variable: Variable) -> Read:
-    """Return what is noted of a variable that is read."""
-    written = value.location if value.verbatim else None
-    return new_read(
-        "variable", name, value.text, variable.setter, variable.location, value.through, written, value
-    )
 
 
 def _write(table: dict[str, Any], name: str, value: object) -> None:

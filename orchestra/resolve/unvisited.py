@@ -42,9 +42,8 @@ if TYPE_CHECKING:
     from orchestra.description.launch import Description
     from orchestra.description.text import Template
     from orchestra.location import Location
-    from orchestra.resolve.context import Read
+    from orchestra.resolve.context import Read, Variable
     from orchestra.resolve.resolution import Resolution
-    from orchestra.resolve.scope import Variable
 
 # A condition that asks whether a file is there.
 _ASKS: Final = re.compile(r"exists|is_?file|is_?dir", re.IGNORECASE)

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+import copy
+import pickle
 from random import Random
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, cast
 
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from orchestra.description.entity import Entity
-from orchestra.description.text import Items
+from orchestra.description.text import Items, Template
 from orchestra.errors import Problems
+from orchestra.fields import replace
 from orchestra.load import xml_file, yaml_file
 from orchestra.load.alike import xml_items, yaml_items
 from orchestra.load.alike.learned import FEW, Forms
@@ -19,10 +22,13 @@ from orchestra.load.alike.one_by_one import actions
 from orchestra.load.entities import describe
 from orchestra.load.offsets import source
 from orchestra.load.reader import Reader
+from orchestra.location import Location, point
+from orchestra.plan.json_text import text_of as dumps_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
+    from orchestra.description.actions.log import Log
     from orchestra.description.entity import Action
     from orchestra.location import Span
 
@@ -48,7 +54,7 @@ _XML = (
 )
 _ODD = st.text("ab1 :#-,'\"\\\n[]{}$()<>&!*~.|%@`=\tü\u2028", max_size=8)
 _LIKELY = st.sampled_from(
-    """a -1 1.5 null ~ true $(var\ta) /$(var\ta)/b $(find-pkg-share\tx)/y\tz a:\tb a\t#b [a,\tb] {a:\tb} (var\ta) ${var\ta}
+    """a -1 --b -/c - -- 1.5 null ~ true $(var\ta) /$(var\ta)/b $(find-pkg-share\tx)/y\tz a:\tb a\t#b [a,\tb] {a:\tb} (var\ta) ${var\ta}
     it's 'q' "q" a,b $(env\tA) $(eval\t1) x=1 ... a\\b""".replace("\t", "\0").split()
 ).map(lambda text: text.replace("\0", " "))
 _VALUES = st.lists(st.tuples(*[st.one_of(_LIKELY, _LIKELY, _ODD)] * 4), min_size=1, max_size=4)
@@ -242,6 +248,54 @@ def test_forms_are_learned(
     match = known[0].pattern.fullmatch
     assert all(match(text, item.begin, item.end) for item in items.items(source("a", text)))
     assert _compare(text, items, module)
+
+
+def test_what_looks_alike_may_be_of_several_forms(monkeypatch: pytest.MonkeyPatch) -> None:
+    forms = _forgetful(yaml_items, monkeypatch)
+    plain, quoted = "- arg: {name: a, default: b}\n", "- arg: {name: a, default: 'b'}\n"
+    assert _compare("launch:\n" + plain * FEW + quoted * 3 * FEW, yaml_items, yaml_file)
+    assert [len(known) for known in forms.known.values()] == [2]
+
+
+def _logs(text: str) -> Sequence[Log]:
+    items: Any = yaml_items
+    found = actions(items, source("a", f"launch:\n{text}"), Reader(Problems()))
+    return cast("Sequence[Log]", found)
+
+
+def test_texts_of_a_form_are_as_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    _forgetful(yaml_items, monkeypatch)
+    *_, read, matched = _logs("- log: {message: x $(var b) y, level: info}\n" * (FEW + 1))
+    text = matched.message
+    assert type(read.message) is not type(text)
+    assert (text != read.message, text.raw) == (True, read.message.raw)  # they stand in two places
+    for same in (pickle.loads(pickle.dumps(text)), copy.deepcopy(text), replace(text, raw=text.raw)):  # noqa: S301 - ours
+        assert type(same) is Template
+        assert (text == same, same == text, hash(same), repr(same)) == (True, True, hash(text), repr(text))
+    assert replace(text, raw="z").raw == "z"
+
+
+def test_places_of_a_form_are_as_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    _forgetful(yaml_items, monkeypatch)
+    *_, one, other = _logs("- log: {message: x, level: info}\n" * (FEW + 2))
+    chain = (point("b"),)
+    found = one.location(chain)
+    assert found == one.location(chain)
+    assert found != other.location(chain)
+    assert found != one.location(())
+    for same in (
+        pickle.loads(pickle.dumps(found)),  # noqa: S301 - ours
+        copy.deepcopy(found),
+        replace(found, included_from=chain),
+    ):
+        assert type(same) is Location
+        assert (found == same, same == found, hash(same), repr(same)) == (
+            True,
+            True,
+            hash(found),
+            repr(found),
+        )
+    assert dumps_of(found) == dumps_of(Location(one.span, chain))
 
 
 @pytest.mark.parametrize("behind", ["", "\n\n", "  ", "   # c\n\n # c", "\n  - log: {message: a}\n"])

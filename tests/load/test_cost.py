@@ -47,12 +47,13 @@ def _calls(path: Path, text: str) -> int:
     return total
 
 
-# A node with two parameters and two remappings: 28 words in the file, 5 models. It took 1,575 and 1,424 calls once.
-@pytest.mark.parametrize(("ending", "written", "most"), [("yaml", _yaml, 550), ("xml", _xml, 750)])
+# A node with two parameters and two remappings: 28 words in the file, 5 models. It took 1,575 and 1,424 calls once, 158
+# and 169 when its form was learned and its texts and their places were all made.
+@pytest.mark.parametrize(("ending", "written", "most"), [("yaml", _yaml, 90), ("xml", _xml, 100)])
 def test_a_node_takes_so_many_calls(
     tmp_path: Path, ending: str, written: Callable[[int], str], most: int
 ) -> None:
-    _calls(tmp_path / f"warm.launch.{ending}", written(1))
+    _calls(tmp_path / f"learned.launch.{ending}", written(20))
     fewer = _calls(tmp_path / f"fewer.launch.{ending}", written(20))
     more = _calls(tmp_path / f"more.launch.{ending}", written(60))
     assert (more - fewer) / 40 < most

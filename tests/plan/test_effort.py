@@ -66,11 +66,11 @@ def _nodes(folder: Path, number: int) -> tuple[int, Plan]:
     )
 
 
-def test_a_node_takes_less_than_a_thousand_calls(tmp_path: Path) -> None:
+def test_a_node_takes_so_many_calls(tmp_path: Path) -> None:
     _nodes(tmp_path, 2)
     less, _ = _nodes(tmp_path, 10)
     more, plan = _nodes(tmp_path, 110)
-    assert (more - less) / 100 < 1000
+    assert (more - less) / 100 < 540
     written, text = _counted(codec.dumps, plan, indent=2)
     assert written / 110 < 700
     read, again = _counted(codec.loads, text)

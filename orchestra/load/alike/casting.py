@@ -66,7 +66,7 @@ def learned(item: Any, action: Action, whole: Source, begin: int, end: int, mann
     def numbered(found: re.Match[str]) -> str:
         return str(groups[int(found[1]), int(found[2])])
 
-    lines = ["def make(whole, match, reader):", "texts, at = (None, *match.groups()), match.regs"]
+    lines = ["def make(whole, match, reader):", "at = Matched(whole, match)"]
     lines += [*cast.lines, f"return {code}"]
     known = {**MAKING, **cast.known}
     exec(compile(_GROUP.sub(numbered, "\n ".join(lines)), _MADE, "exec"), known)  # noqa: S102 - names and numbers of ours
@@ -149,14 +149,12 @@ class _Cast:
         free = "" if way == _OWN else self.manner.harmless(self.whole.text, self.begin, first, last)
         free = free if free and re.fullmatch(free, written.text) else re.escape(written.text)
         name, group = f"text{len(self.lines)}", self.group((first, last), free)
-        self.lines.append(
-            f"{name} = {way or _TEXT}(texts[{group}], whole, at[{group}], {written.quoted}, reader)"
-        )
+        self.lines.append(f"{name} = {way or _TEXT}(match[{group}], at, {group}, {written.quoted}, reader)")
         return name
 
     def place(self, span: Span) -> str:
         """Return the code for the place of something."""
-        return f"span(whole, at[{self.group(_offsets(span), None)}])"
+        return f"at, {self.group(_offsets(span), None)}"
 
     def keep(self, value: Any) -> str:  # noqa: ANN401 - any value
         """Return the name of something in the code."""

@@ -20,8 +20,10 @@ from orchestra.fields import field
 from orchestra.load.offsets import Source
 from orchestra.load.reader import Reader
 
-# So many of one form are read before it is learned, and so many forms are kept of each beginning and in all.
+# So many of one form are read before it is learned, and so many forms are kept of each beginning and in all. What looks
+# alike may be of several forms, as with quotes and without: after four times as many the next one is learned.
 FEW: Final = 4
+_LEARNED_AT: Final = frozenset(FEW * 4**power for power in range(8))
 _MOST_ALIKE: Final = 8
 _MOST: Final = 100
 # So many forms that have been seen too seldom are counted.
@@ -52,7 +54,7 @@ class Forms:
         if len(self._counted) >= _MOST_COUNTED:
             self._counted.clear()
         count = self._counted[words] = self._counted.get(words, 0) + 1
-        return count == FEW and sum(map(len, self.known.values())) < _MOST
+        return count in _LEARNED_AT and sum(map(len, self.known.values())) < _MOST
 
     def keep(self, beginning: str, form: Form) -> None:
         """Keep a form; of those that begin alike the last one is tried first."""

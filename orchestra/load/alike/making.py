@@ -1,4 +1,4 @@
-"""What the code that is written for a form calls: texts, entities and places, of offsets in a file."""
+"""What the code that is written for a form calls: texts, entities and lists, which stand where groups of a match do."""
 
 from __future__ import annotations
 
@@ -6,87 +6,79 @@ import re
 from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.description.entity import new_entity
+from orchestra.description.entity import matched_entity
 from orchestra.description.source import Verbatim
-from orchestra.description.text import Items, new_call, new_template, new_words
+from orchestra.description.text import (
+    Items,
+    PlainCall,
+    matched_template,
+    matched_words,
+    new_template,
+    new_words,
+    pieces_of,
+)
 from orchestra.load.grammar import unescaped
-from orchestra.load.plain_calls import Part as Shaped
 from orchestra.load.plain_calls import plain_shape
-from orchestra.location import stretch
+from orchestra.location import Matched, inside
 
 if TYPE_CHECKING:
-    from orchestra.description.text import Call, Part, Template
+    from orchestra.description.text import Piece, Pieces, Template
     from orchestra.load.reader import Reader
-    from orchestra.location import Span, Whole
+    from orchestra.location import Span
 
 
-def template(text: str, whole: Whole, at: tuple[int, int], quoted: bool, reader: Reader) -> Template:
-    """Return a text with substitutions, as `Reader` reads it; `at` is its place without quotes."""
+def template(text: str, matched: Matched, group: int, quoted: bool, reader: Reader) -> Template:
+    """Return a text with substitutions, as `Reader` reads it; the place of the group is that without quotes."""
     if "$" not in text and "(" not in text and "\\" not in text and text[-1:] not in _QUOTES:
-        place = stretch(whole, at[0], at[1])
-        return new_template((new_words(text, place),), text, place, quoted)
-    parts = _parts(text, whole, at[0])
-    if parts is None:
-        return reader.template(_written(text, whole, at, quoted))
-    return new_template(parts, text, stretch(whole, *at), quoted)
+        return matched_words(text, quoted, matched, group)
+    pieces = _pieces(text)
+    if pieces is None:
+        return reader.template(_written(text, matched.span(group), quoted))
+    return matched_template(text, quoted, matched, group, pieces)
 
 
-def _parts(text: str, whole: Whole, begin: int) -> tuple[Part, ...] | None:
-    """Return the parts of a text of plain calls and words that have none of the characters of calls; else None.
-
-    The calls of a launch file are few, however many different texts they stand in.
-    """
-    parts: list[Part] = []
-    at = begin
+@lru_cache(maxsize=256)
+def _pieces(text: str) -> Pieces | None:
+    """Return the pieces of a text of plain calls and words that have none of the characters of calls; else None."""
+    pieces: list[Piece] = []
     for index, piece in enumerate(_CALLS.split(text)):
         if index % 2:
             call = _call(piece)
             if call is None:
                 return None
-            parts.append(_placed(call, whole, at, len(piece)))
+            pieces.append(call)
         elif piece:
             if not _UNLIKE.isdisjoint(piece):
                 return None
-            parts.append(new_words(piece, stretch(whole, at, at + len(piece))))
-        at += len(piece)
-    return tuple(parts)
+            pieces.append(piece)
+    return pieces_of(pieces)
 
 
-@lru_cache(maxsize=256)
-def _call(text: str) -> Shaped | None:
+@lru_cache(maxsize=256)  # the calls of a launch file are few, however many different texts they stand in
+def _call(text: str) -> PlainCall | None:
     shape = plain_shape(text)
-    return None if shape is None or len(shape.parts) != 1 else shape.parts[0]
+    if shape is None or len(shape.parts) != 1:
+        return None
+    (call,) = shape.parts
+    words = tuple((word.raw, word.begin, word.end) for word in call.arguments or ())
+    variable = words[0][0] if call.text == "var" and len(words) == 1 else None
+    return PlainCall(call.text, words, len(text), variable)
 
 
-def _placed(call: Shaped, whole: Whole, at: int, length: int) -> Call:
-    """Return a call, whose arguments are words, at an offset."""
-    arguments = []
-    for word in call.arguments or ():
-        inside = stretch(whole, at + word.begin, at + word.end)
-        arguments.append(new_template((new_words(word.raw, inside),), word.raw, inside, word.quoted))
-    return new_call(call.text, tuple(arguments), stretch(whole, at, at + length))
-
-
-def literal(text: str, whole: Whole, at: tuple[int, int], quoted: bool, reader: Reader) -> Template:
+def literal(text: str, matched: Matched, group: int, quoted: bool, reader: Reader) -> Template:
     """Return a text without substitutions."""
     del reader
-    written = _written(text, whole, at, quoted)
-    return new_template((new_words(unescaped(text), written.span),), text, written.span, quoted)
+    span = _written(text, matched.span(group), quoted).span
+    return new_template((new_words(unescaped(text), span),), text, span, quoted)
 
 
-def span(whole: Whole, at: tuple[int, int]) -> Span:
-    """Return a place."""
-    return stretch(whole, *at)
+def items(values: tuple[Template, ...], matched: Matched, group: int) -> Items:
+    """Return a list that stands at the place of a group."""
+    return Items(values, matched.span(group))
 
 
-def items(values: tuple[Template, ...], at: Span) -> Items:
-    """Return a list that stands at a place."""
-    return Items(values, at)
-
-
-def _written(text: str, whole: Whole, at: tuple[int, int], quoted: bool) -> Verbatim:
-    begin, end = at
-    return Verbatim(text, stretch(whole, begin - quoted, end + quoted), quoted)
+def _written(text: str, at: Span, quoted: bool) -> Verbatim:
+    return Verbatim(text, inside(at, -quoted, len(text) + quoted), quoted)
 
 
 _QUOTES: Final = ("", "'", '"')
@@ -94,9 +86,9 @@ _CALLS: Final = re.compile(r"""(\$\([^$\\'"()]+\))""")
 _UNLIKE: Final = frozenset("$\\'\"(")
 # By the names that the code has for them.
 MAKING: Final[dict[str, Any]] = {
-    "entity": new_entity,
+    "Matched": Matched,
+    "entity": matched_entity,
     "items": items,
     "literal": literal,
-    "span": span,
     "template": template,
 }

@@ -32,7 +32,7 @@ _WORDS: Final = re.compile(r"(?<![\w-])[\w-]+(?=:[ \n])|[{\[]|\n *- ")
 # Values in quotes that have no escapes; plain ones, within a flow collection and outside of one. They have few sets of
 # characters: most of the time that it takes to compile a form goes there.
 _QUOTED: Final = r"[ !#-&(-[\]-~]+"  # of ASCII all but quotes and backslashes
-_BEGUN: Final = r"(?=[\w/.$(+]|-[0-9.])(?![nN]ull\b|NULL\b)"
+_BEGUN: Final = r"(?=[\w/.$(+]|-[\w/.$(+-])(?![nN]ull\b|NULL\b)"
 _ENDED: Final = r"(?<! )"
 _IN_FLOW: Final = rf"{_BEGUN}[\w/.$()+=~^;@%<> -]+{_ENDED}"
 _BLOCK: Final = r"\w/.$()+=~^;@%<>,{}\[\]\-"

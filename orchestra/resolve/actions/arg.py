@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 def visit(action: Arg, run: Resolution) -> None:
     """Declare a launch argument: a value that is already set stays, else the default counts."""
-    name, choices, at = _text(action.name), _choices(action), run.at(action.span)
+    name, choices, at = _text(action.name), _choices(action), run.place(action)
     run.scope.ledger.declared.add(name)
     run.found.choices.setdefault(name, set()).add(choices)
     declare(action, name, choices, run)
@@ -42,7 +42,7 @@ def _value(action: Arg, name: str, run: Resolution) -> Evaluated:
     if variable is not None and not _is_default(action, variable.value, run):
         return run.scope.get(name, run.at(action.span)) or POISON  # warns
     value = _default(action, name, run)
-    run.scope.set(name, value, run.at(action.span), "default")
+    run.scope.set(name, value, run.place(action), "default")
     return value
 
 
@@ -82,7 +82,7 @@ def _record(
     default = action.default.raw if action.default is not None else None
     text = value.text if isinstance(value, Value) else None
     description = _text(action.description) if action.description is not None else None
-    given, at = name in run.frame.given, run.at(action.span)
+    given, at = name in run.frame.given, run.place(action)
     known = run.found.arguments.get(name)
     if given and run.frame.private:
         return

@@ -22,7 +22,7 @@ def visit(action: Executable, run: Resolution) -> None:
     with run.scope.tracing() as reads:
         words = _words(action, run)
     label = run.text(action.name)
-    namespace = run.scope.namespace(run.at(action.span))
+    namespace = run.scope.namespace(run.place(action))
     found: tuple[str, ...] = () if isinstance(words, Poison) else words
     program = Program(
         kind="process",

@@ -63,7 +63,7 @@ def visit(action: Include, run: Resolution) -> None:
 
 
 def _include(action: Include, path: str, description: Description, run: Resolution) -> None:
-    location = run.at(action.span)
+    location = run.place(action)
     before, begun = run.scope.mark(), run.found.size
     given, used = _arguments(action, run)
     frame = _frame(action, path, frozenset(item.name for item in given), run)
@@ -107,12 +107,12 @@ def _frame(action: Include, path: str, given: frozenset[str], run: Resolution) -
         run.scope.mark(),
         run.conditions + run.repetitions,
         is_fixed(action.file),
-        run.at(action.span),
+        run.place(action),
         given,
         labels,
         depends_on,
         private=action.for_each is not None or run.flag(action.scoped) is True,
-        named_at=None if is_python(action.span) else run.at(action.file.span),
+        named_at=None if is_python(action.span) else run.place(action.file),
     )
 
 
@@ -130,7 +130,7 @@ def _arguments(action: Include, run: Resolution) -> tuple[list[Given], set[str]]
                 check_twice(name, value, before, run)
             before[name.text] = (name.location, value)
             given.append(Given(name.text, name.location))
-            run.scope.set(name.text, value or POISON, run.at(pair.value.span), "include")
+            run.scope.set(name.text, value or POISON, run.place(pair.value), "include")
     return given, used
 
 

@@ -16,5 +16,5 @@ def visit(action: Let, run: Resolution) -> None:
     """Set a variable."""
     name, value = run.evaluate(action.name), run.evaluate(action.value)
     if isinstance(name, Value) and value is not None:
-        run.scope.set(name.text, value, run.at(action.value.span))
+        run.scope.set(name.text, value, run.place(action.value))
         settle(name.text, action.span, run)

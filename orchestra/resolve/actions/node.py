@@ -53,7 +53,7 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
         package, executable = run.evaluate(action.pkg), run.evaluate(_started(action))
     label = run.text(action.exec_name)
     words = _words(package, executable, action, run)
-    name, namespace = named(action.name, run), namespace_at(action.namespace, action.span, run)
+    name, namespace = named(action.name, run), namespace_at(action.namespace, action, run)
     if isinstance(name, Value) and isinstance(namespace, Poison):
         run.found.lost.add(name.text)  # its full name is not known
         name = POISON

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
 
 def visit(action: PushRosNamespace, run: Resolution) -> None:
     """Put what follows below a namespace."""
-    value, at = run.evaluate(action.namespace), run.at(action.namespace.span)
+    value, at = run.evaluate(action.namespace), run.place(action.namespace)
     pushed = below(run.scope.namespace(at), value, run.problems)
     if pushed is not None:
         run.scope.set(NAMESPACE, pushed, at, "push")

@@ -15,6 +15,6 @@ def visit(action: SetEnv, run: Resolution) -> None:
     """Set an environment variable for what follows."""
     name, value = run.text(action.name), run.evaluate(action.value)
     if isinstance(name, str) and isinstance(value, Value):
-        run.scope.change(name, value.text, run.at(action.value.span), value.through)
+        run.scope.change(name, value.text, run.place(action.value), value.through)
     elif isinstance(name, str):
         run.found.lost.add(name)

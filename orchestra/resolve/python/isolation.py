@@ -38,11 +38,13 @@ class Isolation:
         if self.remaining is not None:
             return
         # Here, because only such code needs it, and what it imports.
+        from orchestra.compat.place import forget  # noqa: PLC0415
         from orchestra.resolve.python.interpreter import kept_as_it_is  # noqa: PLC0415
         from orchestra.resolve.python.libraries import libraries_kept  # noqa: PLC0415
         from orchestra.resolve.python.remaining import nothing_left  # noqa: PLC0415
         from orchestra.resolve.python.temporary import temporary_files  # noqa: PLC0415
 
+        forget()
         enter = self._restoring.enter_context
         with observer().aside():
             enter(libraries_kept())
