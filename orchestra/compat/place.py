@@ -20,6 +20,8 @@ if TYPE_CHECKING:
 # What is known of codes; a code that is kept keeps its id.
 _known: dict[int, Instructions] = {}
 _MOST_CODES: Final = 256
+# How files are shown of which that has been found out.
+_names: dict[str, str] = {}
 # Where everything stands that is made now, whoever makes it.
 _standing: list[Place] = []
 _OWN = os.path.join(os.path.dirname(os.path.dirname(__file__)), "")  # noqa: PTH118, PTH120 - compared with file names of code
@@ -100,6 +102,7 @@ class Argument(Span):
                 raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
             span = self.place.span
             if name == "file":  # as in a span
+                object.__setattr__(self, name, span.file)
                 return span.file
             for known in FIELDS:
                 object.__setattr__(self, known, getattr(span, known))
@@ -176,22 +179,31 @@ def span_of(code: CodeType, instruction: int) -> Span:
     return stretch(known, 2 * instruction, 2 * instruction + 1)
 
 
+def forget() -> None:
+    """Forget how files are shown: the working directory may be another one than before."""
+    _known.clear()
+    _names.clear()
+
+
 class Instructions:
     """The instructions of a code, as a text in which two offsets each are where one begins and where it ends.
 
     The positions are unpacked once, for there is no way to one of them.
     """
 
-    __slots__ = ("_code", "_positions")
+    __slots__ = ("_code", "_file", "_positions")
 
     def __init__(self, code: CodeType) -> None:
         self._code = code
+        self._file: str | None = None
         self._positions: list[_Positions] | None = None
 
     @property
     def file(self) -> str:
         """The file, as it is shown to people."""
-        return shown(self._code.co_filename)
+        if self._file is None:
+            self._file = shown(self._code.co_filename)
+        return self._file
 
     def place(self, offset: int) -> tuple[int, int]:
         """Return line and column."""
@@ -216,9 +228,14 @@ def span_in(file: str, positions: _Positions) -> Span:
     return Span(shown(file), line, begin + 1, end_line, code_points(file, end_line, end_column) + 1)
 
 
+def show(file: str, name: str) -> None:
+    """Let a source file be shown to people by a name, until it is forgotten."""
+    _names[file] = name
+
+
 def shown(file: str) -> str:
     """Return a source file as people see it."""
-    return _shown(file, os.getcwd())  # noqa: PTH109 - no path is wanted
+    return _names.get(file) or _shown(file, os.getcwd())  # noqa: PTH109 - no path is wanted
 
 
 @lru_cache(maxsize=4096)

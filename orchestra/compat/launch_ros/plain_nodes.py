@@ -234,15 +234,17 @@ def _remaps(name: str, value: Any, place: Place, fields: dict[str, Any], kept: d
     if type(value) is not list:
         raise UnusualError
     span = argument(place, (name,))
-    made = []
+    made, own = [], []
     for index, rule in enumerate(value):
         if type(rule) is not tuple or len(rule) != _SIDES:
             raise UnusualError
-        source = plain_text(rule[0], place, (name, index, 0))
-        target = plain_text(rule[1], place, (name, index, 1))
-        made.append(entity(Remap, {"from_": source, "to": target}, span))
+        source, target = rule
+        from_ = plain_text(source, place, (name, index, 0))
+        to = plain_text(target, place, (name, index, 1))
+        made.append(entity(Remap, {"from_": from_, "to": to}, span))
+        own.append(rule if type(source) is type(target) is str else copied(rule))
     fields["remap"] = tuple(made)
-    kept[name] = copied(value)
+    kept[name] = own
 
 
 _SIDES: Final = 2

@@ -81,14 +81,15 @@ class DeclareLaunchArgument(ModelledAction):
         if self.choices is not None:
             listed = enumerate(self.choices)
             choices = tuple(template(choice, place.at("choices", index)) for index, choice in listed)
-        return Arg.at(
-            place.span,
-            name=template(self.name, place.at("name")),
-            default=optional(self.default_value, place.at("default_value")),
-            description=optional(self.__given_description, place.at("description")),
-            choices=choices,
-            **common,
-        )
+        fields: dict[str, Any] = {
+            "name": template(self.name, place.at("name")),
+            "default": optional(self.default_value, place.at("default_value")),
+            "description": optional(self.__given_description, place.at("description")),
+            "choices": choices,
+        }
+        if len(common) > 1 or choices == ():
+            return Arg.at(place.span, **fields, **common)
+        return Arg.made(place.span, fields, common["origin"])
 
 
 def _text(default: Any) -> Sub:

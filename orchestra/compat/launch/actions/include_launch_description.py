@@ -118,8 +118,11 @@ class IncludeLaunchDescription(ModelledAction):
             return self._refused_model(error, common)
         given = self._place.at("launch_description_source") if self.__is_path else None
         file = self.__launch_description_source._file(given)
-        extensions = extension_fields(Include, self.__extensions, self._place, file=file)
-        include = Include.at(span, file=file, arg=arguments, **extensions, **common)
+        if self.__extensions or len(common) > 1:
+            extensions = extension_fields(Include, self.__extensions, self._place, file=file)
+            include = Include.at(span, file=file, arg=arguments, **extensions, **common)
+        else:
+            include = Include.made(span, {"file": file, "arg": arguments}, common["origin"])
         if not self.__launch_description_source._reads_file:
             return include.holding(models_of((_Sourced(self.__launch_description_source),), self._place))
         return include.read_as(self.__launch_description_source._language)
