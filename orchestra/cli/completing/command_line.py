@@ -6,7 +6,7 @@ import argparse
 from importlib import import_module
 from typing import TYPE_CHECKING, Final, TypeAlias
 
-from orchestra.cli.commands import COMMANDS
+from orchestra.cli.commands import ALIASES, COMMANDS
 from orchestra.cli.completing.candidates import Candidate, beginning_with
 from orchestra.cli.completing.paths import paths
 from orchestra.cli.ros.verbs import VerbParser
@@ -35,6 +35,7 @@ def candidates(before: Sequence[str], begun: str) -> list[Candidate]:
         named = (Candidate(name, command.summary) for name, command in COMMANDS.items())
         return beginning_with(begun, (*named, *map(Candidate, ("--help", "--version") if begun else ())))
     command, *given = before
+    command = ALIASES.get(command, command)
     if command not in COMMANDS:
         return []
     parser: CommandParser = import_module(COMMANDS[command].module).parser()

@@ -11,6 +11,7 @@ from orchestra.fields import field
 
 _SPECIAL = frozenset("\\\"'`$&;()<>|*?[]{}!# \t\n")
 _BLANKS = " \t\n"
+_BRACES = frozenset("{}")
 _SPECIAL_IN_DOUBLE = frozenset('\\"`$')
 
 
@@ -58,6 +59,12 @@ def written(word: str, line: Line, *, finished: bool) -> str:
     rest = word[line.kept :]
     if line.quote == "'":
         return rest.replace("'", "'\\''")
+    if (
+        not (line.quote or line.begun)
+        and set(word) & _BRACES
+        and not set(word) & (_SPECIAL_IN_DOUBLE | {"!"})
+    ):
+        return f'"{word}" ' if finished else f'"{word}'  # a message, which is read better so
     special = _SPECIAL_IN_DOUBLE if line.quote else _SPECIAL
     text = "".join(f"\\{character}" if character in special else character for character in rest)
     if text.startswith("~") and not line.quote and not line.begun:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import os
 import signal
+import sys
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Final, NoReturn
 
@@ -36,6 +37,7 @@ _LISTED: Final = {
 }
 _OF_NODE: Final = {"NAME": (("param", "list"), "name"), "TRANSITION": (("lifecycle", "list"), "label")}
 _LIFECYCLE: Final = ("lifecycle", "nodes")
+_FILLED: Final = ("VALUES", "GOAL")
 _KIND: Final = {"topic": "msg", "service": "srv", "action": "action"}
 
 
@@ -65,8 +67,9 @@ def _words(command: str, metavar: str, before: Sequence[str], begun: str) -> Ite
         words, key = _OF_NODE[metavar]
         return _names((*words, before[0]), key)
     if metavar == "TYPE":
-        kinds = (_KIND[command],) if command in _KIND else ("msg", "srv", "action")
-        return map(Candidate, Interfaces(os.environ).all(kinds))
+        return map(Candidate, _types(command, before, begun))
+    if metavar in _FILLED:
+        return () if begun else _prototype(before[-1])
     if metavar == "PACKAGE":
         return map(Candidate, InstalledPackages(os.environ).names())
     if metavar == "PLUGIN":
@@ -74,8 +77,42 @@ def _words(command: str, metavar: str, before: Sequence[str], begun: str) -> Ite
     return paths(begun) if metavar in ("FILE", "BAG") else ()
 
 
+def _types(command: str, before: Sequence[str], begun: str) -> list[str]:
+    """Return the types that a name has in the graph; where it has none, or one is begun, all that are installed."""
+    if before and not begun and command in _KIND and (found := _asked((command, "type", before[0]))):
+        return list(found)
+    return Interfaces(os.environ).all((_KIND[command],) if command in _KIND else ("msg", "srv", "action"))
+
+
+def _prototype(kind: str) -> Iterator[Candidate]:
+    """Yield a message of a type, the request of a service or the goal of an action, with its defaults."""
+    made = _asked(("interface", "proto", kind))
+    if made is not None:
+        yield Candidate(_in_one_line(made))
+
+
+def _in_one_line(data: Any) -> str:  # noqa: ANN401 - JSON data
+    """Return data as YAML in one line, without double quotes: in those it stands on a command line."""
+    if isinstance(data, dict):
+        return f"{{{', '.join(f'{key}: {_in_one_line(value)}' for key, value in data.items())}}}"
+    if isinstance(data, list):
+        return f"[{', '.join(map(_in_one_line, data))}]"
+    if isinstance(data, str):
+        doubled = data.replace("'", "''")
+        return f"'{doubled}'"
+    return ".nan" if data is None else json.dumps(data)
+
+
 def _names(words: Sequence[str], key: str | None) -> Iterator[Candidate]:
     """Yield the names that a command lists; none where it cannot."""
+    found = _asked(words)
+    items = [item for below in found.values() for item in below] if isinstance(found, dict) else found
+    for item in items or ():
+        yield Candidate(item if key is None else item[key])
+
+
+def _asked(words: Sequence[str]) -> Any:  # noqa: ANN401 - JSON data
+    """Return what a command answers in JSON, None where it cannot."""
     reading, writing = os.pipe()
     child = os.fork()
     if child == 0:
@@ -83,12 +120,7 @@ def _names(words: Sequence[str], key: str | None) -> Iterator[Candidate]:
     os.close(writing)
     with os.fdopen(reading, "rb") as stream:
         told = stream.read()
-    if os.waitpid(child, 0)[1]:
-        return
-    found: Any = json.loads(told)
-    items = [item for below in found.values() for item in below] if isinstance(found, dict) else found
-    for item in items:
-        yield Candidate(item if key is None else item[key])
+    return None if os.waitpid(child, 0)[1] else json.loads(told)
 
 
 def _list(words: Sequence[str], writing: int) -> NoReturn:
@@ -97,6 +129,7 @@ def _list(words: Sequence[str], writing: int) -> NoReturn:
         nowhere = os.open(os.devnull, os.O_RDWR)
         for stream, instead in enumerate((nowhere, writing, nowhere)):
             os.dup2(instead, stream)
+        sys.stdout = os.fdopen(1, "w")
         signal.alarm(_PATIENCE)
         name, *rest = words
         module = import_module(COMMANDS[name].module)

@@ -56,6 +56,12 @@ def test_what_is_written_is_read_as_the_word(word: str, quote: str) -> None:
     assert split_line(text, _BREAKS).begun == word
 
 
+def test_a_message_is_written_in_quotes() -> None:
+    line = split_line("orchestra topic pub /a std_msgs/msg/String ", _BREAKS)
+    assert written("{data: ''}", line, finished=True) == "\"{data: ''}\" "
+    assert split_line(written("{a: $b}", line, finished=True), _BREAKS).before == ["{a: $b}"]
+
+
 @settings(max_examples=20, deadline=None)
 @given(st.lists(_WORD, min_size=1, max_size=20), st.sampled_from(["", "'", '"']))
 def test_bash_reads_what_is_written(words: list[str], quote: str) -> None:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import pytest
+
 from orchestra.cli.completing.command_line import candidates
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    import pytest
 
 
 def _words(*before: str, begun: str = "") -> list[str]:
@@ -39,6 +39,20 @@ def test_types_and_packages_are_completed(prefix: Path, monkeypatch: pytest.Monk
     assert _words("service", "call", "/a", begun="demo/") == ["demo/srv/Two"]
     assert _words("interface", "show", begun="demo/") == ["demo/msg/One", "demo/srv/Two"]
     assert _words("pkg", "prefix", begun="dem") == ["demo"]
+
+
+def test_messages_are_completed_with_their_defaults() -> None:
+    pytest.importorskip("std_msgs", reason="needs ROS")
+    assert _words("topic", "pub", "/a", "std_msgs/msg/Header") == [
+        "{stamp: {sec: 0, nanosec: 0}, frame_id: ''}"
+    ]
+    assert _words("service", "call", "/a", "std_srvs/srv/SetBool") == ["{data: false}"]
+    assert _words("topic", "pub", "/a", "std_msgs/msg/Header", begun="{s") == []
+    assert _words("topic", "pub", "/a", "std_msgs/msg/Heder") == []
+
+
+def test_another_name_of_a_command_is_completed_as_its_own() -> None:
+    assert _words("wtf", begun="--on") == ["--only"]
 
 
 def test_files_are_completed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
