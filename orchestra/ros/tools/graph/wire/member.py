@@ -36,7 +36,7 @@ if TYPE_CHECKING:
 _LARGEST: Final = 1 << 16
 _STEP: Final = 0.01  # s between two looks at what is due
 _PORTS_AGAIN: Final = 0.03
-_CALL_AGAIN: Final = 0.2  # s, and then after twice as long each time
+_CALL_AGAIN, _LONGEST = 0.2, 0.8  # s, after twice as long each time, and at most
 _LEASE: Final = 20  # s, and it is renewed well before
 _RENEW: Final = 5.0
 _AT_ONCE: Final = 64  # messages, before what is due is looked at
@@ -199,7 +199,7 @@ class Member:
                 continue
             if name is not None or not self._names:
                 fresh = fresh or self._new_name()
-            self._called[port] = (self._names[-1], now + patience, 2 * patience)
+            self._called[port] = (self._names[-1], now + patience, min(2 * patience, _LONGEST))
             self._announce(self._names[-1], port)
         if now >= self._renew_at:
             self._renew_at = now + _RENEW

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 # What has not been answered is said again after this time, and then after twice as long each time, up to the longest;
 # in seconds. Fast DDS sends 5 ms after it was asked; on a busy machine, asking once more makes it only busier.
-_AGAIN: Final = 0.1
+_AGAIN: Final = 0.15
 _LONGEST: Final = 0.5
 
 
