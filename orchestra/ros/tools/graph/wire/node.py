@@ -7,11 +7,12 @@ import time
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.ros.tools.graph.wire.client import Client
 from orchestra.ros.tools.graph.wire.endpoints import Endpoints
 from orchestra.ros.tools.graph.wire.names import Names
 
 if TYPE_CHECKING:
+    from orchestra.ros.tools.graph.wire.client import Client
+
     Listed = list[tuple[str, list[str]]]
 
 _NAME: Final = re.compile(r"(/[A-Za-z_][A-Za-z0-9_]*)+")
@@ -81,6 +82,8 @@ class WireNode:
 
     def create_client(self, kind: Any, name: str) -> Client:  # noqa: ANN401 - a class of an untyped package
         """Return a client of a service."""
+        from orchestra.ros.tools.graph.wire.client import Client  # noqa: PLC0415 - coders, and lists need none
+
         client = Client(self._domain, kind, _checked(name, service=True))
         self._clients.append(client)
         return client
