@@ -146,9 +146,8 @@ class Observer:
 
     def unknown(self, reason: str) -> None:
         """Record that nobody can say what the result depends on."""
-        if self.active and self.record is not None:
-            self.record.unknown = self.record.unknown or reason
-            self.certain, self.kept = False, {}
+        if self.record is not None and not self._aside:
+            self.record.unknown, self.certain, self.kept = self.record.unknown or reason, False, {}
 
     def _look(self, kind: str, path: str) -> None:
         if self.record is not None:
