@@ -48,8 +48,9 @@ class DeclaredParameters:
                 continue
             if not is_common(name) and not _is_below(name, groups) and self.declared.undeclared != "allowed":
                 fault = misnamed(name, known)
-                if fault.meant is None and fault.name == name:
-                    fault = replace(fault, meant=self._meant_by_pattern(name))
+                if fault.name == name:
+                    # A slip in a word is nearer than any whole name that is only like it.
+                    fault = replace(fault, meant=self._meant_by_pattern(name) or fault.meant)
                 meant.add(fault.meant or fault.name.rpartition(".")[0])
                 yield replace(fault, certain=self.declared.undeclared == "refused")
         for name, parameter in known.items():

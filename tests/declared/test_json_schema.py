@@ -226,6 +226,25 @@ def test_parts_of_a_schema_may_stand_elsewhere_in_it() -> None:
     assert _faults(schema, mode="fsat") == [("value", "mode", "fast", True)]
 
 
+def test_a_slip_in_a_name_by_pattern_is_nearer_than_a_whole_name_that_is_like_it() -> None:
+    schema = {
+        "type": "object",
+        "properties": {"gravitational_acceleration": {"type": "number"}},
+        "patternProperties": {"^imu\\d+_remove_gravitational_acceleration$": {"type": "boolean"}},
+    }
+    assert _faults(schema, imu1_remove_gravitational_accelaration=True) == [
+        (
+            "undeclared",
+            "imu1_remove_gravitational_accelaration",
+            "imu1_remove_gravitational_acceleration",
+            False,
+        )
+    ]
+    assert _faults(schema, gravitationl_acceleration=9.8) == [
+        ("undeclared", "gravitationl_acceleration", "gravitational_acceleration", False)
+    ]
+
+
 def test_what_is_missing_and_what_is_misspelt_is_one_mistake() -> None:
     schema = {**_SPEED, "required": ["speed"], "minProperties": 0}
     assert _faults(schema, sped=1.0) == [("undeclared", "sped", "speed", False)]

@@ -132,6 +132,15 @@ def test_a_list_of_several_types_is_told_at_the_item_that_does_not_fit() -> None
     assert problem.message == "a list must hold values of one type, not integer and float"
 
 
+def test_whole_numbers_after_a_first_float_are_to_get_a_point() -> None:
+    """A covariance as ROS 1 took it; however many whole numbers there are, the float is not the odd one."""
+    _, problems = _read("/n:\n  ros__parameters:\n    x: [1e-9, 0, 0, 0]\n")
+    (problem,) = problems.errors
+    assert str(problem.span) == "f.yaml:3:15"
+    assert problem.message == "a list must hold values of one type, not float and integer"
+    assert problem.suggestion == "0.0"
+
+
 def test_a_word_in_a_list_that_is_a_boolean_is_pointed_out() -> None:
     """The `y` of YAML 1.1."""
     _, problems = _read("/n: {ros__parameters: {axes: [x, y]}}")

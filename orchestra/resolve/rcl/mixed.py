@@ -39,8 +39,9 @@ def odd_item(values: Sequence[Scalar]) -> int | None:
 
 
 def wanted_type(values: Sequence[Scalar], odd: int) -> type:
-    """Return the type that the odd item should have: that of most others."""
-    return Counter(type(value) for at, value in enumerate(values) if at != odd).most_common(1)[0][0]
+    """Return the type that the odd item should have: that of most others, of those that are not of its own."""
+    own = type(values[odd])
+    return Counter(type(value) for value in values if type(value) is not own).most_common(1)[0][0]
 
 
 def in_place(text: str, wanted: type, *, quoted: bool, quote: str = "'") -> str | None:
