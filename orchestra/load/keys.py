@@ -15,6 +15,7 @@ from orchestra.load.elements import Tagged, emptied, noun
 from orchestra.load.pairs import written_item
 from orchestra.load.words import ELSEWHERE, KEYS_ELSEWHERE, snake
 from orchestra.nearest import is_slip, nearest
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -22,6 +23,7 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 
+_JOINED: Final = pattern(r"([\w-]+)\s*(:=|=|:)\s*(.+)")  # `exec:talker`, `exec=talker`
 _SHORTEST: Final = 3  # letters that another word may be the beginning of
 
 
@@ -139,10 +141,10 @@ class _Strangers:
         """Report a key; return the known ones that it stands for, which are not missing then."""
         message, instead, notes = f"unknown {noun(self.mapping, key)}", near, list[str]()
         stands_for = frozenset() if near is None else frozenset({near})
-        left, colon, value = key.partition(":")
-        if colon and spelled(left) in self.known:
-            message, instead = f"a blank is missing behind '{left}:'", f"{left}: {value}"
-            stands_for = frozenset({spelled(left)})
+        joined = _JOINED.fullmatch(key)
+        if joined is not None and spelled(joined[1]) in self.known:
+            message, instead = _parted(*joined.groups())
+            stands_for = frozenset({spelled(joined[1])})
         elif near is None and self.pair is not None:
             notes.append(f"it is written {self.pair[1]}")
             stands_for = frozenset(self.pair[0])
@@ -156,6 +158,13 @@ class _Strangers:
         suggestion = None if instead is None else as_written(instead, key)
         report(Code.UNKNOWN_KEY, message, at, suggestion=suggestion, notes=notes)
         return stands_for
+
+
+def _parted(key: str, sign: str, value: str) -> tuple[str, str]:
+    """Return what is wrong with a key and a value that a sign joins to one text, and how they are written."""
+    if sign == ":":
+        return f"a blank is missing behind '{key}:'", f"{key}: {value}"
+    return f"a colon and a blank stand between '{key}' and its value, not '{sign}'", f"{key}: {value}"
 
 
 def _abbreviated(word: str, known: frozenset[str]) -> str | None:
