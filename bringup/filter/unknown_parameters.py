@@ -46,16 +46,20 @@ def _hint(name: str, reader: Reader, others: Sequence[str]) -> str:
             return f"{kind}{missing} is missing, and sensors are counted from 0 without a gap"
         if ending is not None and ending[1:] in _ENDINGS[kind] and not reader.has(f"{kind}{number}"):
             return f"{kind}{number}, its topic, is missing"
-    near = _nearest(name, (*reader.in_force, *others, *_names_of_sensors(name)))
+        kinds: Iterable[str] = (kind,)
+    else:
+        kinds = _ENDINGS
+    general = (known for known in reader.in_force if _SENSOR.fullmatch(known) is None)
+    near = _nearest(name, (*general, *others, *_names_of_sensors(name, kinds)))
     return f"did you mean {near}?" if _likeness(name, near) >= _SIMILAR else f"the nearest name is {near}"
 
 
-def _names_of_sensors(name: str) -> Iterator[str]:
-    """What could be said of sensors with the numbers that are in a name, or of the first ones."""
+def _names_of_sensors(name: str, kinds: Iterable[str]) -> Iterator[str]:
+    """What could be said of sensors of these kinds with the numbers that are in a name, or of the first ones."""
     for number in sorted(set(re.findall(r"\d+", name))) or ["0"]:
-        for kind, endings in _ENDINGS.items():
+        for kind in kinds:
             yield f"{kind}{number}"
-            yield from (f"{kind}{number}_{ending}" for ending in endings)
+            yield from (f"{kind}{number}_{ending}" for ending in _ENDINGS[kind])
 
 
 def _nearest(name: str, known: Iterable[str]) -> str:

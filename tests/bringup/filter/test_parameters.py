@@ -173,6 +173,7 @@ def test_a_value_of_another_type_is_an_error_that_names_it(
         ({"base_link_output_frame": "b"}, "did you mean base_link_frame_output?"),
         ({"zzz": 1}, "zzz is unknown and has no effect; the nearest name is"),
         ({"odm0": "o"}, "did you mean odom0?"),
+        ({"twist0": "t", "twist0_config": VX, "twist0_relatve": True}, "has no effect; did you mean twist0"),
         ({"odmo0_config": VX}, "did you mean odom0_config?"),
         ({"imuO": "i"}, "did you mean imu0?"),
         ({"control_confg": [True] * 6}, "did you mean control_config?"),
