@@ -11,6 +11,7 @@ from bringup.world.body import CAMERAS, FOOTPRINT_RADIUS
 from bringup.world.collisions import Collisions
 from bringup.world.layout import LayoutError, lay_out, room
 from bringup.world.model import TICKS_PER_SECOND, Moment, load, pose
+from bringup.world.own_time import OwnTime
 from bringup.world.script import Script, read_script
 from bringup.world.simulation import Simulation
 from bringup.world.spoken import ClockOut
@@ -43,6 +44,7 @@ class Course:
         ]
         self._collisions = Collisions(node, self.simulation)
         self._clock = ClockOut(node, QUEUED)
+        self._own_time = OwnTime(node)
         self._publish_mounts(node)
         self._steps: list[tuple[int, Future[int]]] = []
 
@@ -113,6 +115,7 @@ class Course:
         """
         moments = self._advance(most)
         last = self.simulation.ticks
+        self._own_time.set(last)
         for ticks, moment in enumerate(moments, last - len(moments) + 1):
             self._clock.publish(ticks)
             for robot in self.robots:
@@ -153,6 +156,7 @@ class Course:
 
     def tell_time(self) -> None:
         """Publish the clock as it is."""
+        self._own_time.set(self.simulation.ticks)
         self._clock.publish(self.simulation.ticks)
 
     def _commands(self) -> list[Twist] | None:
