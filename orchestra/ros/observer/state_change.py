@@ -12,6 +12,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING, Any
 
+from lifecycle_msgs.msg import TransitionEvent
 from lifecycle_msgs.srv import ChangeState, GetState
 
 from orchestra.ros.observer.order import OFTEN
@@ -24,6 +25,8 @@ if TYPE_CHECKING:
     from orchestra.ros.observer.order import Request, Say
 
 
+_DEPTH = 100
+_ERROR = "errorprocessing"
 # The states in which the transitions of lifecycle_msgs/msg/Transition end well, by their ids.
 _GOALS = {
     1: "inactive",
@@ -47,6 +50,12 @@ class StateChange:
         self._transition: int = request["transition"]
         self._only_in: str | None = request.get("only_in")
         self._again: bool = request.get("again", False)
+        self._node = node
+        self._erred = False
+        # Before the clients: an event that comes while the transition is made must not be lost.
+        self._events = node.create_subscription(
+            TransitionEvent, f"{request['node']}/transition_event", self._came, _DEPTH
+        )
         self._change = Service(node, ChangeState, f"{request['node']}/change_state")
         self._state = Service(node, GetState, f"{request['node']}/get_state")
         self._begun = False
@@ -60,7 +69,8 @@ class StateChange:
             self._ask_state(self._move)
 
     def close(self) -> None:
-        """Give the clients back."""
+        """Give the clients and the subscription back."""
+        self._node.destroy_subscription(self._events)
         self._change.close()
         self._state.close()
 
@@ -72,6 +82,7 @@ class StateChange:
         if self._needless(state):
             self._say("done", state=state)
             return
+        self._erred = False
         request = ChangeState.Request()
         request.transition.id = self._transition
         self._change.ask(request, partial(self._moved, state))
@@ -83,10 +94,16 @@ class StateChange:
     def _moved(self, before: str, response: Any) -> None:  # noqa: ANN401 - as above
         self._ask_state(partial(self._finish, before, success=response.success))
 
+    def _came(self, event: TransitionEvent) -> None:
+        self._erred |= event.goal_state.label == _ERROR
+
     def _finish(self, before: str, after: Any, *, success: bool) -> None:  # noqa: ANN401 - as above
         state = after.current_state.label
         if success:
             self._say("done", state=state)
+        elif state == before and self._erred:
+            told = f"an error ended the transition, the node has handled it (`on_error`) and is {state} again"
+            self._say("impossible", reason=told)
         elif state == before:
             self._say("impossible", reason=f"the node refused it, or failed, and is still {state}")
         else:

@@ -49,7 +49,7 @@ def consequence(before: str, after: str) -> str:
     """Return what is to be said behind the states of a transition that failed: how it came there, and what can follow.
 
     Only an error leads to `finalized`, or from a later state back to `unconfigured`; where the node stays in its
-    state, nothing tells an error that it has handled from a plain no.
+    state, its events alone tell an error that it has handled from a plain no.
     """
     if after == "finalized":
         return ": it could not handle an error (`on_error`), and only a new start brings it back"

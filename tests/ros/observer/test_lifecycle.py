@@ -120,6 +120,14 @@ def test_a_transition_that_fails_ends_its_order_and_is_told(tmp_path: Path) -> N
         )
 
 
+def test_an_error_that_a_node_has_handled_is_told_from_a_refusal(tmp_path: Path) -> None:
+    with launched(tmp_path, plan(node("error=configure", lifecycle="active")), environment=DOMAIN) as run:
+        event = run.await_event("transition_failed", "/managed")
+        assert event.data["reason"].startswith("an error ended the transition, the node has handled it")
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+
+
 def test_a_transition_that_makes_no_sense_is_told(tmp_path: Path) -> None:
     triggers = (at_start(change(ACTIVATE)),)
     with launched(tmp_path, plan(node(), triggers=triggers), environment=DOMAIN) as run:
