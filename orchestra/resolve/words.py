@@ -12,12 +12,12 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
-from orchestra.description.text import Words
+from orchestra.description.text import MatchedTemplate, Words
 from orchestra.errors import Code
 from orchestra.fields import field
-from orchestra.location import Span, is_within
+from orchestra.location import Span, inside, is_within
 from orchestra.patterns import pattern
-from orchestra.resolve.context import POISON, Poison, Value
+from orchestra.resolve.context import POISON, Poison, Value, new_value
 from orchestra.resolve.evaluate import evaluate, perform
 
 if TYPE_CHECKING:
@@ -25,6 +25,9 @@ if TYPE_CHECKING:
     from orchestra.resolve.context import Context
 
 _BLANKS: Final = " \t\r\n"
+# Text without quotes and backslashes, and its words.
+_BARE: Final = pattern(r"""[^\\'"]*""")
+_WORD: Final = pattern(r"[^ \t\r\n]+")
 _RUN: Final = pattern(r"""[^\\'" \t\r\n]+|.""", re.DOTALL)
 
 
@@ -41,6 +44,12 @@ def split(argv: Template | tuple[Template, ...], context: Context) -> tuple[Valu
 
 
 def _split(template: Template, context: Context) -> tuple[Value, ...] | Poison:
+    if type(template) is MatchedTemplate and template.constant is not None and _BARE.fullmatch(template.raw):
+        span = template.span
+        return tuple(
+            new_value(found[0], context.at(inside(span, *found.span())))
+            for found in _WORD.finditer(template.raw)
+        )
     splitter = _Splitter()
     poisoned = template.faulty
     for part in template.parts:

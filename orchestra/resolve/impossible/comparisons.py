@@ -7,6 +7,7 @@ A comparison of constants is meant: that is how people switch something off.
 from __future__ import annotations
 
 import warnings
+from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
@@ -111,22 +112,30 @@ def _report(argument: str, text: str, span: Span, run: Resolution, *, holds: boo
 
 def _check_expression(template: Template, run: Resolution) -> None:
     """Report the comparisons in a Python expression whose result is always the same."""
-    import ast  # noqa: PLC0415 - slow, and few conditions are expressions
-
     text = "".join(
         part.text if isinstance(part, Words) else f"\ue000{index}\ue001"
         for index, part in enumerate(template.parts)
     )
     lead = len(text) - len(text.lstrip())
+    for node in _compared(text.strip()):
+        _check_compared(node, template, lead, run)
+
+
+@lru_cache(maxsize=64)  # as many conditions say the same
+def _compared(text: str) -> tuple[ast.Compare, ...]:
+    """Return the comparisons of two values in an expression; none where it is no expression.
+
+    A substitution outside of quotes stands for code. What is wrong is told where it is evaluated.
+    """
+    import ast  # noqa: PLC0415 - slow, and few conditions are expressions
+
     try:
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            tree = ast.parse(text.strip(), mode="eval")
+            tree = ast.parse(text, mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
-        return  # a substitution outside of quotes stands for code; what is wrong is told where it is evaluated
-    for node in ast.walk(tree):
-        if isinstance(node, ast.Compare) and len(node.ops) == 1:
-            _check_compared(node, template, lead, run)
+        return ()
+    return tuple(node for node in ast.walk(tree) if isinstance(node, ast.Compare) and len(node.ops) == 1)
 
 
 def _check_compared(node: ast.Compare, template: Template, lead: int, run: Resolution) -> None:
