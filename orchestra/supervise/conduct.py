@@ -182,7 +182,8 @@ def _conclude(system: System, around: Surroundings, beginnings: Beginnings) -> O
     ) and not patience.cancelled:
         around.loop.run_once()
     left = end_leftovers(around, beginnings.run_id, remaining=system.stopping.remaining)
-    if around.kin.struck:
+    if around.kin.dead_readers:
+        around.kin.dead_readers.end()
         shared_memory.remove_leftovers(beginnings.began)
     outcome = judge(system.facts(left))
     around.journal.settle()

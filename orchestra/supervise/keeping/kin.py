@@ -19,6 +19,8 @@ from orchestra.supervise.keeping.marks import PROCESS, RUN, number_of
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
 
+    from orchestra.supervise.keeping.shared_memory import DeadReaders
+
 _FOR_GROUPS = frozenset(
     {
         signal.SIGINT,
@@ -46,8 +48,8 @@ class Kin:
 
     def __init__(self, run_id: str) -> None:
         self._run_id = run_id
-        # Whether a child of ours has ended by a signal, and perhaps could not clear up behind itself.
-        self.struck = False
+        # Not None where a child of ours has ended by a signal, and perhaps could not clear up behind itself.
+        self.dead_readers: DeadReaders | None = None
         self._numbers: dict[str, int | None] = {}
         self._own: dict[int, str | None] = {}
         self._adopted: dict[int, Adopted] = {}
@@ -131,10 +133,10 @@ class Kin:
 
     def _strike(self) -> None:
         """Take note of an end by a signal, and keep those that talked with the dead one from hanging for it."""
-        from orchestra.supervise.keeping.shared_memory import release_dead_readers  # noqa: PLC0415 - few are killed
+        from orchestra.supervise.keeping.shared_memory import DeadReaders  # noqa: PLC0415 - few are killed
 
-        self.struck = True
-        release_dead_readers()
+        self.dead_readers = self.dead_readers or DeadReaders()
+        self.dead_readers.close()
 
     def _numbered(self, number: int) -> str | None:
         return next((owner for owner, known in self._numbers.items() if known == number), None)

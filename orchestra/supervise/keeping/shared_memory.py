@@ -8,10 +8,12 @@ They are removed where they are ours, came while the run did, nobody holds their
 them: locks also tell of processes in other namespaces. Where there is no lock, they must have been there for a while,
 for whoever makes them maps them a moment later. The lock is held meanwhile, so that nobody can begin to use them.
 
-The ports of dead readers go at once, with their locks, whoever else maps them. Who sends to a port that is no longer in
-order, and finds its lock free, clears up behind the reader in a way in which it waits for itself, for ever, if that one
-died while it took a message (Fast DDS up to 2.14.6 and 3.6.2, its issue 6485). Where nothing is left it makes the port
-anew. Without its lock alone the port would be taken for one in order, and the next reader would hear nothing.
+The port of a dead reader is closed at once, whoever else maps it: its lock is held, and its name is a folder, which can
+neither be opened nor made. Who sends to a port that is no longer in order, and finds its lock free, clears up behind
+the reader in a way in which it waits for itself, for ever, if that one died while it took a message (Fast DDS up to
+2.14.6 and 3.6.2, its issue 6485). Where nothing is left, each sender makes the port anew for each message and removes
+it again, until it forgets the reader; whoever begins to read there meanwhile may have its own port removed, and hears
+nothing (one of 50 nodes that were started again). So the next reader takes another port, as where a living one has it.
 """
 
 from __future__ import annotations
@@ -37,6 +39,9 @@ _LOCKS = ("_el", "_sl")
 _READER = pattern(r"(fastrtps_port[0-9]+)_el")
 # A lock that is younger, in seconds, may be about to be taken; nobody knows its port yet.
 _FRESH = 0.1
+# For how long a sender may not have forgotten a reader that has died, in seconds: Fast DDS gives a participant 20 s to
+# tell that it lives.
+_FORGOTTEN = 30.0
 # How long a file without a lock must have been there, in seconds.
 _SETTLED = 2.0
 # Time stamps of files are those of the latest tick of the kernel's clock, and may lie a little before the run.
@@ -52,29 +57,52 @@ def remove_leftovers(began: float) -> list[str]:
     return [file for stem in stems if stem not in mapped for file in _remove(stem)]
 
 
-def release_dead_readers() -> list[str]:
-    """Remove the ports whose one reader has died; return the names of their files."""
-    try:
-        names = os.listdir(_FOLDER)  # noqa: PTH208 - few processes are killed
-    except OSError:
-        return []
-    latest = time.time() - _FRESH
-    ports = [match[1] for name in names if (match := _READER.fullmatch(name))]
-    return [file for port in ports for file in _released(port, latest)]
+class DeadReaders:
+    """The ports whose one reader has died, closed for as long as others still send there."""
 
+    def __init__(self) -> None:
+        # By the stem of a port: the descriptor of its lock, and since when it is held, in seconds that only pass.
+        self._held: dict[str, tuple[int, float]] = {}
 
-def _released(port: str, latest: float) -> list[str]:
-    """Remove a port whose lock is ours, came before `latest` and is held by nobody."""
-    held: list[int] = []
-    lock = f"{port}_el"
-    try:
-        if not (_came_between(lock, 0.0, latest) and _lock(f"{_FOLDER}/{lock}", held) and held):
+    def close(self) -> list[str]:
+        """Close the ports whose one reader has died, and return them; remove those that are forgotten."""
+        now = time.monotonic()
+        old = {port for port, (_, since) in self._held.items() if since < now - _FORGOTTEN}
+        # Who maps one still would send to it for ever: Fast DDS does not see of every reader that it is dead.
+        self._end(sorted(old - _mapped(removed=True)) if old else [])
+        try:
+            names = os.listdir(_FOLDER)  # noqa: PTH208 - few processes are killed
+        except OSError:
             return []
-        # The lock is held until all is gone, as by Fast DDS itself where it looks for dead readers.
-        return [file for file in (port, f"sem.{port}_mutex", lock) if _unlinked(f"{_FOLDER}/{file}")]
-    finally:
-        for descriptor in held:
-            os.close(descriptor)
+        latest = time.time() - _FRESH
+        ports = [match[1] for name in names if (match := _READER.fullmatch(name))]
+        return [port for port in ports if port not in self._held and self._closed(port, latest, now)]
+
+    def end(self) -> None:
+        """Remove all ports that are closed."""
+        self._end([*self._held])
+
+    def _closed(self, port: str, latest: float, now: float) -> bool:
+        """Close a port, if its lock is ours, came before `latest` and is held by nobody."""
+        held: list[int] = []
+        lock = f"{port}_el"
+        if not (_came_between(lock, 0.0, latest) and _lock(f"{_FOLDER}/{lock}", held) and held):
+            for descriptor in held:
+                os.close(descriptor)
+            return False
+        self._held[port] = (held.pop(), now)
+        for file in (port, f"sem.{port}_mutex"):
+            _unlinked(f"{_FOLDER}/{file}")
+        with suppress(OSError):
+            os.mkdir(f"{_FOLDER}/{port}")  # noqa: PTH102 - as above
+        return True
+
+    def _end(self, ports: list[str]) -> None:
+        for port in ports:
+            # The lock is held until all is gone.
+            for file in (port, f"sem.{port}_mutex", f"{port}_el"):
+                _unlinked(f"{_FOLDER}/{file}")
+            os.close(self._held.pop(port)[0])
 
 
 def _stems(began: float) -> set[str]:
@@ -107,13 +135,14 @@ def _is_free(stem: str) -> bool:
         return free
 
 
-def _mapped() -> set[str]:
-    """Return the stems of all that a process, as far as we may look at it, has in its memory."""
+def _mapped(*, removed: bool = False) -> set[str]:
+    """Return the stems of all that a process, as far as we may look at it, has in its memory; also if it is removed."""
     found: set[str] = set()
     for pid in filter(str.isdigit, os.listdir("/proc")):  # noqa: PTH208 - as above
         with suppress(OSError), open(f"/proc/{pid}/maps", "rb") as maps:  # noqa: PTH123 - as above
             names = (os.fsdecode(line.rpartition(b"/")[2].rstrip()) for line in maps if b"fastrtps_" in line)
-            found.update(match[1] for name in names if (match := _OURS.fullmatch(name)))
+            kept = (name.removesuffix(" (deleted)") if removed else name for name in names)
+            found.update(match[1] for name in kept if (match := _OURS.fullmatch(name)))
     return found
 
 
@@ -155,8 +184,9 @@ def _lock(path: str, held: list[int]) -> bool:
 
 
 def _unlinked(path: str) -> bool:
-    try:
-        os.unlink(path)  # noqa: PTH108 - as above
-    except OSError:
-        return False
-    return True
+    """Remove a file, or the empty folder that stands for a port."""
+    for remove in (os.unlink, os.rmdir):
+        with suppress(OSError):
+            remove(path)
+            return True
+    return False

@@ -31,7 +31,7 @@ from bringup.filter_node.ticks import next_tick
 from bringup.filter_node.visits import VisitedSubscriptions
 from orchestra.ros.interfaces import tf_message_type
 from orchestra.ros.interfaces.definitions import provide
-from orchestra.supervise.keeping.shared_memory import release_dead_readers
+from tests.killing import let_nobody_hang
 
 # lark, which the ROS wheels load, still imports a module that Python 3.11 has renamed.
 pytestmark = pytest.mark.filterwarnings("ignore:module 'sre_:DeprecationWarning")
@@ -117,7 +117,7 @@ class Ekf:
         self.process.send_signal(number)
         status = self.process.wait(DEADLINE)
         if status == -signal.SIGKILL:
-            release_dead_readers()
+            let_nobody_hang()
         return status
 
 

@@ -13,9 +13,9 @@ import pytest
 
 from orchestra.plan.model import Component, Provenance
 from orchestra.plan.reactions import ChangeStateAction, LoadAction, TriggerEvent
-from orchestra.supervise.keeping.shared_memory import release_dead_readers
 from orchestra.supervise.options import RunOptions
 from orchestra.values import Restart
+from tests.killing import let_nobody_hang
 from tests.supervise.plans import HERE, PROCESSES, finished, launched, plan, process, shutdown, when
 
 if TYPE_CHECKING:
@@ -223,7 +223,7 @@ def test_a_container_that_is_none_of_the_plan_is_filled(tmp_path: Path) -> None:
     finally:
         outside.kill()
         outside.wait()
-        release_dead_readers()
+        let_nobody_hang()
 
 
 def test_a_component_may_be_a_lifecycle_node(tmp_path: Path) -> None:

@@ -13,7 +13,7 @@ from rclpy.parameter import Parameter
 from orchestra.ros.observer.facts.parameter import same_value
 from orchestra.ros.observer.facts.tf import connected
 from orchestra.ros.observer.kinds import FACTS, maker
-from orchestra.supervise.keeping.shared_memory import release_dead_readers
+from tests.killing import let_nobody_hang
 from tests.ros.observer.conversation import Domain, graph_node, observing
 from tests.supervise.plans import PROCESSES
 
@@ -129,7 +129,7 @@ def test_a_state_of_a_lifecycle_node_is_seen_and_one_that_lasts_for_a_moment_too
         assert observer.heard("to be finalized") == []
         managed.kill()
         managed.wait()
-        release_dead_readers()
+        let_nobody_hang()
 
 
 def test_transforms_make_a_chain_in_either_direction(

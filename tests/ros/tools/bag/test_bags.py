@@ -16,9 +16,8 @@ from typing import TYPE_CHECKING
 import pytest
 import yaml
 
-from orchestra.supervise.keeping.shared_memory import release_dead_readers
 from orchestra.testing.domain import free_domain
-from tests.killing import kill
+from tests.killing import kill, let_nobody_hang
 from tests.ros.tools.conftest import Graph
 
 if TYPE_CHECKING:
@@ -204,7 +203,7 @@ def test_a_recorder_that_was_killed_leaves_what_it_has_written(shell: Graph, tmp
         publisher.send_signal(signal.SIGSTOP)
         recorder.kill()
         recorder.wait()
-        release_dead_readers()
+        let_nobody_hang()
         publisher.send_signal(signal.SIGCONT)
     assert not (folder / "metadata.yaml").exists()
     done = shell.ask("bag", "info", str(folder), "--format", "json")
