@@ -92,6 +92,13 @@ def test_as_many_robots_as_an_argument_names() -> None:
         assert process.parameters["use_sim_time"] is True
 
 
+def test_robots_may_have_any_names_without_a_warning() -> None:
+    """Parameters of single robots count only where somebody asks for them."""
+    assert [problem.message for problem in _planned("fleet.yaml", "robots:=r1,r2,r3,r4,r5")[1]] == []
+    own = _processes("fleet.yaml", f"settings:={_BRINGUP / 'params' / 'robots.yaml'}")
+    assert own["/robot2/velocity_controller"].parameters["max_linear_vel"] == 0.4
+
+
 def test_robots_start_and_drive_as_a_file_tells() -> None:
     file = str(_BRINGUP / "robots" / "three.yaml")
     found = _processes("fleet.yaml", f"robots_file:={file}", "mode:=linear")
