@@ -87,17 +87,13 @@ class Batches:
 
     def write(self, results: Iterable[tuple[str, Record, Any]]) -> None:
         """Keep results, each with its key and record, in place of any earlier ones. Where the disk refuses, none is."""
-        writing, numbers = _Writing(), {}
+        writing = _Writing()
+        shared = _Shared(writing)
         for key, record, result in results:
-            if record.unknown:
-                continue
-            parts = []
-            for part in record.every()[1:]:
-                if id(part) not in numbers:
-                    numbers[id(part)] = writing.part(_encoded(part.as_data()))
-                parts.append(numbers[id(part)])
-            content = _encoded({"key": key, "record": record.as_data(), "result": result})
-            writing.entry(_name(key), content, parts)
+            if not record.unknown:
+                own = record.as_data() | {"variables": {}, "names": ""}
+                content = _encoded({"key": key, "record": own, "result": result})
+                writing.entry(_name(key), content, sorted(shared.numbers(record)))
         self._write(writing)
 
     def tidy(self) -> None:
@@ -177,6 +173,34 @@ class _Writing:
         first, self.size = self.size, self.size + len(line)
         self._lines.append(line)
         return first, self.size
+
+
+class _Shared:
+    """Adds to a batch what results depend on and others may depend on as well, each part of it once."""
+
+    def __init__(self, writing: _Writing) -> None:
+        self._writing = writing
+        self._parts: dict[int, frozenset[int]] = {}
+        self._environments: dict[tuple[Any, ...], int] = {}
+
+    def numbers(self, record: Record) -> set[int]:
+        """Return the numbers of a result's parts, of theirs, and of the variables that were read."""
+        return {self._environment(record)}.union(*map(self._part, record.parts))
+
+    def _part(self, part: Record) -> frozenset[int]:
+        known = self._parts.get(id(part))
+        if known is None:
+            own = self._writing.part(_encoded(part.as_data()))
+            known = self._parts[id(part)] = frozenset({own}.union(*map(self._part, part.parts)))
+        return known
+
+    def _environment(self, record: Record) -> int:
+        """Return the number of what was read of the environment: most files of a project read the same."""
+        key = (record.names, *record.variables.items())
+        if key not in self._environments:
+            read = Record(variables=record.variables, names=record.names)
+            self._environments[key] = self._writing.part(_encoded(read.as_data()))
+        return self._environments[key]
 
 
 def _name(key: str) -> str:
