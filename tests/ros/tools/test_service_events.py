@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import re
+import signal
 import subprocess
 import sys
 from typing import TYPE_CHECKING
@@ -15,6 +17,7 @@ from tests.ros.tools.conftest import Graph
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
+    from pathlib import Path
 
 _SERVER = """
 import rclpy
@@ -71,3 +74,23 @@ def test_requests_and_responses_are_shown(shell: Graph) -> None:
 def test_a_service_that_nobody_has_is_told(shell: Graph) -> None:
     done = shell.ask("service", "echo", "/swich")
     assert (done.status, done.errors) == (1, "error: Unknown service '/swich'; did you mean /switch?\n")
+
+
+def test_what_a_service_is_asked_and_answers_is_recorded(shell: Graph, tmp_path: Path) -> None:
+    pytest.importorskip("mcap", reason="needs the extra `ros`")
+    folder = tmp_path / "events"
+    with shell.asking("bag", "record", "--services", "switch", "-o", str(folder)) as recorder:
+        assert recorder.stdout is not None
+        assert "+ /switch/_service_event [std_srvs/srv/SetBool_Event]\n" in recorder.stdout
+        for _ in range(2):  # the first may come before the server knows the recorder
+            shell.told("service", "call", "/switch", "std_srvs/srv/SetBool", "{data: true}")
+        recorder.send_signal(signal.SIGINT)
+        assert recorder.wait() == 0
+    told = shell.told("bag", "info", "-v", str(folder))
+    assert re.search(
+        r"Service: /switch \| Type: std_srvs/srv/SetBool \| Request Count: [12] \| Response Count: [12] ",
+        told,
+    )
+    highlevel = pytest.importorskip("rosbags.highlevel")
+    with highlevel.AnyReader([folder]) as reader:  # which opens no bag whose hashes it cannot follow
+        assert len(list(reader.messages())) >= 2
