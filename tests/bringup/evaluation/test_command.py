@@ -1,5 +1,6 @@
 """The commands as they are typed."""
 
+import signal
 import subprocess
 import sys
 from pathlib import Path
@@ -69,3 +70,16 @@ def test_a_run_is_written_and_drawn(tmp_path: Path, capsys: pytest.CaptureFixtur
 def test_nothing_but_drawing_imports_matplotlib() -> None:
     code = "import sys, bringup.evaluation.command; sys.exit('matplotlib' in sys.modules or 'rclpy' in sys.modules)"
     assert subprocess.run([sys.executable, "-c", code], timeout=60, check=False).returncode == 0
+
+
+def test_who_reads_no_further_is_told_no_error() -> None:
+    """As where the output goes to `head`."""
+    words = [sys.executable, "-m", "bringup.evaluation", "consistency", "--seeds", "1", "--seconds", "1"]
+    with subprocess.Popen(
+        [*words, "--jobs", "1"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stdout
+        assert process.stderr
+        process.stdout.close()
+        assert process.stderr.read() == ""
+        assert process.wait() == -signal.SIGPIPE
