@@ -93,6 +93,7 @@ def test_plans_of_forms_are_those_of_other_files(tmp_path: Path, monkeypatch: py
 
 
 @pytest.mark.long
+@pytest.mark.timeout(900)
 def test_hundreds_of_plans_of_forms_are_those_of_other_files(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
