@@ -7,6 +7,9 @@ from dataclasses import dataclass
 
 WHEEL_RADIUS = 0.10
 WHEEL_SEPARATION = 0.40
+# How a robot stands at rest: its weight presses the tyres flat by 0.16 mm and the caster a little more.
+REST_HEIGHT = 0.0998369
+REST_PITCH = -0.000988
 # Every part of the robot lies within this distance of the middle of its axle.
 FOOTPRINT_RADIUS = 0.25
 

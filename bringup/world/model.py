@@ -11,7 +11,15 @@ import numpy as np
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 from numpy.typing import NDArray
 
-from bringup.world.body import CAMERA, CAMERA_FOVY, FOOTPRINT_RADIUS, MOUNTS, WHEEL_RADIUS
+from bringup.world.body import (
+    CAMERA,
+    CAMERA_FOVY,
+    FOOTPRINT_RADIUS,
+    MOUNTS,
+    REST_HEIGHT,
+    REST_PITCH,
+    WHEEL_RADIUS,
+)
 from bringup.world.drive import Twist
 from bringup.world.geometry import Pose, yaw_of
 from bringup.world.layout import Layout
@@ -113,15 +121,9 @@ def placed(moment: Moment, robot: Robot) -> Pose:
 def place(data: Any, robot: Robot, pose: Pose) -> None:  # noqa: ANN401 - MjData has no type
     """Put the robot somewhere, at rest; the physics has to be told by `mj_forward`."""
     at, moving = robot.position, robot.velocity
-    data.qpos[at : at + 7] = (
-        pose.x,
-        pose.y,
-        WHEEL_RADIUS,
-        math.cos(pose.yaw / 2),
-        0,
-        0,
-        math.sin(pose.yaw / 2),
-    )
+    cos, sin = math.cos(pose.yaw / 2), math.sin(pose.yaw / 2)
+    ahead, nod = math.cos(REST_PITCH / 2), math.sin(REST_PITCH / 2)
+    data.qpos[at : at + 7] = pose.x, pose.y, REST_HEIGHT, cos * ahead, -sin * nod, cos * nod, sin * ahead
     data.qvel[moving : moving + 6] = 0.0
     for wheel in robot.spins:
         data.qvel[wheel] = 0.0

@@ -59,6 +59,8 @@ class Simulation:
     def reset(self) -> None:
         """Begin anew: everything is as it was at first, time as well."""
         mujoco.mj_resetData(self.model.physics, self.data)
+        for robot in self.model.robots:
+            place(self.data, robot, robot.start)
         mujoco.mj_forward(self.model.physics, self.data)
         self.ticks = 0
         for count in self.contacts:

@@ -9,6 +9,7 @@ from bringup.world.geometry import Pose
 from bringup.world.layout import Start, lay_out
 from bringup.world.lidar import Lidar, noisy
 from bringup.world.model import load
+from bringup.world.physics import mujoco
 from bringup.world.shapes import Cylinder, Shape
 from bringup.world.simulation import Simulation
 
@@ -22,6 +23,9 @@ def scan(*starts: Pose, obstacles: tuple[Shape, ...] = (), half: float = 5.0) ->
     robots = tuple(Start(f"robot{number}", start) for number, start in enumerate(starts, start=1))
     made = replace(layout, half=half, walls=tuple(grown), obstacles=obstacles, starts=robots)
     simulation = Simulation(load(made))
+    # Exactly level, which no robot is that rests on a caster.
+    simulation.data.qpos[:] = simulation.model.physics.qpos0
+    mujoco.mj_forward(simulation.model.physics, simulation.data)
     return Lidar(simulation.model, simulation.model.robots[0]).measure(simulation.data)
 
 

@@ -72,6 +72,18 @@ def test_wheels_roll_without_slip_on_a_straight_way() -> None:
     assert right == pytest.approx(left, rel=1e-3)
 
 
+def test_a_robot_that_is_put_somewhere_rests_there() -> None:
+    simulation = Simulation(load(empty(Pose(-3.0, 0.0, 0.7))))
+    robot, level = simulation.model.robots[0], (0, 0, 0, 0.01, 0, 9.81)
+    simulation.tick([STILL])
+    assert simulation.data.sensordata[robot.imu] == pytest.approx(level, abs=0.02)
+    drive(simulation, 1.0, Twist(0.5, 0.5))
+    simulation.teleport(0, Pose(2.0, 1.0, -2.0))
+    assert pose(simulation.data, robot) == pytest.approx((2.0, 1.0, -2.0), abs=1e-9)
+    simulation.tick([STILL])
+    assert simulation.data.sensordata[robot.imu] == pytest.approx(level, abs=0.02)
+
+
 def test_an_even_way_does_not_shake_the_robot() -> None:
     simulation = Simulation(load(empty(Pose(-3.0, 0.0, 0.0))))
     drive(simulation, 2.0, Twist(0.8, 0.3))
