@@ -171,6 +171,8 @@ def test_services_have_their_names_of_ros() -> None:
         ({**_LOCAL, "FASTRTPS_DEFAULT_PROFILES_FILE": "profile.xml"}, None),
         ({**_LOCAL, "ROS_SECURITY_ENABLE": "true"}, None),
         ({"ROS_AUTOMATIC_DISCOVERY_RANGE": "SUBNET"}, None),
+        ({"ROS_LOCALHOST_ONLY": "1"}, 0),
+        ({**_LOCAL, "ROS_LOCALHOST_ONLY": "0"}, None),
         ({}, None),
     ],
 )

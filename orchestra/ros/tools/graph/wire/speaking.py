@@ -31,7 +31,7 @@ def domain_on_wire(environment: Mapping[str, str]) -> int | None:
     number = environment.get("ROS_DOMAIN_ID") or "0"
     usual = (
         environment.get("RMW_IMPLEMENTATION", "") in _MIDDLEWARE
-        and environment.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").upper() == "LOCALHOST"
+        and _is_alone(environment)
         and environment.get("ROS_SECURITY_ENABLE", "").lower() != "true"
         and not any(environment.get(name) for name in _OTHERWISE)
         and not any(Path(name).exists() for name in _PROFILES)
@@ -39,3 +39,11 @@ def domain_on_wire(environment: Mapping[str, str]) -> int | None:
     if not (usual and number.isascii() and number.isdecimal() and int(number) <= _LAST and tells_ports()):
         return None
     return int(number)
+
+
+def _is_alone(environment: Mapping[str, str]) -> bool:
+    """Tell whether discovery reaches this machine alone; the older of two variables comes first, as in rcl."""
+    only = environment.get("ROS_LOCALHOST_ONLY", "")
+    return only == "1" or (
+        not only and environment.get("ROS_AUTOMATIC_DISCOVERY_RANGE", "").upper() == "LOCALHOST"
+    )
