@@ -194,3 +194,16 @@ def test_the_graph_of_a_server_that_is_not_there_is_empty_with_a_warning(graph: 
     )
     assert (done.status, done.output) == (0, "")
     assert "warning: nobody answers at 127.0.0.1:1, which ROS_DISCOVERY_SERVER names\n" in done.errors
+
+
+def test_who_does_not_answer_is_told_of(graph: Graph) -> None:
+    first = 7400 + 250 * int(graph.environment["ROS_DOMAIN_ID"]) + 10 + 2 * 90
+    with (
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as deaf,
+        socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as beside,
+    ):
+        deaf.bind(("127.0.0.1", first))
+        beside.bind(("127.0.0.1", first + 1))
+        done = graph.ask("node", "list", "--spin-time", "1")
+    assert (done.status, done.output) == (0, "/robot1/actor\n/robot1/machine\n")
+    assert done.errors.startswith("warning: not everybody has answered")

@@ -24,6 +24,7 @@ _SeenT = TypeVar("_SeenT")
 _PAUSE: Final = 0.1
 _MEETING: Final = 0.02
 _CHANGING: Final = 6
+_LATE: Final = "not everybody has answered, so something may be missing (--spin-time waits for longer)"
 _NO_SUPPORT: Final = "Type support not from this implementation"
 _REFUSAL: Final = "RCLError"  # of a module that not all who join have imported
 _AT: Final = re.compile(r", at /.*")
@@ -72,6 +73,7 @@ class Graph:
         self._began = time.monotonic()
         self._spin_time = spin_time
         self._met = False
+        self._gave_up = False
         self._attendance = attendance
         self._servers = Servers(os.environ.get("ROS_DISCOVERY_SERVER", ""))
 
@@ -128,7 +130,10 @@ class Graph:
 
     def _is_whole(self, seen: Callable[[], Any]) -> bool:
         """Tell whether nobody is missing and nothing changes any more; a moment passes otherwise."""
-        if self._attendance.settled(seen()) or self._is_late():
+        if self._attendance.settled(seen()):
+            return True
+        if self._is_late():
+            self._gave_up = True
             return True
         self._rest()
         return False
@@ -141,7 +146,7 @@ class Graph:
         """Leave the graph, and take back what was said to others to make them known."""
         self._attendance.close()
         self.node.destroy_node()
-        complaint = self._servers.complaint()
+        complaint = self._servers.complaint() or (_LATE if self._gave_up else None)
         if complaint:
             warn(f"warning: {complaint}")
 
