@@ -16,7 +16,7 @@ from orchestra.plan.reactions import ChangeStateAction, LoadAction, TriggerEvent
 from orchestra.supervise.options import RunOptions
 from orchestra.values import Restart
 from tests.killing import let_nobody_hang
-from tests.supervise.plans import HERE, PROCESSES, finished, launched, plan, process, shutdown, when
+from tests.supervise.plans import HERE, PROCESSES, finished, launched, plan, process, shutdown, wait_for, when
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -146,9 +146,9 @@ def test_a_trigger_loads_what_waits_for_it(tmp_path: Path) -> None:
     with launched(tmp_path, what, environment=DOMAIN) as run:
         run.await_event("component_loaded", "/late")
         run.await_event("component_loaded", "/early")
+        wait_for(lambda: "late is not loaded once more" in run.stderr, "the second trigger")
         stop(run)
         assert len(requests(run)) == 2
-        assert "late is not loaded once more" in run.stderr
 
 
 @pytest.mark.conforms("4.7 environment and respawn", "D39")
