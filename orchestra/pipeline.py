@@ -110,13 +110,14 @@ def opened(
     *,
     load: LoadFile = load,
     packages: InstalledPackages | None = None,
-    digests: bool = True,
+    whole: bool = True,
     isolating: Isolating = isolated,
 ) -> Iterator[Launch | None]:
     """Resolve and plan a launch file, whose code can be called as long as the context lasts.
 
     What is wrong is in `problems`. `load` reads the files. None where the file itself cannot be read as a launch file.
-    `digests`: those of the processes are wanted. `isolating` keeps from this process what code of the files does.
+    `whole`: the plan is wanted, and not only what is wrong with it. `isolating` keeps from this process what code of
+    the files does.
     """
     packages = packages or InstalledPackages(inputs.environment)
     with _loading(path, inputs, load, packages, problems, isolating) as isolation:
@@ -130,8 +131,8 @@ def opened(
                 resolved = _symbolic(carry_through(description, run), isolation.files)
                 resolved = _provided_for(resolved, inputs, problems)
                 _warn_of_remaining(path, isolation, problems)
-                plan = build(resolved, problems, digests=digests)
-                plan = warmed(plan, inputs.environment) if digests else plan
+                plan = build(resolved, problems, whole=whole)
+                plan = warmed(plan, inputs.environment) if whole else plan
                 launch = Launch(plan, run, isolation.files)
                 if not inputs.launching:
                     # Here, because a run looks at its machine itself.
@@ -140,7 +141,7 @@ def opened(
                     check_memory(launch.plan, problems)
             _point_into_code(problems)
             settle(problems, path, inputs.severity, bare=_is_bare(path))
-            if launch is not None:
+            if launch is not None and whole:
                 launch.plan = replace(launch.plan, problems=problems.ordered)
         yield launch
         end(run)

@@ -150,17 +150,16 @@ def here(made: object = None) -> Place:
     if _standing:
         return _standing[-1].of(made)
     frame: FrameType | None = sys._getframe(1)
-    outermost = frame
-    while frame is not None and (frame.f_code.co_filename.startswith(_OWN) or _is_constructor(frame, made)):
-        outermost, frame = frame, frame.f_back
-    found = frame or outermost
-    assert found is not None  # noqa: S101 - whoever calls has a frame
-    return Place(found.f_code, found.f_lasti, None if made is None else type(made))
+    while frame is not None:
+        found, code = frame, frame.f_code  # asked for once: a process that is watched is told of it each time
+        if not code.co_filename.startswith(_OWN) and not _is_constructor(frame, code, made):
+            break
+        frame = frame.f_back
+    return Place(code, found.f_lasti, None if made is None else type(made))
 
 
-def _is_constructor(frame: FrameType, made: object) -> bool:
+def _is_constructor(frame: FrameType, code: CodeType, made: object) -> bool:
     """Return whether a frame is a subclass's `__init__` of an object."""
-    code = frame.f_code
     return code.co_name == "__init__" and frame.f_locals.get(code.co_varnames[0]) is made
 
 

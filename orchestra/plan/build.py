@@ -13,7 +13,7 @@ from orchestra.plan.components import components
 from orchestra.plan.digest import digest_of
 from orchestra.plan.edges import Targets, check_cycles, dependencies
 from orchestra.plan.ids import check_names, identities
-from orchestra.plan.model import VERSION, Argument, ParameterFile, Plan, Process, Skipped
+from orchestra.plan.model import VERSION, Argument, ParameterFile, Plan, Process, Provenance, Skipped
 from orchestra.plan.parameter_file import path_of
 from orchestra.plan.parameters import check_given, parameters_of
 from orchestra.plan.passed_on import Sections
@@ -38,13 +38,13 @@ def build(
     *,
     triggers_before: int = 0,
     known: Collection[str] = (),
-    digests: bool = True,
+    whole: bool = True,
 ) -> Plan:
     """Return the plan. What cannot work is reported; the problems found so far become part of the plan.
 
     `triggers_before` counts the triggers of a plan that is added to, and `known` are the ids in it. A node that is
-    added may have the name of one of these: most often it replaces one that has ended. Without `digests` the processes
-    have none, which only who starts or compares them needs.
+    added may have the name of one of these: most often it replaces one that has ended. A plan that is not `whole` has
+    what the checks look at, and is for nobody else: its processes cannot be started, compared or explained.
     """
     ids = identities(resolved.processes)
     loaded = identities(resolved.components, ids)
@@ -61,13 +61,13 @@ def build(
     check_given(resolved, problems)
     sections = Sections(resolved)
     processes = tuple(
-        _process(process, identity, edges[identity], sections, problems, digests=digests)
+        _process(process, identity, edges[identity], sections, problems, whole=whole)
         for identity, process in targets.process.items()
     )
     plan = Plan(
         VERSION,
         resolved.file,
-        _arguments(resolved),
+        _arguments(resolved) if whole else (),
         processes,
         components(resolved, ids, loaded, sections, problems),
         triggers(resolved, ids, loaded, triggers_before),
@@ -78,7 +78,7 @@ def build(
         (),
     )
     check_all(resolved, plan, problems)
-    return replace(plan, problems=problems.ordered)
+    return replace(plan, problems=problems.ordered) if whole else plan
 
 
 new_process = maker(Process)
@@ -106,13 +106,13 @@ def _process(
     sections: Sections,
     problems: Problems,
     *,
-    digests: bool,
+    whole: bool,
 ) -> Process:
-    parameters = parameters_of(process, sections, problems)
+    parameters = parameters_of(process, sections, problems, whole=whole)
     check_remaps(process, problems)
     path = path_of(identity) if parameters.values or parameters.files else None
     files = tuple(ParameterFile(path or file.path, file.content) for file in parameters.files)
-    words, environment = command(process, path), environment_of(process)
+    words, environment = command(process, path) if whole else (), environment_of(process)
     return new_process(
         id=identity,
         kind=process.kind,
@@ -144,9 +144,9 @@ def _process(
         limits=process.limits,
         warm=wish(process.warm),
         machine=None,
-        digest=_digest(process, words, environment, parameters.values, files) if digests else "",
+        digest=_digest(process, words, environment, parameters.values, files) if whole else "",
         location=process.location,
-        provenance=provenance(process, parameters),
+        provenance=provenance(process, parameters) if whole else Provenance(parameters=parameters.candidates),
         params_schema=None if process.params_schema is None else process.params_schema.text,
     )
 

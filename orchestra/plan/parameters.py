@@ -42,10 +42,13 @@ class Parameters:
     files: tuple[ParameterFile, ...] = ()
 
 
-def parameters_of(process: ResolvedProcess, sections: Sections, problems: Problems) -> Parameters:
+def parameters_of(
+    process: ResolvedProcess, sections: Sections, problems: Problems, *, whole: bool = True
+) -> Parameters:
     """Return the effective parameters of a process; those of the command line win over all others.
 
-    A surprise is reported: a value that loses although it stands last.
+    A surprise is reported: a value that loses although it stands last. What is not `whole` lacks what values came
+    through, and what goes to other nodes.
     """
     if process.kind == "process" or not (process.parameters or sections.given):
         return Parameters()
@@ -57,12 +60,12 @@ def parameters_of(process: ResolvedProcess, sections: Sections, problems: Proble
     settings = settings_of(sections.for_node(process, own, full), full)
     overrides = settings_of(sections.given_to(process), full)
     _report(settings, overrides, problems)
-    known = candidates.origins(process.parameters)
+    known = candidates.origins(process.parameters if whole else ())
     every = {**settings, **overrides}
     return Parameters(
         {name: setting.value for name, setting in every.items() if setting.value is not None},
         {name: candidates.of_parameter(settings.get(name), overrides.get(name), known) for name in every},
-        sections.passed_on(process, own),
+        sections.passed_on(process, own) if whole else (),
     )
 
 

@@ -122,6 +122,7 @@ def names_behind(
 
 # Most of what is in an entity, and never one itself.
 _PLAIN = frozenset({Template, MatchedTemplate, str, bool, type(None)})
+_NAMING = (Include, OpaqueAction)
 _FIXED = frozenset({"dirname", "filename", "find-pkg-prefix", "find-pkg-share"})
 
 
@@ -161,25 +162,30 @@ def _run_nothing(command: tuple[str, ...], environment: Mapping[str, str]) -> Co
 def _files(
     actions: tuple[Conditional, ...], context: Context, variables: Mapping[str, Variable]
 ) -> tuple[str | None, ...]:
-    found = [entity for entity in entities_in(actions) if isinstance(entity, Include | OpaqueAction)]
+    found = [entity for entity in entities_in(actions) if isinstance(entity, _NAMING)]
     values = [
         glimpse(entity.file, context, variables) if isinstance(entity, Include) else None for entity in found
     ]
     return tuple(None if value is None else beside(context.file, value.text) for value in values)
 
 
-def entities_in(value: object) -> Iterator[Entity]:
-    """Yield an entity, or several, and all that stand in them."""
+def entities_in(value: object) -> list[Entity]:
+    """Return an entity, or several, and all that stand in them."""
+    found: list[Entity] = []
+    _collect(value, found)
+    return found
+
+
+def _collect(value: object, found: list[Entity]) -> None:
     if isinstance(value, tuple):
         for item in value:
             if type(item) not in _PLAIN:
-                yield from entities_in(item)
+                _collect(item, found)
     elif isinstance(value, Entity):
-        yield value
-        for name in type(value).model_fields:
-            inner = getattr(value, name)
+        found.append(value)
+        for inner in vars(value).values():
             if type(inner) not in _PLAIN:
-                yield from entities_in(inner)
+                _collect(inner, found)
 
 
 def templates_of(entity: Entity) -> Iterator[Template]:

@@ -60,7 +60,7 @@ class Observer:
         """Begin to watch this process, which cannot be undone."""
         if not self.installed:
             self.installed = True
-            sys.addaudithook(self._heard)
+            sys.addaudithook(unknowable.sifted(self._heard, self._harmless))
             looking.wrap(self._wrapped)
             environ: Any = os.environ
             environ._data = ObservedData(environ._data, self)  # noqa: SLF001 - there is no other way to it
@@ -216,8 +216,8 @@ class Observer:
         return None if whole.startswith((OURS, "/proc/self/task")) or is_python(whole) else whole
 
     def _heard(self, event: str, args: tuple[Any, ...]) -> None:
-        """Be told of something by the interpreter; called for everything in this process, so it is quick."""
-        if event in self._harmless or self.record is None or self._aside:
+        """Be told of something by the interpreter that is not known to be harmless."""
+        if self.record is None or self._aside:
             return
         try:
             self._note(event, args)

@@ -94,7 +94,7 @@ class Looker:
             problems,
             load=visit.load,
             packages=self._packages,
-            digests=False,
+            whole=False,
             isolating=self._isolating,
         ) as launch:
             left_out = set() if launch is None else launch.left_out

@@ -23,19 +23,37 @@ def temporary_files(files: Files) -> Iterator[None]:
 
     The names count up instead of being drawn by lot: two plans of one description name the same files.
     """
-    folder = tempfile.mkdtemp(prefix="orchestra-")
+    watching = observer()
+    folder = _unused.pop() if _unused else tempfile.mkdtemp(prefix="orchestra-")
+    new = _state(folder)
     before = tempfile.tempdir, tempfile._name_sequence  # type: ignore[attr-defined] # there is no public way
     tempfile.tempdir, tempfile._name_sequence = folder, _Names()  # type: ignore[attr-defined]
     files.folder = folder
-    watching = observer()
     watching.scratch = watching.scratch or folder  # what it is called tells nothing
     try:
         yield
     finally:
         tempfile.tempdir, tempfile._name_sequence = before  # type: ignore[attr-defined]
         if not files.kept:
-            with observer().aside():
-                _remove(folder)
+            with watching.aside():
+                if watching.installed and new is not None and _state(folder) == new:
+                    _unused.append(
+                        folder
+                    )  # such a process reads many files, and what is around the folder goes away
+                else:
+                    _remove(folder)
+
+
+_unused: list[str] = []
+
+
+def _state(folder: str) -> tuple[int, int] | None:
+    """Return what changes with whatever is done to a folder, or in it; None where it is gone."""
+    try:
+        found = os.stat(folder)  # noqa: PTH116 - pathlib is slow
+    except OSError:
+        return None
+    return found.st_mode, found.st_mtime_ns
 
 
 def _remove(folder: str) -> None:
