@@ -7,10 +7,11 @@ import re
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.explanation import in_their_words
-from orchestra.compat.given import path_of, without
+from orchestra.compat.given import path_of, value_at, without
 from orchestra.compat.keywords import keyword_meant, parameters_of, shown
 from orchestra.compat.literals import argument, keyword_span
 from orchestra.compat.reported import ReportedError
+from orchestra.compat.rewritten import named, rewritten
 from orchestra.compat.wrong import WrongValue
 from orchestra.errors import Code, Problem, Severity
 
@@ -22,6 +23,12 @@ if TYPE_CHECKING:
 
 _MISSING: Final = re.compile(r"missing \d+ required [\w-]+ arguments?: (.*)")
 _NAME: Final = re.compile(r"'\w+'")
+_AMOUNTS: Final = (
+    "period",
+    "respawn_delay",
+    "sigkill_timeout",
+    "sigterm_timeout",
+)  # numbers are right in them
 _Parameter = inspect.Parameter
 
 
@@ -81,11 +88,21 @@ class FaultyCall:
         name = self.kind.__name__
         message = f"{name} takes {index or 'no'} argument{'s' * (index != 1)} without a name"
         note = f"it is written {name}({shown(self.parameters)})"
-        self._tell(Code.WRONG_TYPE, message, self._at((f"*{index}",)), notes=(note,))
+        at = self._at((f"*{index}",))
+        self._tell(Code.WRONG_TYPE, message, at, self._named(index, at), (note,))
         self.surplus, self.is_shortened = None, True
         self.is_lost = not _is_entity(self.kind) or any(_is_entity(type(value)) for value in self.given)
         self._take_by_order(index)
         return True
+
+    def _named(self, index: int, at: Span) -> str | None:
+        """Return the only word that is one too many with the name that it lacks, None where it may mean another."""
+        left = [name for name in self.parameters if name not in self.named]
+        word = self.given[index]
+        is_another = word is None or (index > 0 and _is_entity(type(word)))
+        if len(self.given) != len(self.named) + 1 or not left or is_another or at == self.places[0].span:
+            return None
+        return named(self.places[0].file, at, left[0])
 
     def _take_by_order(self, index: int) -> None:
         """Give a word without a name that is one too many to the first argument that has to be named."""
@@ -124,7 +141,10 @@ class FaultyCall:
         code = error.code if isinstance(error, WrongValue) else Code.WRONG_TYPE
         suggestion = error.suggestion if isinstance(error, WrongValue) else None
         at = self._at(path, whole=suggestion is None and code is not Code.NOT_A_CHOICE)
-        self._tell(code, in_their_words(" ".join(str(error).split())), at, suggestion)
+        message = in_their_words(" ".join(str(error).split()))
+        if suggestion is None and path[0] not in _AMOUNTS:
+            suggestion = rewritten(self.places[0].file, at, value_at(path, self.original), message)
+        self._tell(code, message, at, suggestion)
         self.told.add(path)
         name = str(path[0])
         kept = without(self.original, self.told)

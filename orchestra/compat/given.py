@@ -64,6 +64,17 @@ def without(given: Mapping[str, Any], paths: Iterable[tuple[Step, ...]]) -> dict
     return {name: value for name, value in kept.items() if value is not _NOTHING}
 
 
+def value_at(path: tuple[Step, ...], given: Mapping[str, Any]) -> Any:
+    """Return the value that stands at a place, None where that is a key or nothing stands there."""
+    value: Any = given.get(str(path[0]))
+    try:
+        for step in path[1:]:
+            value = None if isinstance(step, Key) else _at(value, step)
+    except (IndexError, TypeError, ValueError):
+        return None
+    return value
+
+
 def _cut(path: tuple[Step, ...], given: Mapping[str, Any]) -> tuple[Step, ...]:
     """Return the place of the smallest thing that can be left out to have a value left out."""
     value: Any = given[str(path[0])]

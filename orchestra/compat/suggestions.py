@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.literals import Literal, argument
 from orchestra.compat.place import Argument
+from orchestra.compat.rewritten import Rewritten
 from orchestra.compat.source_text import quoted_in, text_at
 from orchestra.compat.syntax_trees import tree_of
 from orchestra.errors import Code
@@ -37,6 +38,8 @@ def in_place(problem: Problem) -> Problem:
         return problem
     if problem.code is Code.SYNTAX:
         return problem  # there are no expressions in what is no Python
+    if isinstance(meant, Rewritten):
+        return replace(problem, span=whole(span), suggestion=str(meant))
     found = _found(span)
     if isinstance(span, Argument):
         problem = replace(problem, span=found.span)

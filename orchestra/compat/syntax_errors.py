@@ -30,9 +30,15 @@ def span_of_syntax(error: SyntaxError) -> tuple[Span, str | None]:
         end_column = min(end_column, len(text) + 1)
     if (end_line, end_column) <= (line, column):
         end_line, end_column = line, column + (column <= len(text))
-    from orchestra.compat.missing_commas import narrowed  # noqa: PLC0415 - only mistakes need it
+    # Here, because only mistakes need them.
+    from orchestra.compat.missing_commas import narrowed  # noqa: PLC0415
+    from orchestra.compat.slips_of_syntax import slip_in  # noqa: PLC0415
 
-    return narrowed(error, Span(shown(file), line, column, end_line, end_column), linecache.getlines(file))
+    lines = linecache.getlines(file)
+    slip = slip_in(error, lines)
+    if slip is not None:
+        return Span(shown(file), line, slip[0] + 1, line, slip[1] + 1), slip[2]
+    return narrowed(error, Span(shown(file), line, column, end_line, end_column), lines)
 
 
 def _in_code_points(error: SyntaxError, file: str, given: tuple[int, int, int, int]) -> tuple[int, int]:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.borrowed import PACKAGES, ROOM
 from orchestra.compat.explanation import Explanation
+from orchestra.compat.rewritten import arguments_around, in_quotes
 from orchestra.compat.seam import connection
 from orchestra.compat.source_text import word_in
 from orchestra.errors import HERE
@@ -36,16 +37,20 @@ def unbound(error: NameError, frame: FrameType, place: Place) -> Explanation | N
     if not error.name:
         return None
     exporting = _exporting(error.name)
-    meant = None if exporting else _meant(error.name, frame)
+    meant = None if exporting else _meant(error.name, frame, place)
+    alike = meant is not None and is_slip(error.name, meant) and meant.islower() == error.name.islower()
+    if not exporting and not alike:
+        meant = in_quotes(place, error.name) or meant
     notes = tuple(f"to have it, write: from {package} import {error.name}" for package in exporting[:1])
     return Explanation(
         f"there is no name '{error.name}' here", span=place.span, suggestion=meant, notes=notes
     )
 
 
-def _meant(name: str, frame: FrameType) -> str | None:
+def _meant(name: str, frame: FrameType, place: Place) -> str | None:
     """Return the name that was meant: one of the user's own, or one of Python's that this is a slip for."""
-    own = nearest(name, _public(frame.f_locals)) or nearest(name, _public(frame.f_globals))
+    around = arguments_around(place)
+    own = nearest(name, _public({*frame.f_locals, *around})) or nearest(name, _public(frame.f_globals))
     known = nearest(name, _public(vars(builtins).keys() - _OF_THE_PROMPT))
     return own if own is not None or known is None or not is_slip(name, known) else known
 

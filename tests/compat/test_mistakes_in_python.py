@@ -302,6 +302,7 @@ _VALUES = {
         "[Node(**TALKER, additional_env={'LEVEL': «5»})]",
         "the value of 'LEVEL' in an environment: expected a text or a substitution (or several in a list), found int",
         Code.WRONG_TYPE,
+        "'5'",
     ),
     "a command that is one text": Mistake(
         "[ExecuteProcess(cmd=«'ls -l'»)]", "cmd is a list of words", Code.WRONG_TYPE

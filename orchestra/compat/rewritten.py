@@ -1,0 +1,111 @@
+"""What should stand in place of a piece of code that is of the wrong kind, where no more than its form is wrong."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.compat.source_text import text_at
+from orchestra.compat.syntax_trees import tree_of
+from orchestra.fields import replace
+
+if TYPE_CHECKING:
+    from orchestra.compat.place import Place
+    from orchestra.location import Span
+
+_MOST: Final = 100  # characters: what is longer is read better in the message alone
+_TWO_TEXTS: Final = re.compile(r"""((["'])(?:(?!\2).)+\2)\s*((["'])(?:(?!\4).)+\4)""")
+_NUMBERS: Final = (int, float)
+# Arguments whose values are names, hardly ever variables of the name that they have.
+_NAMES: Final = frozenset({"executable", "exec", "name", "namespace", "output", "package", "pkg", "plugin"})
+_TAKE_A_NAME: Final = frozenset(
+    {
+        *(
+            "DeclareLaunchArgument",
+            "EnvironmentVariable",
+            "FindExecutable",
+            "FindPackage",
+            "FindPackagePrefix",
+        ),
+        *("FindPackageShare", "LaunchConfiguration", "get_package_prefix", "get_package_share_directory"),
+    }
+)
+
+
+class Rewritten(str):
+    """A suggestion that is code, quotes and brackets with it: it stands in place of the whole expression."""
+
+    __slots__ = ()
+
+
+def rewritten(file: str, span: Span, value: Any, message: str) -> Rewritten | None:
+    """Return what was meant by the expression at a place that has come to a value, which was refused."""
+    source = _short(file, span)
+    if source is None:
+        return None
+    if isinstance(value, type) and _is_ours(value) and source.rpartition(".")[2] == value.__name__:
+        return Rewritten(f"{source}()")
+    if type(value) in _NUMBERS and source == repr(value) and "expected a text" in message:
+        return Rewritten(repr(source))
+    if "a remapping is a tuple" in message:
+        return _apart(file, span, source)
+    if "is a list, this is" in message or "a list of actions is expected" in message:
+        return Rewritten(f"[{source}]") if callable(getattr(value, "visit", None)) else None
+    return None
+
+
+def _apart(file: str, span: Span, source: str) -> Rewritten | None:
+    """Return two texts side by side in brackets with the comma between them that makes a pair."""
+    before = text_at(file, replace(span, column=max(span.column - 1, 1)))[:1]
+    found = _TWO_TEXTS.fullmatch(source)
+    return Rewritten(f"{found[1]}, {found[3]}") if found is not None and before == "(" else None
+
+
+def named(file: str, span: Span, name: str) -> Rewritten | None:
+    """Return an argument with the name that it lacks."""
+    source = _short(file, span)
+    return None if source is None else Rewritten(f"{name}={source}")
+
+
+def in_quotes(place: Place, name: str) -> Rewritten | None:
+    """Return a name that nobody has defined with quotes, where a text is what would stand there."""
+    # Here, because only mistakes need it.
+    import ast  # noqa: PLC0415
+
+    tree = tree_of(place.file)
+    known = None if tree is None else tree.expression(place.file, place.span)
+    for node in () if known is None or tree is None else tree.nodes:
+        match node:
+            case ast.Dict(keys=texts):
+                pass
+            case ast.Call(func=ast.Name(id=called), args=[first, *_], keywords=words) if (
+                called in _TAKE_A_NAME
+            ):
+                texts = [first, *(word.value for word in words if word.arg in _NAMES)]
+            case ast.Call(keywords=words):
+                texts = [word.value for word in words if word.arg in _NAMES]
+            case _:
+                continue
+        if any(text is known for text in texts):
+            return Rewritten(f"'{name}'")
+    return None
+
+
+def arguments_around(place: Place) -> tuple[str, ...]:
+    """Return the arguments of the functions around a place: a frame has only those that its code names."""
+    tree = tree_of(place.file)
+    node = None if tree is None else tree.expression(place.file, place.span)
+    if node is None or tree is None:
+        return ()
+    functions = tree.functions_around(node)
+    return tuple(item.arg for each in functions for item in (*each.args.args, *each.args.kwonlyargs))
+
+
+def _is_ours(kind: type[Any]) -> bool:
+    """Return whether a class is one of the launch language."""
+    return kind.__module__.startswith("orchestra.compat.")
+
+
+def _short(file: str, span: Span) -> str | None:
+    source = text_at(file, span)
+    return source if "\n" not in source and 0 < len(source) <= _MOST else None

@@ -1,0 +1,83 @@
+"""Slips that leave no Python: a keyword that is misspelt, a quote that is missing or another on one side of a word.
+
+CPython tells of them where it gives up, words later, or at the next quote. A slip is told only where the file reads
+further with the word as it was meant.
+"""
+
+from __future__ import annotations
+
+import re
+from itertools import islice
+from keyword import kwlist
+from typing import TYPE_CHECKING, Final
+
+from orchestra.nearest import is_slip
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterator, Sequence
+
+_Slip = tuple[int, int, str]  # first and last column from 0, what was meant
+_WORD: Final = re.compile(r"[A-Za-z_]\w*")
+_HALF_QUOTED: Final = re.compile(
+    r"""(?<![\w'"./-])(?:(["'])([\w./-]+)(?=[,)\]}:]|$)|([\w./-]+)(["'])(?=[,)\]}:]))"""
+)
+_TWO_QUOTES: Final = re.compile(r"""(?<![\w'"./-])(?:'([\w./-]+)"|"([\w./-]+)')(?=[,)\]}:])""")
+_MOST: Final = 12  # words that are tried
+_SHORT: Final = 2  # letters that make any two words alike
+
+
+def slip_in(error: SyntaxError, lines: Sequence[str]) -> _Slip | None:
+    """Return the slip in the line that CPython marks, None where there is none that explains the error."""
+    line, message = error.lineno or 1, error.msg or ""
+    if line > len(lines):
+        return None
+    ways: Iterator[_Slip] = iter(())
+    if "unterminated string" in message:
+        ways = _half_quoted(lines[line - 1])
+    elif message.startswith(("invalid syntax", "expected")):
+        ways = _misspelt(lines[line - 1])
+    for begin, end, meant in islice(ways, _MOST):
+        text = lines[line - 1]
+        whole = [*lines[: line - 1], f"{text[:begin]}{meant}{text[end:]}", *lines[line:]]
+        if _reads_beyond("".join(whole), line):
+            return begin, end, meant
+    return None
+
+
+def _misspelt(text: str) -> Iterator[_Slip]:
+    """Yield the words of a line that may stand for a keyword."""
+    for found in _WORD.finditer(text):
+        word = found[0]
+        if word not in kwlist and len(word) >= _SHORT:
+            meant = (known for known in kwlist if is_slip(word, known))
+            yield from ((*found.span(), known) for known in sorted(meant, key=_unlike(word)))
+
+
+def _unlike(word: str) -> Callable[[str], tuple[bool, int]]:
+    """Return what sorts the keywords of the very same letters first, then those of the same length."""
+    return lambda known: (sorted(known) != sorted(word), abs(len(known) - len(word)))
+
+
+def _half_quoted(text: str) -> Iterator[_Slip]:
+    """Yield the words of a line that have a quote on one side only, or two different ones."""
+    for found in _HALF_QUOTED.finditer(text):
+        quote, word = (found[1], found[2]) if found[1] else (found[4], found[3])
+        yield (*found.span(), f"{quote}{word}{quote}")
+    for found in _TWO_QUOTES.finditer(text):
+        quote = found[0][0]
+        yield (*found.span(), f"{quote}{found[1] or found[2]}{quote}")
+
+
+def _reads_beyond(source: str, line: int) -> bool:
+    """Return whether a text is Python as far as the end of a line."""
+    # Here, because only mistakes need it.
+    from ast import parse  # noqa: PLC0415
+
+    parsing: Callable[[str], object] = parse
+    try:
+        parsing(source)
+    except SyntaxError as error:
+        return (error.lineno or 0) > line
+    except ValueError:  # a character that no text has
+        return False
+    return True
