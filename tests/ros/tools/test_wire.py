@@ -11,12 +11,15 @@ from argparse import Namespace
 from typing import TYPE_CHECKING, Any
 
 import pytest
+from rcl_interfaces.srv import GetParameters
 
+from orchestra.ros.tools.graph.asking import Deadline, ask
 from orchestra.ros.tools.graph.names import nodes, services, topics
 from orchestra.ros.tools.graph.seeing import looking
 from orchestra.ros.tools.graph.wire.endpoints import service, service_type, type_of
 from orchestra.ros.tools.graph.wire.own import PUBLICATIONS, READERS, announcement, endpoint, farewell
 from orchestra.ros.tools.graph.wire.parameters import (
+    END,
     ENDPOINT_GUID,
     KEY_HASH,
     TOPIC,
@@ -37,6 +40,7 @@ from orchestra.ros.tools.graph.wire.submessages import (
     heartbeat,
     message,
     read,
+    sample,
     to,
 )
 
@@ -138,6 +142,20 @@ def test_pieces_make_a_sample_in_any_order() -> None:
     assert last.payload == text
 
 
+def test_a_large_sample_goes_in_messages_that_udp_takes() -> None:
+    received, payload = Received(), random.Random(5).randbytes(200_000)  # noqa: S311 - the same each time
+    messages = [message(_PREFIX, to(bytes(12)), part) for part in sample(_READER, _WRITER, 4, payload, END)]
+    assert all(len(one) < 65_507 for one in messages)
+    pieces = [heard for one in messages for _, heard in read(one)]
+    whole = [received.piece(piece) for piece in reversed(pieces) if isinstance(piece, Fragment)]
+    assert whole[-1] == Data(_WRITER, 4, {}, payload, "<")
+
+
+def test_a_time_that_is_left_out_hides_nothing() -> None:
+    no_time = struct.pack("<BBH", 9, 3, 0)
+    assert len(list(read(message(_PREFIX, no_time, heartbeat(_READER, _WRITER, 3, 1))))) == 1
+
+
 @pytest.mark.parametrize(
     ("on_wire", "name"),
     [
@@ -216,6 +234,17 @@ def test_what_gets_lost_is_asked_for_again(monkeypatch: pytest.MonkeyPatch) -> N
     assert whole[0] == ["/robot1/actor", "/robot1/machine"]
     monkeypatch.setattr(socket, "socket", _Lossy)
     assert list(_seen()) == whole
+
+
+@pytest.mark.usefixtures("beside")
+def test_a_request_and_its_response_may_be_larger_than_a_message(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(socket, "socket", _Lossy)
+    request = GetParameters.Request(names=["use_sim_time"] * 6000)
+    with looking(Namespace(spin_time=20.0)) as graph:
+        answer = ask(
+            graph, GetParameters, "/robot1/machine/get_parameters", request, Deadline(20.0), repeat=False
+        )
+    assert [one.type for one in answer.values] == [1] * 6000
 
 
 @pytest.mark.usefixtures("beside")

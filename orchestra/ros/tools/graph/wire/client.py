@@ -10,13 +10,15 @@ import struct
 import time
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.errors import RunError
 from orchestra.ros.interfaces.cdr import decode, encode
+from orchestra.ros.interfaces.wire import MalformedMessageError
 from orchestra.ros.tools.graph.reply import Reply
 from orchestra.ros.tools.graph.wire import parameters as known
 from orchestra.ros.tools.graph.wire.member import Member
 from orchestra.ros.tools.graph.wire.own import PUBLICATIONS, READER, SUBSCRIPTIONS, WRITER, endpoint
 from orchestra.ros.tools.graph.wire.parameters import END, parameter
-from orchestra.ros.tools.graph.wire.submessages import data, heartbeat, to
+from orchestra.ros.tools.graph.wire.submessages import heartbeat, sample, to
 
 if TYPE_CHECKING:
     from orchestra.ros.tools.graph.wire.peer import Peer
@@ -89,22 +91,29 @@ class Client:
             if peer.writers and (peer.reader is None or peer.heard_of < self._number):
                 numbers = range(peer.heard_of + 1, self._number + 1) if peer.reader else ()
                 self._count += 1
-                beat = heartbeat(_ANYBODY, WRITER, self._number, self._count)
-                requests = (self._request(peer.prefix, number) for number in numbers)
-                self.member.send(peer, to(source), *requests, beat)
+                for number in numbers:
+                    for part in self._request(peer.prefix, number):
+                        self.member.send(peer, to(source), part)
+                self.member.send(peer, to(source), heartbeat(_ANYBODY, WRITER, self._number, self._count))
 
-    def _request(self, prefix: bytes, number: int) -> bytes:
-        """Return a request; it tells which reader is for the response."""
+    def _request(self, prefix: bytes, number: int) -> list[bytes]:
+        """Return a request in parts; it tells which reader is for the response."""
         identity = prefix + READER + struct.pack("<iI", 0, number)
         which = (known.RELATED_SAMPLE, known.RELATED_SAMPLE_OF_VENDOR)
         qos = b"".join(parameter(one, identity) for one in which) + END
-        return data(_ANYBODY, WRITER, number, self._requests[number], qos)
+        return sample(_ANYBODY, WRITER, number, self._requests[number], qos)
 
-    def _hear(self, peer: Peer, sample: Data) -> None:
-        identity = sample.qos.get(known.RELATED_SAMPLE, sample.qos.get(known.RELATED_SAMPLE_OF_VENDOR, b""))
-        if sample.payload is None or identity[:_GUID] not in (peer.prefix + READER, peer.prefix + WRITER):
+    def _hear(self, peer: Peer, heard: Data) -> None:
+        identity = heard.qos.get(known.RELATED_SAMPLE, heard.qos.get(known.RELATED_SAMPLE_OF_VENDOR, b""))
+        if heard.payload is None or identity[:_GUID] not in (peer.prefix + READER, peer.prefix + WRITER):
             return  # an answer to another client
-        high, low = struct.unpack_from(f"{sample.order}iI", identity, _GUID)
+        high, low = struct.unpack_from(f"{heard.order}iI", identity, _GUID)
         reply = self._replies.pop((high << 32) + low, None)
-        if reply is not None:
-            reply.come(decode(sample.payload, self._kind.Response))
+        if reply is None:
+            return
+        try:
+            response = decode(heard.payload, self._kind.Response)
+        except MalformedMessageError as error:
+            name = self._kind.__name__
+            raise RunError(f"the response is no {name} as it is known here: {error}") from None
+        reply.come(response)

@@ -133,9 +133,8 @@ class Member:
         sample = peer.take(heard, now)
         if sample is not None:
             self._changed(now)
-            with suppress(
-                struct.error
-            ):  # it is no description: of somebody who does not keep to the protocol
+            # It may be no description: of somebody who does not keep to the protocol.
+            with suppress(struct.error, LookupError):
                 self._heard(peer, sample)
 
     def _meet(self, source: bytes, heard: Data, now: float) -> None:

@@ -22,8 +22,11 @@ _ACKNACK, _HEARTBEAT, _GAP, _INFO_SOURCE, _INFO_DESTINATION, _DATA, _FRAGMENT = 
     0x15,
     0x16,
 )
+_MAYBE_EMPTY: Final = (0x01, 0x09)  # padding and time, where no size is none; else it is all that is left
 _LITTLE_ENDIAN, _INLINE_QOS, _PAYLOAD = 1, 2, 4
 _TO_INLINE_QOS: Final = 16
+_TO_INLINE_QOS_OF_FRAGMENT: Final = 28
+_PIECE: Final = 0xC000  # bytes of a sample, so that a piece with all in front of it is one datagram of UDP
 _MOST: Final = 256  # numbers in a set
 _BITS: Final = 32
 
@@ -97,6 +100,24 @@ def data(reader: bytes, writer: bytes, number: int, payload: bytes | None, qos: 
     return _part(_DATA, flags, head + qos + (payload or b""))
 
 
+def sample(reader: bytes, writer: bytes, number: int, payload: bytes, qos: bytes) -> list[bytes]:
+    """Return a sample of any size, as what each is to be sent in a message of its own."""
+    if len(payload) <= _PIECE:
+        return [data(reader, writer, number, payload, qos)]
+    head = struct.pack("<HH4s4s", 0, _TO_INLINE_QOS_OF_FRAGMENT, reader, writer) + _number(number)
+    return [
+        _part(
+            _FRAGMENT,
+            _INLINE_QOS,
+            head
+            + struct.pack("<IHHI", 1 + at // _PIECE, 1, _PIECE, len(payload))
+            + qos
+            + payload[at : at + _PIECE],
+        )
+        for at in range(0, len(payload), _PIECE)
+    ]
+
+
 def heartbeat(reader: bytes, writer: bytes, last: int, count: int) -> bytes:
     """Return what asks whether all samples up to this one have come."""
     return _part(_HEARTBEAT, 0, reader + writer + _number(1) + _number(last) + struct.pack("<I", count))
@@ -130,7 +151,7 @@ def read(datagram: bytes) -> Iterator[tuple[bytes, Heard]]:
         kind, flags = datagram[at], datagram[at + 1]
         order = "<" if flags & _LITTLE_ENDIAN else ">"
         (size,) = struct.unpack_from(f"{order}H", datagram, at + 2)
-        end = at + 4 + size if size else len(datagram)
+        end = at + 4 + size if size or kind in _MAYBE_EMPTY else len(datagram)
         content = datagram[at + 4 : end]
         at = end
         if kind == _INFO_SOURCE:
