@@ -98,6 +98,27 @@ def test_a_python_package_is_found_without_importing_it(on_path: Path) -> None:
     assert "my_robot" not in sys.modules
 
 
+def test_the_source_of_an_ament_package_is_its_share_folder(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """`pip install -e` copies no launch files anywhere: they stay beside the Python package."""
+    root = tmp_path / "source"
+    package = root / "my_robot"
+    metadata = tmp_path / "site/my_robot-0.0.0.dist-info"
+    for folder in (package, root / "resource", metadata):
+        folder.mkdir(parents=True)
+    (package / "__init__.py").touch()
+    (metadata / "entry_points.txt").write_text("[console_scripts]\ntalker = my_robot.talker:main\n")
+    monkeypatch.syspath_prepend(str(tmp_path / "site"))
+    monkeypatch.syspath_prepend(str(root))
+    (root / "package.xml").touch()
+    assert InstalledPackages({}).share("my_robot") == str(package)
+    assert "my_robot" not in InstalledPackages({}).names()
+    (root / "resource/my_robot").touch()
+    assert InstalledPackages({}).share("my_robot") == str(root)
+    assert "my_robot" in InstalledPackages({}).names()
+
+
 def test_a_node_that_is_a_package_is_run_by_its_main(on_path: Path) -> None:
     package = _python_package(on_path, "my_robot")
     (package / "nodes/ekf").mkdir()

@@ -1,6 +1,7 @@
 """Where packages are on this machine: the ament index first, then Python packages by their importable name.
 
-A Python package (the bringup, editable or from a wheel) needs no ament: its share folder is the package folder, its
+A Python package (the bringup, editable or from a wheel) needs no ament: its share folder is the package folder, or the
+folder with `package.xml` around it where it is the source of an ament package (`pip install -e`); its
 prefix is the interpreter's where it is installed below that, else the folder that holds it. An executable is, in
 this order, ament's `lib/PKG/EXE`, a console script `EXE` that starts something in PKG or comes with the distribution
 of that name, the module `PKG.nodes.EXE`. Nothing is imported to find it.
@@ -64,14 +65,14 @@ class InstalledPackages:
         if (prefix := self._ament(package)) is not None:
             return str(prefix / "share" / package)
         folder = self._python(package)
-        return None if folder is None else str(folder)
+        return None if folder is None else str(python.source(folder) or folder)
 
     def executable(self, package: str, executable: str) -> tuple[str, ...] | None:
         """Return the words of the command that starts it, None where the package has no such executable."""
         return self._command(package, executable)
 
     def names(self) -> tuple[str, ...]:
-        """Return all packages of the ament index, and the Python packages with nodes, for suggestions."""
+        """Return all packages of the ament index, Python packages with nodes, sources of ament's, for suggestions."""
         return self._names()
 
     def executables(self, package: str) -> tuple[str, ...]:
@@ -102,7 +103,9 @@ class InstalledPackages:
 
     def _find_names(self) -> tuple[str, ...]:
         indexed = (name for prefix in self._prefixes for name in ament.packages(prefix))
-        return tuple(sorted({*indexed, *python.packages_with_nodes()}))
+        owners = {script.owners[0] for script in self._scripts()}
+        sources = (name for name in owners if (folder := self._python(name)) and python.source(folder))
+        return tuple(sorted({*indexed, *python.packages_with_nodes(), *sources}))
 
     def _look_in_ament(self, package: str) -> Path | None:
         return next((prefix for prefix in self._prefixes if ament.has(prefix, package)), None)

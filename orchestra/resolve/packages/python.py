@@ -8,6 +8,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from orchestra.location import is_file
 from orchestra.witness.searching import searched
 
 if TYPE_CHECKING:
@@ -41,6 +42,17 @@ def folder(package: str) -> Path | None:
     if spec is None or spec.origin is None or not spec.submodule_search_locations:
         return None
     return Path(spec.submodule_search_locations[0]).absolute()
+
+
+def source(package_folder: Path) -> Path | None:
+    """Return the folder of the source package of ament_python around a Python package, None where there is none.
+
+    It holds what colcon and `pip install` copy into the share folder (manifest, launch files, configurations), and is
+    known by the marker that they copy into the index, `resource/PKG`. An editable installation copies nothing.
+    """
+    around = package_folder.parent
+    files = (around / "package.xml", around / "resource" / package_folder.name)
+    return around if all(map(is_file, files)) else None
 
 
 def nodes(package_folder: Path) -> tuple[str, ...]:
