@@ -96,5 +96,6 @@ def _likeness(word: str, candidate: str, letters: dict[str, int]) -> float:
     if 2.0 * common / (len(word) + len(candidate)) <= _LEAST_LIKENESS:
         return 0.0  # what `quick_ratio` would say, in a tenth of the time
     ratio = _ratio(word, candidate)
-    near = ratio >= _LIKENESS_OF_A_SLIP or _one_slip(word, candidate) or word.startswith(candidate)
+    framed = word[:2] == candidate[:2] and word[-1] == candidate[-1]  # `alfa` of `alpha`
+    near = ratio >= _LIKENESS_OF_A_SLIP or framed or _one_slip(word, candidate) or word.startswith(candidate)
     return ratio if near or not short else 0.0

@@ -26,7 +26,7 @@ Kind: TypeAlias = Literal["launch", "parameters"]
 _YAML_NAME = re.compile(r"\.ya?ml$")
 # The key of every section, spelled as it may be by mistake.
 _PARAMETERS_KEY = re.compile(
-    r"""^[^#\n]*\bros[_-]*p[a-z]{1,4}m[a-z]{0,6}["']?\s*:""", re.MULTILINE | re.IGNORECASE
+    r"""^[^#\n]*(?<![A-Za-z])ros[_-]*p[a-z]{1,4}m[a-z]{0,6}["']?\s*:""", re.MULTILINE | re.IGNORECASE
 )
 _NODE_KEY = re.compile(r"""^["']?/[\w/*]*["']?\s*:""", re.MULTILINE)
 

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.declared.texts import written
 from orchestra.nearest import nearest
+from orchestra.resolve.rcl.commas import without_comma
 
 if TYPE_CHECKING:
     from orchestra.declared.model import Parameter, RosType
@@ -64,7 +65,8 @@ def _scalar(value: ParameterValue, kind: str) -> str | None:
     if kind == "string":
         return written(value) if isinstance(value, str) else f'"{written(value)}"'
     if isinstance(value, str):
-        return _unquoted(value.strip(), kind)
+        meant = without_comma(value.strip())
+        return _unquoted(value.strip() if meant is None else meant[1], kind)
     if isinstance(value, bool):
         return written(value) if kind == "bool" else None
     if kind == "double":

@@ -112,11 +112,18 @@ def constant_of(
         if constant is not None and not accepts(constant):
             near = elsewhere.get(constant.lower()) or nearest(constant, words)
             near = meant(constant) if near is None and meant is not None else near
+            near = _without_stray(constant, accepts) if near is None else near
             facts = {"wanted": wanted, "found": f"'{constant}'", "suggestion": near}
             raise PydanticCustomError("wrong_type", "expected {wanted}, found {found}", facts)
         return template
 
     return validate
+
+
+def _without_stray(text: str, accepts: Callable[[str], bool]) -> str | None:
+    """Return a text without the comma or the like of other languages behind it, where that is accepted."""
+    bare = text.strip().rstrip(",;").rstrip()
+    return bare if bare != text and accepts(bare) else None
 
 
 def _is_flag(text: str) -> bool:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.description.source import Keyed, Listed, Written, shortened
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Set as AbstractSet
@@ -17,6 +18,8 @@ _LISTS: Final = {
     **dict.fromkeys(("arg", "env", "env_only", "extra_arg", "keep", "let", "param"), _NAMED),
     "remap": _RULE,
 }
+_OF_TEXTS: Final = ("choices", "success_exit_codes")
+_ITEM: Final = pattern(r"[\w./-]+")
 
 
 def written_list(key: str, content: Any) -> str | None:  # noqa: ANN401 - a tree
@@ -31,8 +34,14 @@ def written_list(key: str, content: Any) -> str | None:  # noqa: ANN401 - a tree
     return shortened(f"{key}: [{_items(content, pair)}]", _LONGEST)
 
 
-def written_as_list(content: Any) -> str | None:  # noqa: ANN401 - a tree
-    """Return the list that a flow mapping of nothing but keys was meant to be, as `{a, b}`; None for anything else."""
+def written_as_list(key: str, content: Any) -> str | None:  # noqa: ANN401 - a tree
+    """Return the list that a flow mapping of nothing but keys was meant to be, as `{a, b}`; None for anything else.
+
+    Behind a key that wants a list of texts it may be one text with commas too.
+    """
+    if isinstance(content, Written):
+        texts = [item.strip() for item in content.text.strip("[]{}() ").split(",")]
+        return f"[{', '.join(texts)}]" if key in _OF_TEXTS and all(map(_ITEM.fullmatch, texts)) else None
     if not isinstance(content, Keyed) or not content or min(content.keys_at.values()) <= content.span:
         return None
     if not all(isinstance(value, Written) and value.null for value in content.values()):

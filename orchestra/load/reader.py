@@ -154,7 +154,7 @@ class Reader:
             message = "expected at least one item, found none"
         else:
             message = error["msg"]
-        suggestion = error.get("ctx", {}).get("suggestion") or written_as_list(error["input"])
+        suggestion = error.get("ctx", {}).get("suggestion") or written_as_list(str(place[-1]), error["input"])
         instead = written_list(str(place[-1]), error["input"]) if kind in _LISTS else None
         notes = () if instead is None else (f"it is written {instead}",)
         head, value = _way(mapping, place)

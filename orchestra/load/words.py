@@ -123,7 +123,7 @@ KEYS_ELSEWHERE: Final[dict[str, tuple[str, ...]]] = {
     "max_retries": ("budget", "respawn_max_retries"),
     "memory_max": ("memory",),
     "msg": ("message",),
-    "name": ("from",),
+    "name": ("from", "node"),
     "new": ("to",),
     "new_name": ("to",),
     "node": ("composable_node",),

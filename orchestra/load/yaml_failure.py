@@ -70,6 +70,11 @@ class Failure:
         """Return the number of the line."""
         return self.whole.place(offset)[0]
 
+    def indentation(self, offset: int) -> int:
+        """Return how far the line is indented; the dashes of items count as blanks."""
+        line = self.text[self.whole.lines[self.line_of(offset) - 1] :]
+        return len(line) - len(line.lstrip(" -"))
+
     def line_end(self, begin: int) -> int:
         """Return where the text of a line that stands from here on ends, comments left out."""
         line = re.split(r"[\r\n]|\s#", self.text[begin:], maxsplit=1)[0]

@@ -92,7 +92,10 @@ def _open(failure: Failure) -> Fault:
     around = last.end if last is not None and last.end <= failure.at else failure.at
     begun = last.begin if last is not None else failure.context
     alone = failure.text[failure.context + 1 :].partition("\n")[0].strip() == ""
+    unclosed = f"this {opening} is not closed: a {closer} is missing"
     if alone and failure.here == ":" and last is not None and "\n" in failure.text[last.begin : last.end]:
+        if failure.indentation(failure.at) <= failure.indentation(failure.context):
+            return failure.fault(unclosed, failure.context, failure.context + 1)
         return _without_comma(failure, last.begin, last.end, closer)
     if failure.here in ("]", "}") and failure.here != closer and not failure.is_open(failure.here, closer):
         message = f"'{opening}' and '{failure.here}' do not belong together"
@@ -103,8 +106,7 @@ def _open(failure: Failure) -> Fault:
         return failure.fault(message, failure.at, failure.at + 1, closer)
     begun_earlier = failure.line_of(begun) < failure.line_of(failure.at) and not failure.here.isalnum()
     if failure.here in ("", *"]}") or begun_earlier or "\n" in failure.text[around : failure.at]:
-        message = f"this {opening} is not closed: a {closer} is missing"
-        return failure.fault(message, failure.context, failure.context + 1)
+        return failure.fault(unclosed, failure.context, failure.context + 1)
     if failure.here == ":" and last is not None and last.end == failure.at and not last.quoted:
         return _without_comma(failure, last.begin, last.end, closer)
     return _without_comma(failure, failure.at, failure.end_of_word(failure.at), closer)

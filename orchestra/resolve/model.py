@@ -56,7 +56,8 @@ class FileParameters:
     """The sections of a parameter file, as far as it could be read; `everywhere` as with a single parameter.
 
     `plain` are the parameters of a file that has no sections at all, which only components take. `through` is what was
-    read to make its path, `within` what was read for the substitutions in it, by their places.
+    read to make its path, `within` what was read for the substitutions in it, by their places. One that is not `sound`
+    has values that could not be read.
     """
 
     path: str
@@ -66,6 +67,7 @@ class FileParameters:
     plain: tuple[Entry, ...] = ()
     through: tuple[Read, ...] = field(default=(), compare=False, repr=False)
     within: tuple[tuple[Span, tuple[Read, ...]], ...] = field(default=(), compare=False, repr=False)
+    sound: bool = True
 
 
 # What a resolution makes thousands of; `new_remap` and `new_process` are another two.

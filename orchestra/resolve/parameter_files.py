@@ -14,7 +14,7 @@ from orchestra.resolve.context import Value
 from orchestra.resolve.model import FileParameters
 from orchestra.resolve.other_kinds import refused_as_parameters
 from orchestra.resolve.paths import beside, existing_file, folder_of, near_path
-from orchestra.resolve.rcl.files import read_parameter_file, read_plain_file
+from orchestra.resolve.rcl.files import read_kept, read_plain_file
 from orchestra.resolve.rcl.sections import included
 from orchestra.resolve.rcl.strays import SECTION_KEY
 from orchestra.resolve.substituted import Back, Reads, placed_back, substituted
@@ -60,9 +60,7 @@ def file_parameters(
         file = run.parameter_files[path, plain]
     if file is None:
         return None
-    return FileParameters(
-        file.path, file.sections, value.location, everywhere, file.plain, value.through, file.within
-    )
+    return replace(file, location=value.location, everywhere=everywhere, through=value.through)
 
 
 def _warn_of_lacking(told: str, value: Value, written: Template, run: Resolution) -> None:
@@ -103,6 +101,8 @@ def read_file(
 ) -> FileParameters | None:
     """Return the sections of a parameter file, None where it cannot be read (which has been reported).
 
+    Where nothing but values is wrong, the others are looked at all the same: mistakes do not hide each other.
+
     With `substitute`, `$(...)` in it is evaluated; with `plain`, it may be one without sections.
     """
     text = _text(path, location, run)
@@ -118,13 +118,14 @@ def read_file(
             return None
         text, back, reads = evaluated
     bare = plain and SECTION_KEY not in text
-    sections, found = _read(text, file, bare=bare)
+    sections, whole, found = _read(text, file, bare=bare)
     if not sections and refused_as_parameters(path, text, location, run):
         return None
     for problem in found:
         span = back(problem.span) if back is not None and problem.span is not None else problem.span
         run.problems.report(replace(problem, span=span, included_from=(*problem.included_from, *chain)))
-    if any(problem.severity is Severity.ERROR for problem in found):
+    sound = all(problem.severity is not Severity.ERROR for problem in found)
+    if not sound and not (whole and sections):
         return None
     sections = tuple(included(section, chain) for section in sections)
     if back is not None:
@@ -133,15 +134,16 @@ def read_file(
         return FileParameters(
             path, (), location, plain=tuple(item for part in sections for item in part.entries), within=reads
         )
-    return FileParameters(path, sections, location, within=reads)
+    return FileParameters(path, sections, location, within=reads, sound=sound)
 
 
 @lru_cache(maxsize=64)  # by content: many nodes and files have the same one
-def _read(text: str, file: str, *, bare: bool) -> tuple[tuple[Section, ...], tuple[Problem, ...]]:
-    """Return what a file holds and what is wrong with it, as if no include had led to it."""
+def _read(text: str, file: str, *, bare: bool) -> tuple[tuple[Section, ...], bool, tuple[Problem, ...]]:
+    """Return what a file holds, whether all sections are there, and what is wrong; as if no include had led to it."""
     found = Problems()
-    sections = (read_plain_file if bare else read_parameter_file)(text, file, found, ())
-    return sections, tuple(found)
+    if bare:
+        return read_plain_file(text, file, found), not len(found), tuple(found)
+    return *read_kept(text, file, found), tuple(found)
 
 
 def _text(path: str, location: Location, run: Resolution) -> str | None:

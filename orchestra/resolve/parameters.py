@@ -15,7 +15,7 @@ from orchestra.resolve.model import InlineParameter, ParameterSource, new_parame
 from orchestra.resolve.parameter_files import file_parameters
 from orchestra.resolve.paths import beside
 from orchestra.resolve.rcl.overrides import override_value
-from orchestra.resolve.rcl.surprises import plainly
+from orchestra.resolve.rcl.surprises import of_commas, plainly
 from orchestra.resolve.refusals import refuse_value
 from orchestra.resolve.scalars import (
     checked,
@@ -62,7 +62,7 @@ def parameters(
         else:
             found += _inline(param, (), run, everywhere=isinstance(param, Override), quotes=quotes)
     sound = tuple(item for item in found if item is not None)
-    return sound, len(sound) == len(found)
+    return sound, len(sound) == len(found) and all(getattr(item, "sound", True) for item in sound)
 
 
 def everywhere(action: SetParameter, run: Resolution) -> list[InlineParameter | None]:
@@ -257,3 +257,5 @@ def _warn_of_surprise(
     if surprise is not None:
         instead = None if is_python(location) else plainly(text, value, quotes=quotes)
         run.problems.warning(Code.SURPRISING_SCALAR, surprise, location, suggestion=instead)
+    elif isinstance(value, str) and not is_python(location) and (found := of_commas(text)) is not None:
+        run.problems.warning(Code.SURPRISING_SCALAR, found.message, location, suggestion=found.instead)

@@ -116,7 +116,7 @@ def near_path(path: Path, written: str) -> str | None:
 def near_names(path: Path) -> tuple[tuple[str, str], ...]:
     """Return the names in a path that are not there with those that were probably meant; none where one has no such.
 
-    A file that is there in one folder below was probably meant there.
+    A file that is there in one folder below, or in one beside the folder that is named, was probably meant there.
     """
     there, names = path, list[str]()
     while not _exists(there) and there != there.parent:
@@ -128,7 +128,7 @@ def near_names(path: Path) -> tuple[tuple[str, str], ...]:
         if near is None and len(names) == 1:
             near = _one_folder_below(there, name)
         if near is None:
-            return ()
+            return _elsewhere(there, names[index - 1 :]) if not changes else ()
         if near != name:
             changes.append((name, near))
         there /= near
@@ -137,7 +137,11 @@ def near_names(path: Path) -> tuple[tuple[str, str], ...]:
 
 def _with(written: str, changes: Iterable[tuple[str, str]]) -> str:
     for name, near in changes:
-        written = _replaced(written, name, near)
+        folder, slash, file = name.partition("/")
+        if slash and name not in written and f"{folder}/" not in written:  # the folder is not written there
+            written = _replaced(written, file, f"../{near}")
+        else:
+            written = _replaced(written, name, near)
     return written
 
 
@@ -161,6 +165,23 @@ def _expanded(written: str) -> Path:
         return Path(written).expanduser()
     except RuntimeError:  # `~somebody` where there is no somebody
         return Path(written)
+
+
+def _elsewhere(there: Path, names: Sequence[str]) -> tuple[tuple[str, str], ...]:
+    """Return the wrong part of a path with the right one, for a file that is there in another folder; else nothing.
+
+    `names` are what is not there below a folder that is: the file, or its folder too.
+    """
+    *folders, name = names
+    if not Path(name).suffix or len(folders) > 1:
+        return ()
+    folder, around = (folders[0], there) if folders else (there.name, there.parent)
+    if is_file(str(around / name)):
+        return ((f"{folder}/{name}", name),)
+    found = _one_folder_below(around, name)
+    if found is None or around.name == "share":  # that is another package
+        return ()
+    return ((folder, found.rpartition("/")[0]),) if folders else ((f"{folder}/{name}", found),)
 
 
 def _one_folder_below(folder: Path, name: str) -> str | None:

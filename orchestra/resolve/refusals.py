@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
     from orchestra.description.text import Template
     from orchestra.errors import Problems
-    from orchestra.location import Location
+    from orchestra.location import Location, Span
     from orchestra.resolve.context import Context, Poison, Read, Value
 
 
@@ -66,7 +66,7 @@ def refuse_value(
     origin = value.location if value.verbatim else _origin(value) or _set_by_code(value)
     if meant is not None and origin is not None:
         used = () if value.verbatim else (f"it is used at {value.location}",)
-        _forget_surprise(origin, problems)
+        forget_surprise(origin.span, problems)
         problems.error(code, told, origin, suggestion=meant, notes=(*notes, *used))
         return POISON
     if meant is not None and not value.verbatim:
@@ -87,11 +87,11 @@ def _origin(value: Value) -> Location | None:
     return None
 
 
-def _forget_surprise(at: Location, problems: Problems) -> None:
+def forget_surprise(at: Span, problems: Problems) -> None:
     """Take back the warning that a value is surprising where it is told to be wrong."""
-    if any(problem.span == at.span and problem.code is Code.SURPRISING_SCALAR for problem in problems):
+    if any(problem.span == at and problem.code is Code.SURPRISING_SCALAR for problem in problems):
         problems.amend(
-            lambda known: None if known.span == at.span and known.code is Code.SURPRISING_SCALAR else known
+            lambda known: None if known.span == at and known.code is Code.SURPRISING_SCALAR else known
         )
 
 

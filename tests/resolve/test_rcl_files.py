@@ -110,7 +110,7 @@ def test_a_file_may_hold_several_documents() -> None:
         ("/n:\n  ros__parameters:\n    x: 'y\n", "3:8", "' is not closed"),
         (
             "/n:\n  ros__parameters: {x: 1}\n  m:\n    ros__parameters: {y: 1}\n",
-            "4:23",
+            "3:3",
             "write its full name apart",
         ),
         ("/n: \x01\n", "1:5", "U+0001"),

@@ -11,7 +11,8 @@ from orchestra.fields import replace
 from orchestra.location import is_python
 from orchestra.plan.written import Written, written_of
 from orchestra.resolve.command_line import COMMAND_LINE
-from orchestra.resolve.model import NamedSchema, ResolvedComponent
+from orchestra.resolve.model import FileParameters, NamedSchema, ResolvedComponent
+from orchestra.resolve.refusals import forget_surprise
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -19,7 +20,7 @@ if TYPE_CHECKING:
     from orchestra.declared.model import Fault, FaultKind, ParameterSchema
     from orchestra.location import Location
     from orchestra.plan.model import Component, Plan, Process
-    from orchestra.resolve.model import Resolved, ResolvedProcess
+    from orchestra.resolve.model import ParameterSource, Resolved, ResolvedProcess
     from orchestra.values import ParameterValue
 
 _CODES: dict[FaultKind, Code] = {
@@ -39,7 +40,10 @@ def check_declared(resolved: Resolved, plan: Plan, problems: Problems) -> None:
         for fault in faults:
             if fault.kind != "missing" or _is_whole(node):
                 written = written_of(fault.name, node, planned, resolved)
-                problems.report(_problem(fault, written, node, named=named))
+                problem = _problem(fault, written, node, named=named)
+                if problem.span is not None:
+                    forget_surprise(problem.span, problems)
+                problems.report(problem)
 
 
 def nodes_of(
@@ -92,8 +96,11 @@ def _of_every_node(values: dict[str, ParameterValue]) -> Iterable[Fault]:
 
 def _is_whole(node: ResolvedProcess | ResolvedComponent) -> bool:
     """Return whether all parameters that the node is given are known: else what is missing may be among the others."""
-    lacking = any(getattr(source, "path", None) == "" for source in node.parameters)
-    return not node.faulty and not lacking
+    return not node.faulty and not any(map(_is_lacking, node.parameters))
+
+
+def _is_lacking(source: ParameterSource) -> bool:
+    return isinstance(source, FileParameters) and (not source.path or not source.sound)
 
 
 def _problem(

@@ -41,7 +41,12 @@ def read_parameter_file(
     way that nobody means as a warning, what is set twice as `DUPLICATE_PARAMETER`. After an error the sections are
     those that could be read all the same.
     """
-    return _read(text, file, problems, included_from, lambda events: events)
+    return _read(text, file, problems, included_from, lambda events: events)[0]
+
+
+def read_kept(text: str, file: str, problems: Problems) -> tuple[tuple[Section, ...], bool]:
+    """Return the sections of a file as `read_parameter_file` does, and whether none is lost to an error."""
+    return _read(text, file, problems, (), lambda events: events)
 
 
 def read_plain_file(
@@ -52,12 +57,12 @@ def read_plain_file(
     The parameters of components may come from such a file (launch_ros, `to_parameters_list`). Faults are reported as
     by `read_parameter_file`.
     """
-    return _read(text, file, problems, included_from, _within_section)
+    return _read(text, file, problems, included_from, _within_section)[0]
 
 
 def _read(
     text: str, file: str, problems: Problems, included_from: tuple[Span, ...], changed: _Change
-) -> tuple[Section, ...]:
+) -> tuple[tuple[Section, ...], bool]:
     text, found = text.removeprefix("\ufeff"), Problems()
     reader, sound = Reader(file, found, included_from), 0
     try:
@@ -72,17 +77,18 @@ def _read(
         problems.extend(_before(fault.span, [*found][:sound]))
         at = Location(fault.span, included_from)
         problems.error(Code.PARAMETER_SYNTAX, fault.message, at, suggestion=fault.suggestion)
-        return reader.sections()
+        return reader.sections(), False
     except UnicodeEncodeError:
         at = Location(Span(file, 1, 1, 1, 1), included_from)
         problems.error(Code.PARAMETER_SYNTAX, "not YAML: a lone surrogate", at)
+        reader.lost = True
     except Unreadable:
-        pass  # the reader has reported why it cannot go on
+        reader.lost = True  # it has reported why it cannot go on
     sections = reader.sections()
     problems.extend(found)
     report_duplicates(sections, problems)
     report_surprises(sections, text, problems)
-    return sections
+    return sections, not reader.lost
 
 
 def _before(span: Span, problems: Sequence[Problem]) -> list[Problem]:

@@ -51,11 +51,21 @@ def instead(keys: Sequence[str]) -> str | None:
     """
     only, key = not any(keys[:-1]), keys[-1]
     if "*" in key:
-        return "/**" if only else None
+        return _with_whole_wildcards(key) if only else None
     if not only and key.startswith("/"):
         bare = key.strip("/")
         return bare if pattern_fault(bare) is None else None
     return mended(key, pattern_fault)
+
+
+def _with_whole_wildcards(key: str) -> str:
+    """Return a pattern with a wildcard for each namespace that has one in it, for all nodes where the name has one."""
+    *namespaces, name = key.split("/")
+    if "*" in name or not name:
+        return "/**"
+    wild = "/".join(("**" if "**" in part else "*") if "*" in part else part for part in namespaces)
+    instead = f"{wild}/{name}"
+    return "/**" if pattern_fault(instead) is not None else instead
 
 
 @cache

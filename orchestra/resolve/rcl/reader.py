@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from orchestra.values import ParameterValue
 
 _NESTED = "a parameter cannot be a list of lists"
+_BELOW = f"stands below one that has '{SECTION_KEY}' itself, which rcl cannot read: write its full name apart"
 _NO_KEY, _NO_DOCUMENT = "a key must not be empty", "rcl does not take an empty document"
 
 
@@ -55,6 +56,7 @@ class Reader:
     parameter: OpenParameter | None = None
     lists: list[OpenList] = field(default_factory=list)
     emptied: Location | None = None
+    lost: bool = False  # not all sections are what the file means
     strays: Strays = field(init=False)
     hollow: Hollow = field(init=False)
     found: list[OpenSection] = field(default_factory=list)
@@ -108,6 +110,9 @@ class Reader:
             raise Unreadable if told else self.unreadable(message, event)
         pattern, said = self.node.text, joined("/", self.keys[1:])
         fault, named = pattern_fault(pattern), self.key_places[-1] or at
+        self.lost |= told or fault is not None
+        if tuple(self.keys[:-1]) in self.strays.sections:
+            raise self.unreadable(f"'{self.keys[-1]}' {_BELOW}", event, named)
         if fault is not None:
             self.error(f"'{pattern}' cannot be the name of a node: {fault.reason}", named, instead(self.keys))
         elif pattern != said:
@@ -115,7 +120,7 @@ class Reader:
         if not is_section(name):
             self.error(f"'{name}' is not '{SECTION_KEY}', below which parameters belong", at, SECTION_KEY)
         elif name != SECTION_KEY:
-            self.surprise(f"rcl reads '{name}' as '{SECTION_KEY}'", at)
+            self.surprise(f"rcl reads '{name}' as '{SECTION_KEY}'", at, SECTION_KEY)
         self.found.append(OpenSection(pattern, named, sound=fault is None))
         self.before_key = replace(self.node)
         self.node.shrink()
@@ -125,8 +130,7 @@ class Reader:
         """Take the name of a parameter or of a group of them."""
         if self.fresh:
             if self.parameter is None:
-                message = f"rcl cannot read a node below one that has '{SECTION_KEY}' itself: write its full name apart"
-                raise self.unreadable(message, event)
+                raise self.unreadable(f"this {_BELOW}", event)
             self.group.replace(self.parameter.name)
             self.fresh = False
         slot = self.group.text if self.group.count else name
@@ -135,9 +139,7 @@ class Reader:
         if whole != said:
             self.surprise(f"rcl reads this as the parameter '{whole}', not '{said}'", self.at(event))
         elif is_section(name):
-            self.surprise(
-                f"'{name}' stands inside itself: it is read as the parameter '{whole}'", self.at(event)
-            )
+            self.surprise(f"'{name}' stands inside itself: rcl reads '{whole}'", self.at(event))
         self.hollow.key(name, self.depth)
         self.parameter = OpenParameter(whole, slot, self.at(event))
 
@@ -167,7 +169,7 @@ class Reader:
 
     def misplaced(self, event: yaml.Event) -> None:
         """Report a value above the parameters, and go on as if its key were not there."""
-        at = self.last_key_at
+        at, self.lost = self.last_key_at, True
         if self.depth == 0 or at is None:
             raise self.unreadable("a parameter file must be a mapping from nodes to parameters", event)
         empty = isinstance(event, yaml.ScalarEvent) and not event.value and not event.style
@@ -277,7 +279,7 @@ class Reader:
         if self.inside and self.parameter is not None:
             self.drop()
         else:
-            self.node, self.inside, self.expects_key = self.before_key, False, True
+            self.lost, self.node, self.inside, self.expects_key = True, self.before_key, False, True
 
     def at(self, first: yaml.Event, last: yaml.Event | None = None) -> Location:
         """Return the place of an event, or from one to another."""
@@ -287,9 +289,9 @@ class Reader:
         """Report what rcl refuses."""
         self.problems.error(Code.PARAMETER_SYNTAX, message, at, suggestion=suggestion)
 
-    def surprise(self, message: str, at: Location) -> None:
+    def surprise(self, message: str, at: Location, suggestion: str | None = None) -> None:
         """Report what rcl reads in another way than it stands there."""
-        self.problems.warning(Code.PARAMETER_SYNTAX, message, at)
+        self.problems.warning(Code.PARAMETER_SYNTAX, message, at, suggestion=suggestion)
 
     def unreadable(self, message: str, event: yaml.Event, at: Location | None = None) -> Unreadable:
         """Report what rcl refuses and cannot go on behind; raise what is returned."""

@@ -14,6 +14,7 @@ from orchestra.dataclass import dataclass
 from orchestra.description.source import shortened
 from orchestra.errors import Code
 from orchestra.patterns import pattern
+from orchestra.resolve.rcl.commas import without_comma
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -36,6 +37,7 @@ _PREFIXED: Final = pattern(r"[-+]?0(?:o(?P<octal>[0-7]+)|b(?P<binary>[01]+))")
 
 
 _NOT_PLAIN: Final = ("'", '"', "!", "&", "|", ">", "")
+_NUMERIC: Final = frozenset("0123456789.+-tTfF")
 _OPENING: Final = {"]": "[", "}": "{"}
 _BREAK: Final = pattern("\r\n|[\r\n\x85\u2028\u2029]")
 
@@ -138,7 +140,16 @@ def _of_text(text: str) -> Surprise | None:
         number = int(prefixed["octal"], 8) if prefixed["octal"] else int(prefixed["binary"], 2)
         sign = "-" if text.startswith("-") else ""
         return Surprise(f"'{text}' is read as a text, not as the number {sign}{number}", f"{sign}{number}")
-    return None
+    return of_commas(text)
+
+
+def of_commas(text: str) -> Surprise | None:
+    """Return what is to be said of a plain text that is a number or several, but for a comma or the brackets."""
+    found = without_comma(text) if text[:1] in _NUMERIC else None
+    if found is None:
+        return None
+    why, instead = found
+    return Surprise(f"'{shortened(text)}' is read as a text: {why}", instead)
 
 
 def half_open(text: str) -> Surprise | None:

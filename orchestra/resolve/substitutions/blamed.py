@@ -12,6 +12,7 @@ from orchestra.compat.place import Argument, Letters
 from orchestra.description.text import Words
 from orchestra.location import Span, is_within
 from orchestra.nearest import nearest
+from orchestra.resolve.substitutions.operators import foreign_operator
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping
@@ -27,7 +28,10 @@ def blamed(written: Template, text: str, error: BaseException) -> tuple[Span | N
     is wrong; one text of Python is marked as such.
     """
     begin, end = _range(error, text)
-    if not isinstance(error, NameError | AttributeError):
+    operator = foreign_operator(text, error, begin, end)
+    if operator is not None:
+        begin, end = operator.begin, operator.end
+    elif not isinstance(error, NameError | AttributeError):
         return _failed_part(written, text, (begin, end)), False
     for index, (part, first, last) in enumerate(_placed(written, text)):
         if first <= begin < last:
@@ -73,6 +77,9 @@ def meant_by(text: str, error: BaseException, names: Mapping[str, object]) -> st
 
     `names` are those that the expression sees.
     """
+    operator = foreign_operator(text, error, *_range(error, text))
+    if operator is not None:
+        return operator.instead
     if isinstance(error, NameError) and error.name:
         is_called = text[_range(error, text)[1] :].lstrip().startswith("(")
         known = {**vars(builtins), **names}
