@@ -35,10 +35,11 @@ BRAKED_AFTER = 0.5
 
 @dataclass(frozen=True, slots=True)
 class Odometry:
-    """Where the robot is, and when that was."""
+    """Where the robot is, and when that was; `number` counts what its publisher has sent, from 1, 0 if unknown."""
 
     at: float
     pose: Pose
+    number: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -99,9 +100,15 @@ def _located(state: State, now: float, odometry: Odometry | None) -> State:
     """The state after the newest odometry: when it jumps, places remembered in its frame mean nothing any more."""
     last = state.odometry
     state = replace(state, odometry=odometry)
-    if last is None or odometry is None or not _jumps(last, odometry):
+    if last is None or odometry is None:
         return state
-    state = ended(state, Outcome.LOST, "the odometry has jumped: its frame has another origin now")
+    if 0 < odometry.number < last.number:
+        why = "the odometry has begun again: its frame may have another origin now"
+    elif _jumps(last, odometry):
+        why = "the odometry has jumped: its frame has another origin now"
+    else:
+        return state
+    state = ended(state, Outcome.LOST, why)
     return replace(state, memory=Memory(), jumped=now)
 
 

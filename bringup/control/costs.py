@@ -14,8 +14,10 @@ from bringup.control.grid import Grid
 if TYPE_CHECKING:
     from bringup.control.grid import Points
 
-# What a cell costs: far from obstacles, and where it is nearer to one than the robot's radius and each of these (m).
+# What a cell costs: far from obstacles, where only a goal's own place is that tight (more than any way around), and
+# where it is nearer to one than the robot's radius and each of these (m).
 FREE = 1
+TIGHT = 200
 NARROW = ((0.30, 2), (0.15, 5), (0.05, 20))
 # A cell that cannot be entered costs more than any way; int32 holds the sum of a thousand rows of them.
 CLOSED = 500_000
@@ -46,6 +48,23 @@ def costs(grid: Grid, radius: float) -> Costs:
     for width, price in widths:
         values[squares <= (width / grid.resolution) ** 2] = price
     return Costs(grid, values)
+
+
+def eased(priced: Costs, radius: float, place: tuple[float, float], reach: float) -> Costs:
+    """The costs for a robot of this lesser radius (m) within reach (m) of a place; what it gains there is dear."""
+    wide = radius / priced.grid.resolution
+    gained = (priced.values >= CLOSED) & (
+        squared_distances(priced.grid.occupied, math.ceil(wide)) > wide * wide
+    )
+    return Costs(priced.grid, np.where(gained & near(priced.grid, place, reach), TIGHT, priced.values))
+
+
+def near(grid: Grid, place: tuple[float, float], reach: float) -> NDArray[np.bool_]:
+    """Which cells lie within reach (m) of a place."""
+    rows, columns = np.ogrid[: grid.evidence.shape[0], : grid.evidence.shape[1]]
+    ((row, column),) = grid.cells(np.array([place])).tolist()
+    result: NDArray[np.bool_] = np.hypot(rows - row, columns - column) <= reach / grid.resolution
+    return result
 
 
 def squared_distances(cells: NDArray[np.bool_], most: int) -> NDArray[np.int16]:

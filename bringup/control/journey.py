@@ -3,20 +3,21 @@
 A way that is only local (towards the goal, sliding along what is in between) was considered and left out: it
 is trapped by the first dead end of a maze. So the scans of a journey fill a grid, and the way is planned in it
 once a second; cells that were never seen count as free, so that the robot looks there. If there is no way, the
-grid may be wrong about what has moved since: it is forgotten once, and looked at again.
+grid may be wrong about what was seen from afar or has moved since: the robot looks there again (`lookout`).
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bringup.control.command import STANDSTILL, Command, wrapped
-from bringup.control.costs import costs
+from bringup.control.costs import costs, eased
 from bringup.control.grid import Grid, about, marked
+from bringup.control.lookout import Lookout, is_looking, looked
 from bringup.control.outcome import Outcome, Result
 from bringup.control.ramp import stoppable_speed
 from bringup.control.route import found
@@ -30,14 +31,18 @@ if TYPE_CHECKING:
 # Seconds between two plans, and how much shorter a new way must be to be taken instead of one that is free.
 PLAN_PERIOD = 1.0
 SHORTER = 0.8
-# A way keeps this much (m) more than the robot's radius from what is seen; tight passages are taken by it.
-KEPT = 0.07
 # What the guard keeps instead of its own distances, each in m: before an obstacle, until it drives on, and beside.
 CLOSEST, HYSTERESIS, BESIDE = 0.06, 0.02, 0.04
-# Seconds for which there must be no way, with a grid that is fresh, before the goal is given up.
+# A way keeps this much (m) more than the robot's radius from what is seen; tight passages are taken by it.
+KEPT = 0.07
+# At the goal itself it may be so much (m): the guard lets the robot as near.
+LEAST = 0.03
+# Seconds for which there must be no way, and nothing more to look at, before the goal is given up.
 PATIENCE = 10.0
 # A robot that has not come this far (m) from where it was has made no progress.
 PROGRESS = 0.3
+# Seconds without progress after which the robot will come no nearer to a place that it is at.
+NO_NEARER = 5.0
 # Shares of a tolerance: where the robot stops at first, and how far from the place a way may end.
 WELL_WITHIN = 0.5
 WITHIN = 0.8
@@ -87,7 +92,7 @@ class Journey:
     way: Way | None = None
     planned: float = -math.inf
     no_way_since: float | None = None
-    forgotten: bool = False
+    lookout: Lookout = field(default_factory=Lookout)
     arrived: float | None = None
     progress: Progress | None = None
     result: Result | None = None
@@ -116,10 +121,10 @@ def travelled(
     result = _over(journey, settings, now)
     if result is not None:
         return replace(journey, result=result), STANDSTILL
-    if _is_there(journey, pose):
+    if _is_there(journey, pose, now):
         return _turned(replace(journey, left=_distance(journey, pose)), pose, settings, last)
     journey = _planned(replace(journey, arrived=None), pose, settings, now)
-    if journey.way is None:
+    if journey.way is None or is_looking(journey.lookout):
         return replace(journey, left=_distance(journey, pose)), STANDSTILL
     return _followed(journey, journey.way, pose, settings)
 
@@ -140,10 +145,14 @@ def _seen(journey: Journey, sight: Sight, settings: Settings) -> Journey:
 
 
 def _watched(journey: Journey, pose: Pose, now: float) -> Journey:
-    """The journey with its progress. To arrive is some as well: from there on the robot has time to turn."""
-    last, arrives = journey.progress, _is_there(journey, pose)
+    """The journey with its progress. To arrive is some as well: from there on the robot has time to turn.
+
+    A robot that stands to look, or as there is no way, has times of its own.
+    """
+    last, arrives = journey.progress, _is_there(journey, pose, now)
     begins = arrives and journey.arrived is None
-    if last is None or begins or pose.distance(last.x, last.y) >= PROGRESS:
+    stands = is_looking(journey.lookout) or journey.no_way_since is not None
+    if last is None or begins or stands or pose.distance(last.x, last.y) >= PROGRESS:
         journey = replace(journey, progress=Progress(pose.x, pose.y, now))
     return replace(journey, arrived=now) if begins else journey
 
@@ -160,10 +169,16 @@ def _over(journey: Journey, settings: Settings, now: float) -> Result | None:
     return None
 
 
-def _is_there(journey: Journey, pose: Pose) -> bool:
-    """Whether the robot is at the place: well within the tolerance at first, and then as long as it is within it."""
+def _is_there(journey: Journey, pose: Pose, now: float) -> bool:
+    """Whether the robot is at the place: well within the tolerance at first, and then as long as it is within it.
+
+    Where it comes no nearer, because the place is tight, to be within it is enough.
+    """
     left, most = _distance(journey, pose), journey.goal.xy_tolerance
-    way = journey.way
+    way, last = journey.way, journey.progress
+    comes_no_nearer = last is not None and now - last.at > NO_NEARER
+    if (comes_no_nearer or journey.no_way_since is not None) and left <= most * WITHIN:
+        return True
     at_the_end = way is not None and remaining(way, pose) < PASSED
     return left <= (most if at_the_end or journey.arrived is not None else most * WELL_WITHIN)
 
@@ -188,13 +203,20 @@ def _planned(journey: Journey, pose: Pose, settings: Settings, now: float) -> Jo
     if grid is None or now - journey.planned < PLAN_PERIOD:
         return journey
     priced = costs(grid, settings.robot_radius + KEPT)
-    new = found(priced, pose, (goal.x, goal.y), goal.xy_tolerance * WITHIN)
+    place = (goal.x, goal.y)
+    within = goal.xy_tolerance * WITHIN
+    new = found(priced, pose, place, within)
+    if new is None:
+        priced_there = eased(priced, settings.robot_radius + LEAST, place, within + KEPT)
+        new = found(priced_there, pose, place, within)
     if new is not None:
-        return replace(journey, planned=now, way=_kept(journey.way, new, pose), no_way_since=None)
-    if not journey.forgotten:
-        return replace(journey, way=None, grid=None, seen=-math.inf, forgotten=True)
+        way, lookout = _kept(journey.way, new, pose), replace(journey.lookout, doubt=None)
+        return replace(journey, planned=now, way=way, lookout=lookout, no_way_since=None)
+    lookout = looked(journey.lookout, priced, pose, place, now)
+    if lookout.doubt is not None:
+        return replace(journey, planned=now, way=lookout.doubt.way, lookout=lookout, no_way_since=None)
     since = now if journey.no_way_since is None else journey.no_way_since
-    return replace(journey, planned=now, way=None, no_way_since=since)
+    return replace(journey, planned=now, way=None, lookout=lookout, no_way_since=since)
 
 
 def _kept(old: Way | None, new: Way, pose: Pose) -> Way:

@@ -33,29 +33,37 @@ STEP_OUT = 0.4
 
 def found(priced: Costs, pose: Pose, place: tuple[float, float], tolerance: float) -> Way | None:
     """The way from the robot to within `tolerance` m of a place; None if there is none."""
-    start, ends = _start(priced, pose), _ends(priced, place, tolerance)
-    if start is None or not len(ends):
+    cells = descent(priced, beginning(priced, pose), open_about(priced, place, tolerance)[:1])
+    if cells is None:
         return None
-    field = distances(priced.values, ends, start)
-    if field[start] >= CLOSED:
-        return None
-    cells = _down(field, start)
-    corners = _straightened(priced, cells)
+    corners = straightened(priced, cells)
     if priced.between(np.array(place), np.array(place)) < CLOSED:
         corners[-1] = place
     return Way(corners, priced)
 
 
-def _start(priced: Costs, pose: Pose) -> tuple[int, int] | None:
+def descent(priced: Costs, start: tuple[int, int] | None, ends: Cells) -> Cells | None:
+    """The cells from the start to the nearest of the ends, each beside the one before; None if there is no way."""
+    if start is None or not len(ends):
+        return None
+    field = distances(priced.values, ends, start)
+    return None if field[start] >= CLOSED else _down(field, start)
+
+
+def beginning(priced: Costs, pose: Pose) -> tuple[int, int] | None:
     """The robot's cell, or the nearest open one; None if it is shut in."""
     here = priced.grid.cells(np.array([[pose.x, pose.y]]))
     near = _open(priced, here[0], STEP_OUT)
     return None if not len(near) else (int(near[0, 0]), int(near[0, 1]))
 
 
-def _ends(priced: Costs, place: tuple[float, float], tolerance: float) -> Cells:
-    """The open cells nearest to the place that are near enough."""
-    return _open(priced, priced.grid.cells(np.array([place]))[0], tolerance)[:1]
+def open_about(priced: Costs, place: tuple[float, float], reach: float) -> Cells:
+    """The open cells with their middles within reach (m) of a place, the nearest first."""
+    near = _open(priced, priced.grid.cells(np.array([place]))[0], reach + priced.grid.resolution)
+    apart = np.hypot(*(priced.grid.centres(near) - place).T)
+    order = np.argsort(apart, kind="stable")
+    result: Cells = near[order[apart[order] <= reach]]
+    return result
 
 
 def _open(priced: Costs, cell: Cells, reach: float) -> Cells:
@@ -115,7 +123,7 @@ def _down(field: NDArray[np.int32], start: tuple[int, int]) -> Cells:
     return result
 
 
-def _straightened(priced: Costs, cells: Cells) -> Points:
+def straightened(priced: Costs, cells: Cells) -> Points:
     """The corners of a way after all that can be cut off without coming nearer to anything than it does."""
     points, dear = priced.grid.centres(cells), priced.values[cells[:, 0], cells[:, 1]]
     corners = [0]

@@ -197,13 +197,13 @@ class VelocityController:
         with handle:
             taken = handle.take_message(OdometryMessage, False)
         if taken is not None:
-            self._locate(taken[0])
+            self._locate(*taken)
 
-    def _locate(self, message: OdometryMessage) -> None:
+    def _locate(self, message: OdometryMessage, info: dict[str, Any]) -> None:
         pose = pose_of(message.pose.pose)
         if pose is not None:
             at = self._made_at(message.header.stamp, self._settings.odometry_timeout)
-            self._odometry = Odometry(at, pose)
+            self._odometry = Odometry(at, pose, info["publication_sequence_number"] or 0)
             self._track = track.extended(self._track, at, pose)
             self._frame, self._base = message.header.frame_id, message.child_frame_id
 

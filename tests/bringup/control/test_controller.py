@@ -8,6 +8,8 @@ import pytest
 
 from bringup.control.command import Command, Pose
 from bringup.control.controller import Odometry, Sight, State, ticked
+from bringup.control.journey import Goal, Journey
+from bringup.control.outcome import Outcome
 from bringup.control.settings import Settings
 
 HERE = Pose(0.0, 0.0, 0.0)
@@ -77,3 +79,23 @@ def test_points_are_carried_along_with_the_odometry() -> None:
     assert settled(settings, ahead).linear == 0.0
     turned = Odometry(10.0, Pose(0.0, 0.0, math.pi / 2))
     assert settled(settings, ahead, turned).linear == pytest.approx(0.5)
+
+
+@pytest.mark.parametrize(
+    ("name", "number", "x", "outcome"),
+    [
+        ("goes on", 41, 0.0, None),
+        ("not counted", 0, 0.0, None),
+        ("begins again where it was", 1, 0.0, Outcome.LOST),
+        ("is somewhere else", 41, 2.0, Outcome.LOST),
+    ],
+)
+def test_odometry_with_another_origin_ends_a_journey(
+    name: str, number: int, x: float, outcome: Outcome | None
+) -> None:
+    settings = Settings(mode="go_to_goal")
+    state = State(journey=Journey(Goal(3.0, 0.0), 10.0), odometry=Odometry(10.0, HERE, 40))
+    after = ticked(state, settings, 10.1, FREE, Odometry(10.05, Pose(x, 0.0, 0.0), number))
+    assert after.journey is not None
+    result = after.journey.result
+    assert (None if result is None else result.outcome) == outcome, name

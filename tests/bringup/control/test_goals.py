@@ -252,6 +252,18 @@ def test_a_filter_that_begins_again_ends_a_goal(room: Room) -> None:
     assert "jumped" in ended.result.text
 
 
+def test_a_filter_that_begins_again_near_its_origin_ends_a_goal(room: Room) -> None:
+    """Its pose does not jump, but what it is counted from is another place all the same."""
+    room.set(progress_timeout=600.0)
+    handle = room.send(room.goal(*elsewhere(room)))
+    room.until(lambda: not room.stands(), "driving")
+    room.node.destroy_publisher(room.odometry)
+    room.odometry = room.node.create_publisher(Odometry, "/robot1/odometry/filtered", 1)
+    ended = room.result(handle)
+    assert ended.result.outcome == LOST
+    assert "begun again" in ended.result.text
+
+
 def test_the_fleet_is_asked_for_the_place_and_told_when_it_is_free_again(room: Room) -> None:
     asked: list[Any] = []
     released: list[str] = []
