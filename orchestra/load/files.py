@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from importlib import import_module
-from pathlib import Path
 from typing import TYPE_CHECKING, cast
 
 from orchestra.description.launch import Description
@@ -45,7 +44,7 @@ def load(
 
     `ending` tells the format where it is not that of the path.
     """
-    ending = ending or Path(path).suffix.lower()
+    ending = ending or _ending(path)
     if ending == PYTHON:
         # Here, because it brings in what Python launch files import.
         from orchestra.load import python_file  # noqa: PLC0415
@@ -111,8 +110,12 @@ def _content(stream: io.FileIO) -> bytes:
 
 def has_format(path: str) -> bool:
     """Return whether the ending of a path tells how the file is read."""
-    ending = Path(path).suffix.lower()
+    ending = _ending(path)
     return ending == PYTHON or ending in FORMATS
+
+
+def _ending(path: str) -> str:
+    return os.path.splitext(path)[1].lower()  # noqa: PTH122 - pathlib is slow
 
 
 def unknown_format(file: str) -> str:

@@ -43,7 +43,9 @@ def glimpse(template: Template, context: Context, variables: Mapping[str, Variab
     """Return what a text comes to, without a word and without running anything; None where that cannot be told."""
     if any(isinstance(part, Opaque) or part.name == "command" for part in performed_in(template)):
         return None
-    value = evaluate(template, replace(context, problems=Problems(), variables=_Glance(variables)))
+    if not isinstance(context.variables, _Glance):
+        context = replace(context, problems=Problems(), variables=_Glance(variables))
+    value = evaluate(template, context)
     return value if isinstance(value, Value) else None
 
 

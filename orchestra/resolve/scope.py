@@ -12,9 +12,9 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
-from orchestra.dataclass import dataclass
+from orchestra.dataclass import dataclass, maker
 from orchestra.errors import Code, Problems
-from orchestra.fields import field, replace
+from orchestra.fields import field
 from orchestra.resolve.context import POISON, Evaluated, Read, Setter, Value, Variable, read_of
 from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.model import EnvironmentChange, InlineParameter, ParameterSource, ResolvedRemap
@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 NAMESPACE = "ros_namespace"
 
 _ABSENT: Final = object()
+
+_new_variable = maker(Variable)
 
 _Names: TypeAlias = set[str]
 
@@ -124,13 +126,13 @@ class Scope:
 
     def set(self, name: str, value: Evaluated, location: Location, setter: Setter = "let") -> None:
         """Set a variable."""
-        self._put(self.variables, name, Variable(value, location, setter=setter))
+        self._put(self.variables, name, _new_variable(value, location, setter=setter))
 
     def settle(self, name: str, location: Location) -> None:
         """Note where a variable is declared or set with no condition around that."""
         variable = self.variables.get(name)
         if variable is not None:
-            self._put(self.variables, name, replace(variable, settled=location))
+            self._put(self.variables, name, _changed(variable, variable.leaked_from, location))
 
     def forget(self, name: str) -> None:
         """Unset a variable."""
@@ -225,7 +227,7 @@ class Scope:
             if not isinstance(variable.value, Value) or (wanted and name != NAMESPACE):
                 continue
             if _comparable(earlier) != _comparable(variable):
-                self._put(self.variables, name, replace(variable, leaked_from=include))
+                self._put(self.variables, name, _changed(variable, include, variable.settled))
 
     def _put(self, table: dict[str, Any], name: str, value: object) -> None:
         self._journal.append((table, name, table.get(name, _ABSENT)))
@@ -253,7 +255,7 @@ class Scope:
             reader,
             notes=(f"set at {variable.location}", f"included at {variable.leaked_from}"),
         )
-        self._put(self.variables, name, replace(variable, leaked_from=None))
+        self._put(self.variables, name, _changed(variable, None, variable.settled))
 
 
 class Tracing:
@@ -274,6 +276,12 @@ class Tracing:
         self._scope._reads = self._outer  # noqa: SLF001 - as above
         if self._outer is not None:
             self._outer += self._reads
+
+
+def _changed(variable: Variable, leaked_from: Span | None, settled: Location | None) -> Variable:
+    return _new_variable(
+        variable.value, variable.location, leaked_from, variable.setter, settled, variable.noted
+    )
 
 
 def _write(table: dict[str, Any], name: str, value: object) -> None:

@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 _stat, _lstat, _readlink, _access, _scandir = os.stat, os.lstat, os.readlink, os.access, os.scandir
 _CHUNK: Final = 1 << 16
 
+_FEW: Final = 4
+_LATELY: Final[dict[str, bytes]] = {}
+
 # Nanoseconds in which a file may be changed twice without a sign: clocks of file systems tick slowly.
 _TICK: Final = 2_000_000_000
 
@@ -47,9 +50,20 @@ def content(path: str) -> str | None:
     try:
         if not stat.S_ISREG(_stat(path).st_mode):
             return None
-        return digest_of(read(path))
+        found = read(path)
     except (OSError, ValueError) as error:
         return reason(error)
+    if len(found) < _CHUNK:
+        if len(_LATELY) >= _FEW:
+            _LATELY.clear()
+        _LATELY[path] = found
+    return digest_of(found)
+
+
+def read_lately(path: str) -> bytes:
+    """Return what was in a small file when its digest was made, if that was just now; else what is in it."""
+    known = _LATELY.get(path)
+    return read(path) if known is None else known
 
 
 def read(path: str) -> bytes:

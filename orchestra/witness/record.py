@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from orchestra.dataclass import dataclass
@@ -97,6 +98,7 @@ def _add(known: dict[str, Any], more: Mapping[str, Any]) -> None:
             known[key] = value
 
 
+@lru_cache(maxsize=1024)
 def question(*words: str) -> str:
     """Return the words of a question as one text."""
     return json.dumps(words)

@@ -22,7 +22,7 @@ from orchestra.resolve.python.isolation import isolated
 from orchestra.resolve.rcl.files import read_parameter_file
 from orchestra.settings.comments import MARK
 from orchestra.settings.settle import settle
-from orchestra.witness.looking import read
+from orchestra.witness.looking import read_lately
 from orchestra.witness.observing import observer
 from orchestra.witness.once import real
 from orchestra.witness.variables import ObservedEnvironment
@@ -105,7 +105,7 @@ class Looker:
             frozenset(visit.included),
             frozenset(named),
             frozenset(problems.silencing),
-            _has_comments(path),
+            _has_comments(absolute),
         )
 
     def _names(self, description: Description) -> set[str]:
@@ -154,6 +154,6 @@ def _of_this_host(problem: Problem) -> Problem:
 
 def _has_comments(path: str) -> bool:
     try:
-        return MARK.encode() in read(path)
+        return MARK.encode() in read_lately(path)
     except OSError:
         return False

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,7 +27,7 @@ def visit(action: Executable, run: Resolution) -> None:
     found: tuple[str, ...] = () if isinstance(words, Poison) else words
     program = Program(
         kind="process",
-        executable=Path(found[0]).name if found else raw_of(action.cmd),
+        executable=_called(found[0]) if found else raw_of(action.cmd),
         words=found,
         namespace=namespace if isinstance(namespace, Value) else None,
         label=label if isinstance(label, str) else None,
@@ -34,6 +35,11 @@ def visit(action: Executable, run: Resolution) -> None:
         through=tuple(reads),
     )
     add_process(action, program, run)
+
+
+def _called(program: str) -> str:
+    name = os.path.basename(program)  # noqa: PTH119 - pathlib is slow
+    return name if name not in ("", ".") else Path(program).name
 
 
 def _words(action: Executable, run: Resolution) -> tuple[str, ...] | Poison:
