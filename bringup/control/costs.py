@@ -50,13 +50,22 @@ def costs(grid: Grid, radius: float) -> Costs:
     return Costs(grid, values)
 
 
-def eased(priced: Costs, radius: float, place: tuple[float, float], reach: float) -> Costs:
-    """The costs for a robot of this lesser radius (m) within reach (m) of a place; what it gains there is dear."""
-    wide = radius / priced.grid.resolution
-    gained = (priced.values >= CLOSED) & (
-        squared_distances(priced.grid.occupied, math.ceil(wide)) > wide * wide
-    )
-    return Costs(priced.grid, np.where(gained & near(priced.grid, place, reach), TIGHT, priced.values))
+def eased(priced: Costs, radius: float, place: tuple[float, float], reach: float) -> Costs | None:
+    """The costs for a robot of this lesser radius (m) within reach (m) of a place; None if it gains nothing there.
+
+    What it gains is dear.
+    """
+    grid, wide = priced.grid, radius / priced.grid.resolution
+    ((row, column),) = grid.cells(np.array([place])).tolist()
+    most = math.ceil(wide + reach / grid.resolution)
+    there = (slice(max(0, row - most), row + most + 1), slice(max(0, column - most), column + most + 1))
+    room = squared_distances(grid.occupied[there], math.ceil(wide)) > wide * wide
+    gained = (priced.values[there] >= CLOSED) & room & near(grid, place, reach)[there]
+    if not gained.any():
+        return None
+    values = priced.values.copy()
+    values[there][gained] = TIGHT
+    return Costs(grid, values)
 
 
 def near(grid: Grid, place: tuple[float, float], reach: float) -> NDArray[np.bool_]:

@@ -207,8 +207,8 @@ def _planned(journey: Journey, pose: Pose, settings: Settings, now: float) -> Jo
     within = goal.xy_tolerance * WITHIN
     new = found(priced, pose, place, within)
     if new is None:
-        priced_there = eased(priced, settings.robot_radius + LEAST, place, within + KEPT)
-        new = found(priced_there, pose, place, within)
+        tight = eased(priced, settings.robot_radius + LEAST, place, within + KEPT)
+        new = None if tight is None else found(tight, pose, place, within)
     if new is not None:
         way, lookout = _kept(journey.way, new, pose), replace(journey.lookout, doubt=None)
         return replace(journey, planned=now, way=way, lookout=lookout, no_way_since=None)

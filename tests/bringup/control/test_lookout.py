@@ -81,8 +81,10 @@ def test_at_its_goal_a_robot_may_come_as_near_to_something_as_the_guard_lets_it(
     place = (0.35, 0.75)
     tight = eased(priced(), 0.22, place, 0.2)
     assert found(priced(), HERE, place, 0.08) is None
+    assert tight is not None
     way = found(tight, HERE, place, 0.08)
     assert way is not None
     assert way.corners[-1].tolist() == pytest.approx(place)
-    # Elsewhere as before: the gap stays closed.
+    # Elsewhere as before: the gap stays closed, and in the open nothing is gained.
+    assert eased(priced(), 0.22, (0.75, 1.55), 0.2) is None
     assert found(tight, HERE, BEHIND, 0.08) is None
