@@ -201,3 +201,20 @@ def test_the_jobs_in_the_documentation_are_yaml() -> None:
     steps = [step for block in blocks for job in block.get("jobs", {}).values() for step in job["steps"]]
     assert any("--format github" in step.get("run", "") for step in steps)
     assert any("upload-sarif" in step.get("uses", "") for step in steps)
+
+
+def test_each_file_finds_an_empty_folder_for_temporary_files(tmp_path: Path, orchestra: Command) -> None:
+    """One that was left empty serves the next file, whatever has been done to another."""
+    code = """\
+import os, tempfile
+from launch import LaunchDescription
+assert os.listdir(tempfile.gettempdir()) == []
+{}
+def generate_launch_description():
+    return LaunchDescription([])
+"""
+    deeds = ("", "tempfile.mkstemp()", "", "os.chmod(tempfile.gettempdir(), 0)", "", "tempfile.mkstemp()")
+    files = {f"{number}.launch.py": code.format(deed) for number, deed in enumerate(deeds)}
+    _write(tmp_path / "tree", files)
+    done = orchestra("check", "--jobs", "1", str(tmp_path / "tree"))
+    assert (done.returncode, done.stdout) == (0, "no problems in 6 files\n")
