@@ -89,9 +89,12 @@ class FaultyCall:
         message = f"{name} takes {index or 'no'} argument{'s' * (index != 1)} without a name"
         note = f"it is written {name}({shown(self.parameters)})"
         at = self._at((f"*{index}",))
-        self._tell(Code.WRONG_TYPE, message, at, self._named(index, at), (note,))
-        self.surplus, self.is_shortened = None, True
-        self.is_lost = not _is_entity(self.kind) or any(_is_entity(type(value)) for value in self.given)
+        meant = self._named(index, at)
+        self._tell(Code.WRONG_TYPE, message, at, meant, (note,))
+        self.surplus, self.is_shortened = None, meant is None
+        self.is_lost = meant is None and (
+            not _is_entity(self.kind) or any(_is_entity(type(value)) for value in self.given)
+        )
         self._take_by_order(index)
         return True
 

@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 
 _MOST: Final = 100  # characters: what is longer is read better in the message alone
 _TWO_TEXTS: Final = re.compile(r"""((["'])(?:(?!\2).)+\2)\s*((["'])(?:(?!\4).)+\4)""")
+_PLAIN: Final = re.compile(r"[\w./:=@%+, -]+")
+# What is said of one thing where several are expected.
+_ONE_OF_MANY: Final = ("parameters are a list of dictionaries and files, not {", "this is one of them: ")
 _NUMBERS: Final = (int, float)
 # Arguments whose values are names, hardly ever variables of the name that they have.
 _NAMES: Final = frozenset({"executable", "exec", "name", "namespace", "output", "package", "pkg", "plugin"})
@@ -48,10 +51,21 @@ def rewritten(file: str, span: Span, value: Any, message: str) -> Rewritten | No
     if type(value) in _NUMBERS and source == repr(value) and "expected a text" in message:
         return Rewritten(repr(source))
     if "a remapping is a tuple" in message:
-        return _apart(file, span, source)
+        return _pair(value) if isinstance(value, str) and ":=" in value else _apart(file, span, source)
+    if "cmd is a list of words" in message and isinstance(value, str) and _PLAIN.fullmatch(value):
+        return Rewritten(repr(value.split()))
+    if any(part in message for part in _ONE_OF_MANY):
+        is_list = isinstance(value, list) and source[:1] + source[-1:] == "[]"
+        return Rewritten(f"[({source[1:-1]})]" if is_list else f"[{source}]")
     if "is a list, this is" in message or "a list of actions is expected" in message:
         return Rewritten(f"[{source}]") if callable(getattr(value, "visit", None)) else None
     return None
+
+
+def _pair(value: str) -> Rewritten:
+    """Return a remapping of the command line as that of a launch file."""
+    name, _, target = value.partition(":=")
+    return Rewritten(f"({name!r}, {target!r})")
 
 
 def _apart(file: str, span: Span, source: str) -> Rewritten | None:

@@ -11,13 +11,13 @@ from orchestra.compat.literals import Literal, argument
 from orchestra.compat.place import Argument
 from orchestra.compat.rewritten import Rewritten
 from orchestra.compat.source_text import quoted_in, text_at
-from orchestra.compat.syntax_trees import tree_of
+from orchestra.compat.syntax_trees import node_span, tree_of
 from orchestra.errors import Code
 from orchestra.fields import replace
 from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from orchestra.errors import Problem
     from orchestra.location import Span
@@ -43,6 +43,9 @@ def in_place(problem: Problem) -> Problem:
     found = _found(span)
     if isinstance(span, Argument):
         problem = replace(problem, span=found.span)
+    root = _late_root(found) if problem.code is Code.MISSING_FILE else None
+    if root is not None:
+        return replace(problem, span=root[0], suggestion=root[1])
     if meant is None:
         return replace(problem, span=_narrower(problem, found))
     is_name = not isinstance(span, Argument)  # else it may stand for what is wrong
@@ -68,6 +71,28 @@ def _found(span: Span) -> Literal:
     node = None if tree is None else tree.expression(file, span)
     is_name = isinstance(node, ast.Name | ast.Attribute)  # what is told of is the name itself
     return Literal(file, None if is_name else node, span, tree)
+
+
+def _late_root(found: Literal) -> tuple[Span, str] | None:
+    """Return a later part of a joined path that begins at the root, and without: it drops what stands before it."""
+    tree = tree_of(found.file)
+    node = found.node if found.node is None or tree is None else tree.meaning(found.node)
+    for part in _later_parts(node):
+        if isinstance(part, ast.Constant) and isinstance(part.value, str) and part.value.startswith("/"):
+            return node_span(found.file, part), part.value.lstrip("/")
+    return None
+
+
+def _later_parts(node: ast.expr | None) -> Sequence[ast.expr]:
+    """Return the parts of a path that is joined, without the first."""
+    match node:
+        case ast.Call(func=ast.Attribute(attr="join"), args=[_, *parts]):
+            return parts
+        case ast.Call(func=ast.Name(id="PathJoinSubstitution"), args=[ast.List(elts=[_, *parts])]):
+            return parts
+        case ast.BinOp(left=left, op=ast.Div(), right=right):
+            return [*_later_parts(left), right]
+    return []
 
 
 def _narrower(problem: Problem, found: Literal) -> Span:

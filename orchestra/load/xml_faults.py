@@ -209,7 +209,11 @@ def _in_attribute(found: re.Match[str], whole: Source) -> Fault | None:
         return _fault("one '=' stands between name and value", whole, doubled.end() - 1, doubled.end())
     if not quoted:
         message = f"the attribute '{name}' has no value: write {name}=\"...\""
-        return _fault(message, whole, *found.span(2))
+        is_apart = whole.text[found.end(2) :].lstrip()[:1] in (
+            '"',
+            "'",
+        )  # the value stands there, without its '='
+        return _fault(message, whole, *found.span(2), f"{name.rstrip(':')}=" if is_apart else None)
     if len(quoted) == 1 or quoted[-1] != quoted[0]:
         return _in_value(name, found.start(3), found.end(3), whole)
     return None

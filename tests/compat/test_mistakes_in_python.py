@@ -305,7 +305,7 @@ _VALUES = {
         "'5'",
     ),
     "a command that is one text": Mistake(
-        "[ExecuteProcess(cmd=«'ls -l'»)]", "cmd is a list of words", Code.WRONG_TYPE
+        "[ExecuteProcess(cmd=«'ls -l'»)]", "cmd is a list of words", Code.WRONG_TYPE, "['ls', '-l']"
     ),
     "an argument of an include that is one text": Mistake(
         "[IncludeLaunchDescription('inner.launch.py', launch_arguments=[«'a:=b'»])]",

@@ -20,6 +20,7 @@ from orchestra.compat.wrong import WrongType
 from orchestra.description.core import ValidationError
 from orchestra.errors import Code
 from orchestra.location import displayed, point
+from orchestra.resolve.context import POISON
 from orchestra.resolve.python.calling import user_code
 from orchestra.resolve.python.deferral import Deferred, put_off
 
@@ -57,6 +58,8 @@ def visit_entity(entity: Any, run: Resolution, place: Place | None = None) -> No
             raise
         faults.report(error, run.problems, run.context.included_from, _span(entity, run, place))
         run.scope.ledger.incomplete = True
+        if entity._role == "declaration":  # what reads it is not to be told of it
+            run.scope.set(entity.name, POISON, run.at(_span(entity, run, place)))
     else:
         run.visit((model,), run)
 
