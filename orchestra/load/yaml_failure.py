@@ -17,6 +17,7 @@ if TYPE_CHECKING:
 _PARSER: type[Any] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
 _WORD = re.compile(r"[^\s:,\[\]{}#]+")
+_CONFLICT = re.compile(r"^(<{7})(?: .*)?$", re.MULTILINE)
 _INNER = re.compile(r"\[[^][{}]*\]|\{[^][{}]*\}")
 _QUOTES: Final = ("'", '"')
 _OPENS: Final = " \t\n[{(,:"
@@ -108,11 +109,16 @@ class Failure:
         except yaml.YAMLError:
             pass  # the failure itself
 
+    def of_conflict(self) -> Fault | None:
+        """Return the fault of a merge whose conflict is left in the text, None where it is none of that."""
+        found = _CONFLICT.search(self.text)
+        return self.fault("a conflict of a merge is left here", *found.span(1)) if found else None
+
     def of_quotes(self) -> Fault | None:
         """Return the fault of a quote that is missing or stands in a quoted text, None where it is none of that."""
         pieces = self.pieces()
         for piece in pieces:
-            if piece.quoted and self.line_of(piece.begin) < self.line_of(piece.end) and self.is_next(piece):
+            if piece.quoted and self.is_next(piece):
                 return self.unclosed(piece.begin)
         last = pieces[-1] if pieces else None
         if last is None or not last.quoted or last.end != self.at or self.here in _FOLLOWS:
@@ -123,8 +129,10 @@ class Failure:
         return self.fault(message, last.end - 1, last.end, escaped)
 
     def is_next(self, piece: Piece) -> bool:
-        """Return whether the quote that ends a text of several lines is rather the beginning of another one."""
+        """Return whether the quote that ends a text is rather the beginning of another one."""
         before, behind = self.text[piece.end - 2], self.text[piece.end : piece.end + 1]
+        if self.line_of(piece.begin) == self.line_of(piece.end):
+            before = "," if self.text[piece.begin : piece.end - 1].rstrip()[-1:] == "," else "."
         return before in _OPENS and behind not in _FOLLOWS and behind != ""
 
     def unclosed(self, begin: int) -> Fault:

@@ -45,7 +45,8 @@ def explained(error: yaml.YAMLError, whole: Source) -> Fault:
     if failure.is_doubled:
         return failure.fault("this '-' is one too many", context, context + 1)
     by_lines = of_lines(failure) if any(map(failure.problem.count, _OF_LINES)) else None
-    return failure.of_quotes() or by_lines or _explanation(failure)(failure) or failure.plainly()
+    plain = failure.of_conflict() or failure.of_quotes()
+    return plain or by_lines or _explanation(failure)(failure) or failure.plainly()
 
 
 def _explanation(failure: Failure) -> Callable[[Failure], Fault | None]:
@@ -169,7 +170,7 @@ def _without_colon(failure: Failure, begin: int) -> Fault:
         return failure.fault("an item of the list begins with '- '", begin, end, instead)
     if ":" in written:
         name, _, value = written.partition(":")
-        return failure.fault(f"a blank is missing behind '{name}:'", begin, end, f"{name}: {value}")
+        return failure.fault(f"a blank is missing behind '{name}:'", begin, end, f"{name}: {value.strip()}")
     name, blank, value = re.match(r"([^\s=]*)(\s*=?\s*)(.*)", written).groups()  # type: ignore[union-attr] # matches
     name = name.rstrip(",;")
     meant = f"{name}: {value}" if blank and " " not in value else f"{name}:" if not blank else None

@@ -5,11 +5,14 @@ from __future__ import annotations
 import os
 from functools import lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
+from orchestra.description.source import shortened
+from orchestra.description.substitutions import SIGNATURES
 from orchestra.errors import Code, Problems, Severity
 from orchestra.fields import replace
 from orchestra.location import displayed
+from orchestra.patterns import pattern
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import FileParameters
 from orchestra.resolve.other_kinds import refused_as_parameters
@@ -26,6 +29,8 @@ if TYPE_CHECKING:
     from orchestra.location import Location
     from orchestra.resolve.rcl.sections import Section
     from orchestra.resolve.resolution import Resolution
+
+_CALL: Final = pattern(r"[^$]*\$\(([a-z][a-z-]*)[ )]")
 
 
 def file_parameters(
@@ -128,6 +133,8 @@ def read_file(
     if not sound and not (whole and sections):
         return None
     sections = tuple(included(section, chain) for section in sections)
+    if not substitute and "$(" in text:
+        _warn_of_kept(sections, location, run)
     if back is not None:
         sections = tuple(placed_back(section, back) for section in sections)
     if bare:
@@ -135,6 +142,17 @@ def read_file(
             path, (), location, plain=tuple(item for part in sections for item in part.entries), within=reads
         )
     return FileParameters(path, sections, location, within=reads, sound=sound)
+
+
+def _warn_of_kept(sections: tuple[Section, ...], given_at: Location, run: Resolution) -> None:
+    """Tell of the first substitution that stays a text, because those of the file are not asked for."""
+    for entry in (entry for section in sections for entry in section.entries):
+        found = _CALL.match(entry.value) if isinstance(entry.value, str) else None
+        if found is not None and found[1] in SIGNATURES:
+            message = f"'{shortened(str(entry.value))}' stays a text: this file is read without substitutions"
+            notes = (f"`allow_substs: true` where it is given, at {given_at}, evaluates them",)
+            run.problems.warning(Code.SURPRISING_SCALAR, message, entry.location, notes=notes)
+            return
 
 
 @lru_cache(maxsize=64)  # by content: many nodes and files have the same one

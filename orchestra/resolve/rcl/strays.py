@@ -25,7 +25,7 @@ SECTION_KEY: Final = "ros__parameters"
 
 _NODE_DEPTH: Final = 2  # inside the file's mapping, inside that of a key of it
 _UNPREFIXED: Final = ("parameter", "parameters", "params")
-_COLON: Final = pattern(r"([^\s:\[\]{}]+):(\S+)")
+_COLON: Final = pattern(r"([^\s:\[\]{}]+):\s*(\S+)")
 _MISSPELT: Final = pattern(
     r"_*(?:ro?s|rso|ors|os|ro|ross|roos|rros)[_. -]*p?[a-z]{1,4}m[a-z]{0,6}", re.IGNORECASE
 )

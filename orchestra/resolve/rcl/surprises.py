@@ -38,6 +38,7 @@ _PREFIXED: Final = pattern(r"[-+]?0(?:o(?P<octal>[0-7]+)|b(?P<binary>[01]+))")
 
 _NOT_PLAIN: Final = ("'", '"', "!", "&", "|", ">", "")
 _NUMERIC: Final = frozenset("0123456789.+-tTfF")
+_TYPESET: Final = frozenset("\u201c\u201d\u201e\u2018\u2019\u201a\u00ab\u00bb")
 _OPENING: Final = {"]": "[", "}": "{"}
 _BREAK: Final = pattern("\r\n|[\r\n\x85\u2028\u2029]")
 
@@ -132,6 +133,9 @@ def _of_boolean(text: str, value: bool) -> Surprise | None:
 def _of_text(text: str) -> Surprise | None:
     if (half := half_open(text)) is not None:
         return half
+    if text[:1] in _TYPESET and text[-1:] in _TYPESET:
+        told = f"the quotes of '{shortened(text)}' are part of the text: YAML knows only ' and \""
+        return Surprise(told, f'"{text[1:-1]}"' if '"' not in text and "\\" not in text else None)
     if text in _NULLS:
         return Surprise(f"'{text}' is read as a text: no parameter is without a value", f"'{text}'")
     if _GROUPED.fullmatch(text):
