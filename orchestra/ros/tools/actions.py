@@ -14,7 +14,7 @@ from rclpy.action.graph import (
 )
 
 from orchestra.errors import RunError
-from orchestra.ros.tools.graph.asking import Deadline
+from orchestra.ros.tools.graph.asking import Deadline, wait_for_server
 from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import NO_ACTION, Names, absolute, listed, nodes, split, unknown
 from orchestra.ros.tools.graph.seeing import looking_with_node
@@ -119,7 +119,10 @@ class _Pursuit:
     def follow(self, name: str, goal: Any) -> int:  # noqa: ANN401 - of an untyped package
         """Send the goal, and return the exit status when it is reached or not."""
         self._say("Waiting for an action server to become available...\n")
-        if not self._graph.wait(self._client.server_is_ready, self._deadline.left):
+        graph = self._graph
+        if not wait_for_server(
+            graph, name, self._client.server_is_ready, lambda: actions(graph), self._deadline
+        ):
             known = {other for other, _ in actions(self._graph)} - {name}  # which our client has made known
             raise unknown(NO_ACTION, name, known)
         self._say(f"Sending goal:\n     {yaml_text(plain(goal))}\n", {"goal": plain(goal)})

@@ -108,7 +108,7 @@ def _node(graph: Graph, name: str) -> str:
     if not graph.found(lambda: full in _nodes(graph, every=True)):
         if full in nodes(graph, every=True):
             raise RunError(f"{full} has no lifecycle")
-        raise unknown(NO_NODE, full, _nodes(graph, every=False))
+        raise unknown(NO_NODE, full, _nodes(graph, every=False) or nodes(graph))
     return full
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, Final, NoReturn
 from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 
 from orchestra.errors import RunError
+from orchestra.nearest import nearest
 from orchestra.ros.tools.graph.hearing import subscribe, type_of
 from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import absolute, topics
@@ -120,7 +121,9 @@ def _watch(
     """Hear a topic and report until somebody ends it; say `begin` first, and `silence` where nothing new comes."""
     topic = absolute(options.topic)
     if not graph.found(lambda: dict(topics(graph)).get(topic)):
-        remark(options, f"WARNING: topic [{options.topic}] does not appear to be published yet")
+        near = nearest(topic, {name for name, _ in topics(graph)} - {topic})
+        hint = f"; did you mean {near}?" if near else ""
+        remark(options, f"WARNING: topic [{options.topic}] does not appear to be published yet{hint}")
         graph.wait(lambda: dict(topics(graph)).get(topic), None)
     kind = message_class(type_of(graph, topic))
     profile = QoSProfile(

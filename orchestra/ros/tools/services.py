@@ -7,7 +7,7 @@ import time
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.errors import RunError
-from orchestra.ros.tools.graph.asking import LOOK, Deadline, ask
+from orchestra.ros.tools.graph.asking import Deadline, ask, wait_for_server
 from orchestra.ros.tools.graph.names import NO_SERVICE, absolute, services, unknown
 from orchestra.ros.tools.graph.seeing import looking
 from orchestra.ros.tools.telling import as_json, json_line, lines, tell
@@ -106,7 +106,13 @@ def _called(graph: Graph, options: Namespace, kind: Any, name: str, request: Any
     deadline = Deadline(options.timeout)
     if not graph.node.count_services(name):
         _say(options, "waiting for service to become available...\n")
-        graph.wait(lambda: graph.node.count_services(name), deadline.left, LOOK)
+        wait_for_server(
+            graph,
+            name,
+            lambda: graph.node.count_services(name),
+            lambda: services(graph, every=False),
+            deadline,
+        )
     types = dict(services(graph)).get(name, [])
     package, _, own = options.type.rpartition("/")
     if types and f"{package.removesuffix('/srv')}/srv/{own}" not in types:

@@ -110,6 +110,27 @@ def test_a_service_that_is_not_there_is_waited_for_no_longer_than_said(graph: Gr
 
 
 @pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (
+            ("service", "call", "/robot1/swich", "std_srvs/srv/SetBool", "{}"),
+            "warning: nobody serves /robot1/swich so far; did you mean /robot1/switch?\n",
+        ),
+        (
+            ("topic", "hz", "/robot1/scn", "--format", "json"),
+            "WARNING: topic [/robot1/scn] does not appear to be published yet; did you mean /robot1/scan?\n",
+        ),
+    ],
+)
+def test_who_waits_without_end_is_told_what_may_be_meant(
+    graph: Graph, words: tuple[str, ...], told: str
+) -> None:
+    with graph.asking(*words) as process:
+        assert process.stderr is not None
+        assert process.stderr.readline() == told
+
+
+@pytest.mark.parametrize(
     ("name", "shown"),
     [
         ("speed", "Double value is: 1.5"),

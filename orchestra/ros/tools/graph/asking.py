@@ -6,15 +6,18 @@ import time
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.errors import RunError
+from orchestra.nearest import nearest
 from orchestra.ros.observer.service import Service
 from orchestra.ros.tools.graph.names import NO_NODE, NO_SERVICE, absolute, nodes, services, unknown
+from orchestra.ros.tools.telling import warn
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterable
 
     from orchestra.ros.tools.graph.seeing import Graph
 
 LOOK: Final = 0.005  # nobody tells when a server is there
+_SOON: Final = 1.0  # s within which a server that runs is found
 
 
 class Deadline:
@@ -74,6 +77,25 @@ def ask(
     if answers[0] is None:
         raise RunError(f"the service {service} has failed")
     return answers[0]
+
+
+def wait_for_server(
+    graph: Graph,
+    name: str,
+    there: Callable[[], Any],
+    known: Callable[[], Iterable[tuple[str, object]]],
+    deadline: Deadline,
+) -> bool:
+    """Wait for the server of a service or an action; return whether it is there in time.
+
+    Who waits without end is told of the one that is probably meant, once all of the graph has been seen without it; who
+    has a deadline hears that then.
+    """
+    if deadline.left is None and not graph.wait(there, _SOON, LOOK) and not graph.found(there):
+        near = nearest(name, {other for other, _ in known()} - {name})  # which our client has made known
+        if near is not None:
+            warn(f"warning: nobody serves {name} so far; did you mean {near}?")
+    return graph.wait(there, deadline.left, LOOK)
 
 
 def node_there(graph: Graph, name: str, deadline: Deadline, *, every: bool = True) -> str:
