@@ -150,9 +150,12 @@ class Recorder:
 
     def _follow(self) -> None:
         """Hear those who have begun to publish on topics that are recorded already."""
+        there = {name: self._publishers(name) for name in self._taps}
+        for name, tap in self._taps.items():
+            tap.meet(there[name])
         self._graph.spin(0.0)  # what was lost is heard
         for name, tap in self._taps.items():
-            publishers = self._publishers(name)
+            publishers = there[name]
             known = self._known[name]
             offers = tuple(one for one in _offered(publishers) if one not in known.profiles)
             if offers:

@@ -35,7 +35,8 @@ class _Outside(CallbackGroup):
 class Tap:
     """A subscription with the QoS that all publishers of its topic offer, or with a profile that is given.
 
-    `notes` are what is to be said about that, `lost` hears how many messages the middleware could not deliver.
+    `notes` are what is to be said about that, `lost` hears how many messages the middleware could not deliver. Those
+    that somebody who has just begun to publish sent before we had met are among them there, and not here.
     """
 
     def __init__(
@@ -51,6 +52,9 @@ class Tap:
         self._topic = topic
         self._kind = kind
         self._lost = lost
+        # Who was there at the latest look, and at the one before.
+        self._there, self._before = _identities(publishers), frozenset[bytes]()
+        self._meeting = True
         self._fixed = profile is not None
         self._profile, self.notes = matched(publishers, qos_profile_sensor_data)
         if profile is not None:
@@ -69,6 +73,12 @@ class Tap:
                     (self._topic, about["received_timestamp"], about["source_timestamp"], number, data)
                 )
         return found
+
+    def meet(self, publishers: Sequence[Any]) -> None:
+        """See whether somebody has begun to publish at this look or the last one: what is lost is told late."""
+        there = _identities(publishers)
+        self._meeting = not there <= self._before
+        self._there, self._before = there, self._there
 
     def follow(self, publishers: Sequence[Any]) -> list[Message]:
         """Hear those too who have come and offer less; return what had come for the subscription until then."""
@@ -101,7 +111,7 @@ class Tap:
         )
         # What is lost is for the executor to hear, unlike the messages.
         events = SubscriptionEventCallbacks(
-            message_lost=lambda event: self._lost(event.total_count_change), use_default_callbacks=False
+            message_lost=lambda event: self._lose(event.total_count_change), use_default_callbacks=False
         )
         handle = self._subscription.handle
         try:
@@ -111,6 +121,14 @@ class Tap:
         self._waitables = made
         for waitable in made:
             node.add_waitable(waitable)
+
+    def _lose(self, count: int) -> None:
+        if not self._meeting:
+            self._lost(count)
+
+
+def _identities(publishers: Sequence[Any]) -> frozenset[bytes]:
+    return frozenset(bytes(one.endpoint_gid) for one in publishers)
 
 
 def _less(wanted: QoSProfile, had: QoSProfile) -> bool:

@@ -189,6 +189,20 @@ def test_a_bag_is_split_and_told_and_played_as_one(shell: Graph, tmp_path: Path)
         ]
 
 
+def test_what_was_published_before_both_had_met_is_not_lost(shell: Graph, tmp_path: Path) -> None:
+    publishing = ("topic", "pub", "-r", "100", "/met", "std_msgs/msg/Empty")
+    with shell.asking("bag", "record", "/met", "-o", str(tmp_path / "met")) as recorder:
+        assert _line(recorder).startswith("recording")
+        with shell.asking(*publishing), shell.asking(*publishing) as second:
+            assert _line(recorder) == "+ /met [std_msgs/msg/Empty]\n"
+            while "#150" not in _line(second):
+                assert second.poll() is None
+            recorder.send_signal(signal.SIGINT)
+            out, told = recorder.communicate()
+    assert (recorder.returncode, told) == (0, "")
+    assert "messages of 1 topics" in out
+
+
 def test_a_recorder_that_was_killed_leaves_what_it_has_written(shell: Graph, tmp_path: Path) -> None:
     folder = tmp_path / "killed"
     with (
