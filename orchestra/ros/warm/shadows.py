@@ -28,9 +28,27 @@ def shadowed(folder: str, loaded: Collection[str]) -> str | None:
         name = entry.partition(".")[0]
         if name in loaded and not name.startswith("_") and _is_module(folder, entry):
             found = getattr(sys.modules.get(name), "__file__", None) or ""
-            if not found.startswith(os.path.join(folder, name)):  # noqa: PTH118 - as above
+            place = os.path.join(folder, name)  # noqa: PTH118 - as above
+            if not found.startswith(place) and not _is_copy(place + ".py", found):
                 return name
     return None
+
+
+def _is_copy(path: str, loaded: str) -> bool:
+    """Tell whether a file is the module that is loaded, but for the first line that an installer gives to scripts.
+
+    empy, which every rclpy needs, installs its module as a script too, beside the console scripts of nodes.
+    """
+    try:
+        return _below_the_first_line(path) == _below_the_first_line(loaded)
+    except OSError:
+        return False
+
+
+def _below_the_first_line(path: str) -> bytes:
+    with open(path, "rb") as file:  # noqa: PTH123 - as above
+        first = file.readline()
+        return file.read() if first.startswith(b"#!") else first + file.read()
 
 
 def _is_module(folder: str, entry: str) -> bool:

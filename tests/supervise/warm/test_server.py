@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 from dataclasses import replace
+from importlib.util import find_spec
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -187,6 +188,20 @@ def test_a_module_of_the_program_itself_is_not_replaced_by_one_of_the_server(tmp
     assert run.log("own") == run.log("own_cold") == "1\n"
     (cold,) = run.of_kind("started_cold")
     assert cold.data["reason"].endswith("has a module 'yaml' of its own")
+
+
+def test_a_module_that_is_installed_as_a_script_too_replaces_nothing(tmp_path: Path) -> None:
+    """empy lies beside all console scripts of an environment, and rclpy needs it."""
+    pytest.importorskip("rclpy", reason="needs ROS")
+    module = find_spec("em")
+    assert module is not None
+    assert module.origin is not None
+    _, _, rest = Path(module.origin).read_bytes().partition(b"\n")
+    (tmp_path / "em.py").write_bytes(b"#!/somewhere/else/python\n" + rest)
+    own = script(tmp_path, "own.py", "print('up')")
+    run = finished(tmp_path, both_ways(node("own", own)))
+    assert run.log("own") == "up\n"
+    assert not run.of_kind("started_cold")
 
 
 def test_without_it_there_is_no_server(tmp_path: Path) -> None:
