@@ -92,6 +92,8 @@ def _record(
 
 
 def _choices(action: Arg) -> tuple[str, ...] | None:
+    if any(choice.faulty or choice.value.faulty for choice in action.choice or ()):
+        return None  # one of them is told to be wrong: nothing is known of the others
     written = [*(action.choices or ()), *(choice.value for choice in action.choice or ())]
     return tuple(_text(item) for item in written) if written else None
 
