@@ -7,21 +7,16 @@ from typing import TYPE_CHECKING, Any, Final
 
 import yaml
 from rclpy.duration import Duration
-from rclpy.qos import DurabilityPolicy, HistoryPolicy, LivelinessPolicy, QoSProfile, ReliabilityPolicy
+from rclpy.qos import QoSProfile
 
 from orchestra.errors import UsageError
 from orchestra.nearest import nearest
 from orchestra.ros.tools.graph.names import absolute
+from orchestra.ros.tools.graph.qos import POLICIES
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
-_POLICIES: Final = {
-    "history": HistoryPolicy,
-    "reliability": ReliabilityPolicy,
-    "durability": DurabilityPolicy,
-    "liveliness": LivelinessPolicy,
-}
 _SPANS: Final = ("deadline", "lifespan", "liveliness_lease_duration")
 _OTHERS: Final = ("depth", "avoid_ros_namespace_conventions")
 
@@ -51,20 +46,20 @@ def _profile(policies: Mapping[str, Any]) -> QoSProfile:
     """Return what the policies say; what they do not say is the default of topics."""
     made = QoSProfile(depth=10)
     for name, value in policies.items():
-        if name in _POLICIES:
+        if name in POLICIES:
             setattr(made, name, _word(name, value))
         elif name in _SPANS:
             setattr(made, name, Duration(seconds=int(value["sec"]), nanoseconds=int(value["nsec"])))
         elif name == "depth":
             made.depth = int(value)
         elif name not in _OTHERS:
-            near = nearest(str(name), (*_POLICIES, *_SPANS, *_OTHERS))
+            near = nearest(str(name), (*POLICIES, *_SPANS, *_OTHERS))
             raise ValueError(f"there is no policy {name}" + (f"; did you mean {near}?" if near else ""))
     return made
 
 
 def _word(policy: str, value: Any) -> Any:  # noqa: ANN401 - of an untyped package
-    known = _POLICIES[policy].short_keys()
+    known = POLICIES[policy].short_keys()
     if value not in known:
         raise ValueError(f"{policy} cannot be {value!r}: it is one of {', '.join(known)}")
-    return _POLICIES[policy].get_from_short_key(value)
+    return POLICIES[policy].get_from_short_key(value)

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from argparse import Namespace
     from collections.abc import Sequence
 
-_POLICIES: Final = {
+POLICIES: Final = {
     "history": HistoryPolicy,
     "reliability": ReliabilityPolicy,
     "durability": DurabilityPolicy,
@@ -42,12 +42,12 @@ def chosen(options: Namespace, default: QoSProfile = qos_profile_sensor_data) ->
     A profile by its name says none: as in the ROS 2 tools, what publishers offer counts for more.
     """
     named = options.qos_profile
-    given = {policy: getattr(options, f"qos_{policy}") for policy in _POLICIES}
+    given = {policy: getattr(options, f"qos_{policy}") for policy in POLICIES}
     depth, lease = options.qos_depth, getattr(options, _LEASE)
     profile = copied(QoSPresetProfiles.get_from_short_key(named) if named else default)
     for policy, word in given.items():
         if word is not None:
-            setattr(profile, policy, _POLICIES[policy].get_from_short_key(word))
+            setattr(profile, policy, POLICIES[policy].get_from_short_key(word))
     if depth is not None:
         profile.depth = depth
     elif profile.durability == DurabilityPolicy.TRANSIENT_LOCAL and profile.depth == 0:
@@ -95,7 +95,7 @@ def copied(profile: QoSProfile) -> QoSProfile:
 
 def data_of(profile: Any) -> dict[str, Any]:  # noqa: ANN401 - of an untyped package
     """Return a profile as plain data: durations in seconds, None for endless ones."""
-    words = {policy: kind(getattr(profile, policy)).name.lower() for policy, kind in _POLICIES.items()}
+    words = {policy: kind(getattr(profile, policy)).name.lower() for policy, kind in POLICIES.items()}
     spans = {name: _seconds(getattr(profile, name)) for name in _DURATIONS}
     return {**words, "depth": profile.depth, **spans}
 
