@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import stat
 import tempfile
 from contextlib import contextmanager
 from itertools import count
@@ -24,8 +25,7 @@ def temporary_files(files: Files) -> Iterator[None]:
     The names count up instead of being drawn by lot: two plans of one description name the same files.
     """
     watching = observer()
-    folder = _unused.pop() if _unused else tempfile.mkdtemp(prefix="orchestra-")
-    new = _state(folder)
+    folder = _left_empty(watching.scratch) or tempfile.mkdtemp(prefix="orchestra-")
     before = tempfile.tempdir, tempfile._name_sequence  # type: ignore[attr-defined] # there is no public way
     tempfile.tempdir, tempfile._name_sequence = folder, _Names()  # type: ignore[attr-defined]
     files.folder = folder
@@ -36,10 +36,8 @@ def temporary_files(files: Files) -> Iterator[None]:
         tempfile.tempdir, tempfile._name_sequence = before  # type: ignore[attr-defined]
         if not files.kept:
             with watching.aside():
-                if watching.installed and new is not None and _state(folder) == new:
-                    _unused.append(
-                        folder
-                    )  # such a process reads many files, and what is around the folder goes away
+                if watching.installed and folder != watching.scratch and _is_as_made(folder):
+                    _unused.append(folder)  # for the next file; what is around it goes away with the process
                 else:
                     _remove(folder)
 
@@ -47,13 +45,23 @@ def temporary_files(files: Files) -> Iterator[None]:
 _unused: list[str] = []
 
 
-def _state(folder: str) -> tuple[int, int] | None:
-    """Return what changes with whatever is done to a folder, or in it; None where it is gone."""
+def _left_empty(scratch: str | None) -> str | None:
+    """Return a folder that an earlier file has left empty, below the folder for all of them."""
+    with observer().aside():
+        while _unused:
+            folder = _unused.pop()
+            if scratch is not None and folder.startswith(f"{scratch}/") and _is_as_made(folder):
+                return folder
+    return None
+
+
+def _is_as_made(folder: str) -> bool:
+    """Tell whether a folder is empty, and its own user's alone."""
     try:
         found = os.stat(folder)  # noqa: PTH116 - pathlib is slow
+        return found.st_mode == stat.S_IFDIR | stat.S_IRWXU and not os.listdir(folder)  # noqa: PTH208 - as above
     except OSError:
-        return None
-    return found.st_mode, found.st_mtime_ns
+        return False
 
 
 def _remove(folder: str) -> None:
