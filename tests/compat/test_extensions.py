@@ -416,7 +416,7 @@ FAULTS = [
     ("required='maybe'", "maybe", "expected true or false, found 'maybe'", None),
     ("required=[True]", "[True]", "expected true or false, found a list", None),
     ("stop={'timeout': [1, 2]}", "[1, 2]", "expected a number of seconds, found a list", None),
-    ("success_exit_codes=3", "3", "expected a list, found '3'", None),
+    ("success_exit_codes=3", "3", "expected a list, found '3'", "[3]"),
     ("success_exit_codes=[0, 'x']", "x", "expected a whole number, found 'x'", None),
     ("depends_on=ELSEWHERE", "ELSEWHERE", "expected a list, found a mapping", None),
 ]
