@@ -28,6 +28,7 @@ from orchestra.supervise.keeping import kernel
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator, Sequence
+    from types import ModuleType
 
     from orchestra.ros.warm.born import Born
 
@@ -91,8 +92,20 @@ def _frozen(connection: _socket.socket) -> Iterator[None]:
     running = [thread.name for thread in threading.enumerate() if thread is not threading.main_thread()]
     if running:  # a fork copies no thread, and their locks stay as they are
         _refuse(connection, f"an import has started threads: {', '.join(running)}")
+    _keep_for_ever(sys.modules["__main__"])
     gc.freeze()
     gc.enable()
+
+
+def _keep_for_ever(module: ModuleType) -> None:
+    """Let the collector, which is about to freeze what there is, never find that nobody needs a module any more.
+
+    Where a program ends by an error, the interpreter gives its `__main__` back before it takes `__file__` out of the
+    dictionary in it (CPython 3.11 to 3.13, `_PyRun_SimpleFileObject`). With ours replaced by that of a node, this one
+    would be gone by then, and the node would end by SIGSEGV.
+    """
+    kept: list[object] = [module]
+    kept.append(kept)
 
 
 def _refuse(connection: _socket.socket, reason: str) -> NoReturn:
