@@ -30,7 +30,6 @@ from orchestra.resolve.paths import check_folder
 from orchestra.resolve.policies import restart, stop
 from orchestra.resolve.reactions import ResolvedStart
 from orchestra.resolve.readiness import life, readiness
-from orchestra.resolve.ros_rules import OPTIONS, check_rules
 from orchestra.resolve.sound import Sound
 from orchestra.resolve.words import split
 from orchestra.witness.variables import copied
@@ -233,7 +232,9 @@ def texts(
         from orchestra.resolve.log_levels import check_levels  # noqa: PLC0415
 
         check_levels(words, run.problems, for_ros=for_ros)
-    if for_ros is not None and any(word.text in OPTIONS for word in words):
+    if for_ros is not None and len(words) > 1:
+        from orchestra.resolve.ros_rules import check_rules  # noqa: PLC0415 - as above
+
         check_rules(words, run.problems, for_ros=for_ros)
     return tuple(word.text for word in words) or (() if isinstance(argv, tuple) else ("",))
 

@@ -14,7 +14,6 @@ from orchestra.dataclass import dataclass
 from orchestra.description.source import shortened
 from orchestra.errors import Code
 from orchestra.patterns import pattern
-from orchestra.resolve.rcl.commas import without_comma
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -149,7 +148,11 @@ def _of_text(text: str) -> Surprise | None:
 
 def of_commas(text: str) -> Surprise | None:
     """Return what is to be said of a plain text that is a number or several, but for a comma or the brackets."""
-    found = without_comma(text) if text[:1] in _NUMERIC else None
+    if text[:1] not in _NUMERIC:
+        return None
+    from orchestra.resolve.rcl.commas import without_comma  # noqa: PLC0415 - few texts begin so
+
+    found = without_comma(text)
     if found is None:
         return None
     why, instead = found
