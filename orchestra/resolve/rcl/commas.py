@@ -6,7 +6,7 @@ from typing import Final
 
 from orchestra.patterns import pattern
 
-_NUMBER: Final = r"[-+]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+_NUMBER: Final = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 _ENDED: Final = pattern(rf"({_NUMBER}|true|True|false|False)[,;]")
 _DECIMAL: Final = pattern(r"[-+]?(?:0,[0-9]+|[0-9]+,(?:[0-9]{1,2}|[0-9]{4,}))")
 _SEVERAL: Final = pattern(rf"{_NUMBER}(?:\s*,\s*{_NUMBER})+,?")
