@@ -93,6 +93,20 @@ def test_one_that_is_lost_is_replaced_and_gets_its_orders_again(run: Run) -> Non
     assert run.told[0].endswith("; it is started again")
 
 
+@pytest.mark.parametrize("run", [("mute,good", Patience(60.0, 60.0, 60.0, 60.0))], indirect=True)
+def test_one_that_has_ended_when_it_gets_an_order_is_told_to_have_ended(run: Run) -> None:
+    """Not that its pipe is broken, which may be found first; and the orders of both times are given to the next one."""
+    run.order("a", WATCH)
+    run.until(lambda: run.started)
+    (pid,) = proc.descendants(os.getpid())
+    os.kill(pid, signal.SIGKILL)
+    os.waitid(os.P_PID, pid, os.WEXITED | os.WNOWAIT)
+    run.order("b", CHANGE)
+    run.until(lambda: len([word for word in run.words() if word[1] == "done"]) == 2)
+    assert len(run.told) == 1
+    assert run.told[0].endswith("ended (SIGKILL); it is started again")
+
+
 @pytest.mark.parametrize("run", ODD, indirect=True)
 def test_where_the_next_one_is_lost_too_the_orders_fail(run: Run) -> None:
     run.order("a", WATCH)

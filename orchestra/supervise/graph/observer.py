@@ -48,6 +48,7 @@ class Observer:
         self._heard, self._lost = ears
         self._partial = ""
         self._here = False
+        self._is_deaf = False
         self.hopeless = False
         inner, outer = os.pipe()
         try:
@@ -58,9 +59,7 @@ class Observer:
         finally:
             os.close(inner)
         os.set_blocking(outer, False)
-        self._outbox = Outbox(
-            loop, outer, lambda error: self._lose(f"takes no orders any more: {error.strerror}")
-        )
+        self._outbox = Outbox(loop, outer, self._refused)
         kin.add(self._child.pid, None)
         outputs = self._child.outputs
         self._streams = [
@@ -77,7 +76,7 @@ class Observer:
     @property
     def leaving(self) -> bool:
         """Whether it has been asked to end, or is lost."""
-        return not self._outbox.open
+        return not self._outbox.open and not self._is_deaf
 
     def tell(self, message: Mapping[str, Any]) -> None:
         """Send it a message; nothing where it is leaving."""
@@ -97,8 +96,14 @@ class Observer:
         if self._child:
             send_to_groups([self._child.pid], signal.SIGKILL)
 
+    def _refused(self, _error: OSError) -> None:
+        """Nobody takes orders any more: it has ended, or ends now. It is lost when it is known how."""
+        self._is_deaf = True
+        self.kill()
+
     def _lose(self, reason: str) -> None:
-        if self._outbox.open:
+        if not self.leaving:
+            self._is_deaf = False
             self.kill()
             self._lost(self, reason)
 
