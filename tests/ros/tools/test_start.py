@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import os
 import socket
 import subprocess
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.wheels import DONE, LIBRARY_PATH
+from orchestra.wheels import DONE, LIBRARY_PATH, as_called, library_folders
 
 if TYPE_CHECKING:
     from tests.ros.tools.conftest import Graph
@@ -69,13 +69,14 @@ def _asked(environment: dict[str, str], *words: str) -> tuple[str, str]:
 
 
 def test_a_process_that_has_the_libraries_answers_itself(graph: Graph) -> None:
-    assert _asked(graph.environment, "node", "list") == ("/robot1/actor\n/robot1/machine\n", "")
+    called = dict(as_called(graph.environment))
+    assert _asked(called, "node", "list") == ("/robot1/actor\n/robot1/machine\n", "")
 
 
 def test_another_is_started_again_with_them(graph: Graph) -> None:
-    if DONE not in os.environ:
+    if not library_folders(Path(sys.prefix)):
         pytest.skip("the libraries of ROS are in no folders of their own")
-    bare = {**graph.environment, LIBRARY_PATH: ""}
+    bare = {**as_called(graph.environment), DONE: "1", LIBRARY_PATH: ""}
     assert _asked(bare, "node", "list") == ("/robot1/actor\n/robot1/machine\n", "os.exec")
 
 
