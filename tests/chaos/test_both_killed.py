@@ -15,6 +15,7 @@ from orchestra.supervise.keeping import proc
 from tests.supervise.plans import (
     PROCESSES,
     alive,
+    assert_ended,
     launched,
     name_of,
     plan,
@@ -82,7 +83,7 @@ def test_without_a_guard_all_is_left_and_the_next_command_says_so(tmp_path: Path
 
         cleaned = orchestra(run, "clean", "--yes")
         assert cleaned.returncode == 0, cleaned.stderr
-        assert not any(map(alive, before))
+        assert_ended(before)
         assert not sockets(tmp_path)
         assert "died" not in orchestra(run, "ps").stderr
 
@@ -94,7 +95,7 @@ def test_the_guard_ends_what_does_not_heed_sigterm(tmp_path: Path) -> None:
         before = run.everything()
         kill_both(run)
         run.assert_gone()
-        assert not any(map(alive, before))
+        assert_ended(before)
         assert not sockets(tmp_path)
 
 
