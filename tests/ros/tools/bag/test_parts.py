@@ -26,7 +26,7 @@ from orchestra.ros.tools.bag.summary import Part, Summary, Topic
 from orchestra.ros.tools.keyboard import keys_of
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator, Mapping
 
 _SPANS = st.none() | st.integers(1, 10**12).map(lambda nanoseconds: nanoseconds / 1e6)
 _PROFILES = st.fixed_dictionaries(
@@ -147,6 +147,17 @@ def test_topics_are_chosen_by_type() -> None:
     assert [rest.takes("/x", kind) for kind in ("a/msg/A", "a/msg/B")] == [False, True]
 
 
+def _known(texts: Mapping[str, str]) -> Callable[[str], str]:
+    """Return what gives the text of a definition, or refuses what is not among these."""
+
+    def text_of(name: str) -> str:
+        if name not in texts:
+            raise RunError(name)
+        return texts[name]
+
+    return text_of
+
+
 def test_definitions_have_those_of_what_they_use_once_each() -> None:
     texts = {
         "a/msg/A": "B one\nB[3] two  # a comment\nstd/Time stamp\nstring name\nfloat64 NUMBER=1.0",
@@ -154,16 +165,11 @@ def test_definitions_have_those_of_what_they_use_once_each() -> None:
         "std/msg/Time": "int32 sec\n",
     }
 
-    def text_of(name: str) -> str:
-        if name not in texts:
-            raise RunError(name)
-        return texts[name]
-
-    made = definition("a/msg/A", text_of)
+    made = definition("a/msg/A", _known(texts))
     parts = re.split(r"\n={80}\nMSG: ", made)
     assert parts[0] == texts["a/msg/A"]
     assert [part.partition("\n")[0] for part in parts[1:]] == ["a/B", "std/Time"]
-    assert definition("a/msg/Unknown", text_of) == ""
+    assert definition("a/msg/Unknown", _known(texts)) == ""
 
 
 def test_the_event_of_a_service_is_defined_by_what_is_asked_and_answered() -> None:
@@ -172,12 +178,7 @@ def test_the_event_of_a_service_is_defined_by_what_is_asked_and_answered() -> No
         "service_msgs/msg/ServiceEventInfo": "uint8 event_type\n",
     }
 
-    def text_of(name: str) -> str:
-        if name not in texts:
-            raise RunError(name)
-        return texts[name]
-
-    made = definition("a/srv/Do_Event", text_of)
+    made = definition("a/srv/Do_Event", _known(texts))
     assert "a/Do_Request[<=1] request\n" in made
     assert "MSG: a/Do_Request\nbool data\n" in made
     assert "MSG: a/Do_Response\nbool success\n" in made
