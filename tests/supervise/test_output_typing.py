@@ -168,6 +168,32 @@ def test_in_the_background_what_is_typed_is_the_shells(tmp_path: Path) -> None:
         assert modes(terminal) == ECHO
 
 
+BACK_AT_ONCE = """
+set -m
+"$@"
+echo shell is here
+bg
+fg
+"""
+
+
+def test_keys_are_passed_on_again_where_nobody_heard_of_the_suspension(tmp_path: Path) -> None:
+    """A supervisor that had no time for SIGTSTP never gets it, once SIGCONT has come."""
+    through = ("/bin/bash", "--norc", "-c", BACK_AT_ONCE, "bash")
+    code = "for line in sys.stdin: print('got', line.strip())"
+    with in_terminal(tmp_path, asking(code), through=through) as (run, terminal):
+        begun(terminal)
+        os.kill(run.own("orc-supervisor"), signal.SIGSTOP)
+        terminal.type(b"\x1a")
+        await_text(terminal, b"shell is here")
+        terminal.type(b"one\r")
+        await_text(terminal, b"got one")
+        wait_for(lambda: modes(terminal) == 0, "keys to be passed on")
+        terminal.type(b"\x04")
+        assert run.wait() == 0
+        assert modes(terminal) == ECHO
+
+
 def set_size(descriptor: int, columns: int, lines: int) -> None:
     fcntl.ioctl(descriptor, termios.TIOCSWINSZ, struct.pack("HHHH", lines, columns, 0, 0))
 

@@ -53,6 +53,15 @@ def pass_keys_on(descriptor: int) -> Modes:
     return before
 
 
+def keys_are_passed_on(descriptor: int) -> bool:
+    """Tell whether keys arrive as they are pressed; False where the terminal is gone."""
+    try:
+        modes = termios.tcgetattr(descriptor)
+    except (OSError, termios.error):
+        return False
+    return not (modes[_INPUT] & _INPUT_OFF or modes[_LOCAL] & _LOCAL_OFF)
+
+
 def _ours(descriptor: int) -> bool:
     """Tell whether we are in the foreground, of the terminal that controls us."""
     try:

@@ -74,8 +74,11 @@ class Console:
         self._leave_alone()
 
     def resume(self) -> None:
-        """The keeper goes on, in the foreground or not."""
-        if self._typed_to and self._modes is None:
+        """The keeper goes on, in the foreground or not.
+
+        That it was suspended may never have been heard: a SIGCONT takes back a SIGTSTP that still waits (signal(7)).
+        """
+        if self._typed_to and not self._are_keys_ours():
             self._begin()
 
     def drained(self) -> None:
@@ -142,8 +145,10 @@ class Console:
         if not self._in_foreground():
             self._leave_alone()
             return
-        if self._modes is None:
+        if not self._are_keys_ours():
             self._begin()
+        if self._hung_up:
+            return
         try:
             data = os.read(self._descriptor, _READ_SIZE)
         except BlockingIOError:
@@ -166,6 +171,10 @@ class Console:
         self._listen(wanted=False)
         if self._typed_to:
             self._typed_to.hang_up()
+
+    def _are_keys_ours(self) -> bool:
+        """Tell whether keys are passed on as they are pressed, and nobody has changed that since."""
+        return self._modes is not None and terminal_modes.keys_are_passed_on(_STDIN)
 
     def _in_foreground(self) -> bool:
         """Tell whether the keeper may read its terminal; where no shell decides about that, it may."""
