@@ -93,6 +93,7 @@ def _explained(error: BaseException, call: TracebackType | None) -> Explanation:
 def _better(error: BaseException, call: TracebackType) -> Explanation | None:
     # Here, because only mistakes need them, and what they import.
     from orchestra.compat import (  # noqa: PLC0415
+        missing_commas,
         missing_files,
         missing_keys,
         missing_packages,
@@ -110,7 +111,8 @@ def _better(error: BaseException, call: TracebackType) -> Explanation | None:
         case ImportError():
             return unknown_names.not_in_module(error, place)
         case TypeError():
-            return refused_calls.explained(error, frame, place) or too_early.explained(error)
+            without_comma = missing_commas.before_brackets(error, place) if call.tb_next is None else None
+            return without_comma or refused_calls.explained(error, frame, place) or too_early.explained(error)
         case KeyError():
             return missing_keys.explained(error, frame, place)
         case NameError() if call.tb_next is None:

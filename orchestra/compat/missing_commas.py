@@ -1,21 +1,39 @@
 """Where a comma is missing in Python: behind the expression that another one follows.
 
-CPython marks both expressions, from the first line of the first one: that may be a call of many lines.
+CPython marks both expressions, from the first line of the first one: that may be a call of many lines. Where the second
+one is in brackets the two are a call or an index, and fail when they are run.
 """
 
 from __future__ import annotations
 
+import ast
 import token
 from tokenize import TokenError, generate_tokens
 from typing import TYPE_CHECKING, Final
 
+from orchestra.compat.explanation import Explanation
+from orchestra.compat.rewritten import Rewritten
+from orchestra.compat.source_text import text_at
+from orchestra.compat.syntax_trees import node_span, tree_of
 from orchestra.fields import replace
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
     from tokenize import TokenInfo
 
+    from orchestra.compat.place import Place
     from orchestra.location import Span
+
+_LITERALS: Final = (
+    ast.Constant,
+    ast.Dict,
+    ast.DictComp,
+    ast.JoinedStr,
+    ast.List,
+    ast.ListComp,
+    ast.Set,
+    ast.Tuple,
+)
 
 _OPENING: Final = frozenset("([{")
 _CLOSING: Final = frozenset(")]}")
@@ -37,6 +55,26 @@ def narrowed(error: SyntaxError, span: Span, lines: Sequence[str]) -> tuple[Span
     begin = (span.line, span.column) if last.end[0] == span.line else (last.start[0], last.start[1] + 1)
     place = replace(span, line=begin[0], column=begin[1], end_line=last.end[0], end_column=last.end[1] + 1)
     return place, f"{lines[place.line - 1][place.column - 1 : place.end_column - 1]},"
+
+
+def before_brackets(error: TypeError, place: Place) -> Explanation | None:
+    """Return that what is called, or asked for an item by no number, is a literal; None where it is none."""
+    tree = tree_of(place.file)
+    node = None if tree is None else tree.expression(place.file, place.span)
+    match node:
+        case ast.Call(func=literal):
+            pass
+        case ast.Subscript(value=literal, slice=item) if isinstance(item, _LITERALS):
+            pass
+        case _:
+            return None
+    if not isinstance(literal, _LITERALS):
+        return None
+    span = node_span(place.file, literal, quotes=True)
+    if span.line != span.end_line:
+        span = replace(span, line=span.end_line, column=span.end_column - 1)
+    message = f"TypeError: {error}; perhaps a comma is missing"
+    return Explanation(message, span=span, suggestion=Rewritten(f"{text_at(place.file, span)},"))
 
 
 def _before_the_gap(span: Span, lines: Sequence[str]) -> tuple[TokenInfo | None, str]:

@@ -2,12 +2,14 @@
 
 `=== NAME` begins a case, `--- FILE` a file of it, `$ WORD` is a word of the command line. What stands before the first
 file is that of `main.launch.py`: its actions where it begins with `[`, else the body of its function. `«` and `»` stand
-around the text that is to be told, `«wrong→right»` has the suggestion; `??? wrong→right` is on the command line.
+around the text that is to be told, `«wrong→right»` has the suggestion; `??? wrong→right` is on the command line. A name
+that ends with `before 3.12` or `from 3.12` is that of a case whose places CPython tells otherwise in other versions.
 """
 
 from __future__ import annotations
 
 import re
+import sys
 from dataclasses import dataclass, field
 from pathlib import Path
 from textwrap import indent
@@ -19,6 +21,7 @@ if TYPE_CHECKING:
 FOLDER: Final = Path(__file__).parent / "cases"
 MAIN: Final = "main.launch.py"
 _MARK: Final = re.compile(r"«([^»→]*)(?:→([^»]*))?»", re.DOTALL)
+_VERSIONS: Final = re.compile(r"(before|from) 3\.(\d+)$")
 _HEAD: Final = """\
 import os
 from ament_index_python.packages import get_package_share_directory
@@ -68,6 +71,8 @@ def cases(path: Path) -> Iterator[Case]:
     """Yield the cases of a file."""
     for text in path.read_text("utf-8").split("=== ")[1:]:
         name, _, body = text.partition("\n")
+        if not _is_of_this_version(name):
+            continue
         case = Case(f"{path.stem}: {name}")
         first, *others = re.split(r"^--- ", body, flags=re.MULTILINE)
         lines = first.splitlines(keepends=True)
@@ -80,6 +85,11 @@ def cases(path: Path) -> Iterator[Case]:
             file, _, content = other.partition("\n")
             _add(case, file, content)
         yield case
+
+
+def _is_of_this_version(name: str) -> bool:
+    limit = _VERSIONS.search(name)
+    return limit is None or (limit[1] == "from") == (sys.version_info >= (3, int(limit[2])))
 
 
 def _whole(text: str) -> str:

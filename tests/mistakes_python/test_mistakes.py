@@ -61,6 +61,8 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return prefix
 
 
+# The compiler's doubts are warnings, as where launch files are launched, and no errors.
+@pytest.mark.filterwarnings("ignore::SyntaxWarning")
 @pytest.mark.parametrize("case", _CASES)
 def test_a_mistake_is_told(workspace: Path, case: Case) -> None:
     for name, text in case.files.items():
