@@ -7,6 +7,7 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from orchestra.compat.as_texts import without_echoes
 from orchestra.compat.literals import Literal, argument
 from orchestra.compat.place import Argument
 from orchestra.compat.rewritten import Rewritten
@@ -19,13 +20,19 @@ from orchestra.nearest import nearest
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from orchestra.errors import Problem
+    from orchestra.errors import Problem, Problems
     from orchestra.location import Span
 
 _QUOTED: Final = re.compile(r"'([^']+)'")
 _SLASHES: Final = re.compile("/+")
 _SHORT: Final = 2  # a text of so few letters may mean anything
 _BETWEEN: Final = re.compile(r"[\s()$]+")
+
+
+def point_into_code(problems: Problems) -> None:
+    """Let problems of Python files stand at the text that is wrong, without those that only follow from another."""
+    problems.amend(without_echoes(tuple(problems)))
+    problems.amend(in_place)
 
 
 def in_place(problem: Problem) -> Problem:

@@ -202,6 +202,14 @@ def _parameters(function: Function) -> set[str]:
     return {item.arg for item in every if item is not None}
 
 
+def called_by(node: ast.AST) -> str | None:
+    """Return the name of what a call calls, without its module; None for what is no call."""
+    match node:
+        case ast.Call(func=ast.Name(id=name)) | ast.Call(func=ast.Attribute(attr=name)):
+            return name
+    return None
+
+
 def is_dealt_with(frame: FrameType, deals: Callable[[Tree, int], bool]) -> bool:
     """Return whether a line of user code on the way to a frame deals with what is raised there.
 

@@ -4,10 +4,17 @@ from __future__ import annotations
 
 import re
 from importlib import import_module
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.borrowed import ROOM
 from orchestra.compat.explanation import Explanation
+from orchestra.compat.joined_texts import joined
+from orchestra.compat.place import Place, is_own
+from orchestra.compat.syntax_trees import tree_of
+from orchestra.witness.origins import PYTHON
+
+if TYPE_CHECKING:
+    from types import TracebackType
 
 _CLASS: Final = re.compile(r"\b[A-Z]\w+")
 _EXPORTING: Final = ("launch.substitutions", "launch_ros.substitutions")
@@ -25,4 +32,17 @@ def explained(error: TypeError) -> Explanation | None:
         "PathJoinSubstitution joins the parts of a path",
         "a function that OpaqueFunction calls has the texts: LaunchConfiguration('b').perform(context)",
     )
-    return Explanation(message, notes=notes)
+    return Explanation(message, suggestion=_joined(error.__traceback__), notes=notes)
+
+
+def _joined(traceback: TracebackType | None) -> str | None:
+    """Return the list that was meant by the innermost expression of the user's; None where that is none of texts."""
+    place = None
+    while traceback is not None:
+        code = traceback.tb_frame.f_code
+        if not is_own(code.co_filename) and not code.co_filename.startswith(("<", *PYTHON)):
+            place = Place(code, traceback.tb_lasti)
+        traceback = traceback.tb_next
+    tree = None if place is None else tree_of(place.file)
+    node = None if place is None or tree is None else tree.expression(place.file, place.span)
+    return None if place is None or tree is None or node is None else joined(node, tree, place.file)

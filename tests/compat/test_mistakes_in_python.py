@@ -320,11 +320,13 @@ _VALUES = {
     "a substitution added to a text": Mistake(
         "[LogInfo(msg=«'a' + LaunchConfiguration('b')»)]",
         "LaunchConfiguration is no text before the launch file is visited",
+        suggestion="['a', LaunchConfiguration('b')]",
         note="a list joins texts and substitutions: ['a', LaunchConfiguration('b')]",
     ),
     "a substitution in a path": Mistake(
         "[LogInfo(msg=«os.path.join(FindPackageShare('demo'), 'x')»)]",
         "FindPackageShare is no text before the launch file is visited",
+        suggestion="PathJoinSubstitution([FindPackageShare('demo'), 'x'])",
         note="PathJoinSubstitution joins the parts of a path",
     ),
 }

@@ -7,13 +7,13 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.described import said
 from orchestra.compat.place import here, is_own
-from orchestra.compat.refusing import Refusing, collector
+from orchestra.compat.refusing import Refusing
 from orchestra.description.text import Call, Opaque, Template, Words
 from orchestra.description.written import called, escaped
-from orchestra.errors import Code
-from orchestra.location import Location
 
 if TYPE_CHECKING:
+    from types import ModuleType
+
     from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.description.text import Part
     from orchestra.location import Span
@@ -28,12 +28,24 @@ class Substitution(Refusing):
 
     def __str__(self) -> str:
         """Return the class: what users make texts of, as in an f-string, shows that there is no text yet."""
+        frame = sys._getframe(1)
+        if not is_own(frame.f_code.co_filename):
+            _early().tell_written(self, frame)
         return f"<{type(self).__name__}>"
+
+    def __bool__(self) -> bool:
+        """Return true, as upstream; code that asks for that is told where it surely takes this for a text."""
+        frame = sys._getframe(1)
+        if not is_own(frame.f_code.co_filename):
+            _early().tell_true(self, frame)
+        return True
 
     def __eq__(self, other: object) -> bool:
         """Return whether this is the same object, as upstream; a text is never equal, which is told."""
-        if isinstance(other, str) and other and not is_own(sys._getframe(1).f_code.co_filename):
-            _tell_unequal(self, other)
+        if isinstance(other, str) and other:
+            frame = sys._getframe(1)
+            if not is_own(frame.f_code.co_filename):
+                _early().tell_unequal(self, other, frame)
         return self is other
 
     __hash__ = object.__hash__
@@ -63,19 +75,11 @@ class Substitution(Refusing):
         return _Joined(other, self)
 
 
-def _tell_unequal(compared: Substitution, text: str) -> None:
-    """Warn of a comparison with a text in the code of a launch file, where there is no text yet."""
-    collecting = collector()
-    if collecting is not None:
-        problems, chain = collecting
-        name = type(compared).__name__
-        told = f"{name} is no text before the launch file is visited: it is never equal to {text!r}"
-        notes = (
-            "a condition compares when it is visited: IfCondition(EqualsSubstitution(a, b))",
-            f"a function that OpaqueFunction calls has the text: {name}(...).perform(context)",
-        )
-        at = Location(here().span, chain)
-        problems.warning(Code.IMPOSSIBLE_CONDITION, told, at, notes=notes)
+def _early() -> ModuleType:
+    """Return what tells of substitutions that code takes for texts: only mistakes need it, and what it imports."""
+    from orchestra.compat import as_texts  # noqa: PLC0415
+
+    return as_texts
 
 
 class _Joined(Substitution):

@@ -1,0 +1,166 @@
+"""Substitutions that code takes for texts or truth values before they have any: told where that is done."""
+
+from __future__ import annotations
+
+import ast
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.compat.joined_texts import joined
+from orchestra.compat.place import Place
+from orchestra.compat.refusing import collector
+from orchestra.compat.syntax_trees import called_by, node_span, tree_of
+from orchestra.errors import Code, Problem, Severity
+from orchestra.fields import replace
+from orchestra.location import Location
+from orchestra.witness.origins import INSTALLED, PYTHON
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+    from types import FrameType
+
+    from orchestra.compat.syntax_trees import Tree
+
+_EARLY: Final = "is no text before the launch file is visited"
+_WRITTEN: Final = f"{_EARLY}: what is written here is '<"
+_HAS_TEXT: Final = "a function that OpaqueFunction calls has the text: {}(...).perform(context)"
+# Functions whose texts people read: there is nothing wrong with a substitution among them.
+_SHOWING: Final = frozenset(
+    {"critical", "debug", "error", "exception", "info", "log", "pprint", "print", "repr", "warn", "warning"}
+)
+
+
+def tell_unequal(compared: object, text: str, frame: FrameType) -> None:
+    """Warn of a comparison with a text in the code of a launch file."""
+    name = type(compared).__name__
+    notes = (
+        "a condition compares when it is visited: IfCondition(EqualsSubstitution(a, b))",
+        _HAS_TEXT.format(name),
+    )
+    message = f"{name} {_EARLY}: it is never equal to {text!r}"
+    _tell(Code.IMPOSSIBLE_CONDITION, message, Place(frame.f_code, frame.f_lasti), notes)
+
+
+def tell_true(tested: object, frame: FrameType) -> None:
+    """Warn of a test whether a substitution is true, which it always is, where it surely is a substitution.
+
+    What a helper is given may be one or nothing: that it asks which is no mistake.
+    """
+    place = Place(frame.f_code, frame.f_lasti)
+    tree, name = _tree(place), type(tested).__name__
+    found = () if tree is None else (node for around in _around(place, tree) for node in _tested(around))
+    for node in found:
+        if tree is not None and called_by(tree.meaning(node)) == name:
+            notes = ("a condition is judged when it is visited: IfCondition(a)", _HAS_TEXT.format(name))
+            _tell(Code.IMPOSSIBLE_CONDITION, f"{name} {_EARLY}: it always counts as true", place, notes, node)
+            return
+
+
+def tell_written(written: object, frame: FrameType) -> None:
+    """Warn of a substitution that is made part of a text, unless that is one for people."""
+    place = Place(frame.f_code, frame.f_lasti)
+    tree, name = _tree(place), type(written).__name__
+    if tree is None or _is_shown(place, tree):
+        return
+    kinds = ast.JoinedStr, ast.BinOp, ast.Call
+    node = next((node for node in _around(place, tree) if isinstance(node, kinds)), None)
+    message = f"{name} {_WRITTEN}{name}>'"
+    notes = ("a list joins texts and substitutions: ['a', LaunchConfiguration('b')]", _HAS_TEXT.format(name))
+    meant = None if node is None else joined(node, tree, place.file)
+    _tell(Code.USER_CODE, message, place, notes, node, meant)
+
+
+def without_echoes(problems: Iterable[Problem]) -> Callable[[Problem], Problem | None]:
+    """Return what leaves out problems of texts that a substitution was written into, which is told itself.
+
+    It is an error where one of them is.
+    """
+    told = {problem.message.partition(" ")[0] for problem in problems if _WRITTEN in problem.message}
+    echoes = [
+        problem
+        for problem in problems
+        if _WRITTEN not in problem.message and any(f"<{name}>" in problem.message for name in told)
+    ]
+    stops = {name for name in told for item in echoes if item.severity is Severity.ERROR}
+
+    def kept(problem: Problem) -> Problem | None:
+        if any(problem is echo for echo in echoes):
+            return None
+        is_stopping = _WRITTEN in problem.message and problem.message.partition(" ")[0] in stops
+        return replace(problem, severity=Severity.ERROR) if is_stopping else problem
+
+    return kept
+
+
+def _tree(place: Place) -> Tree | None:
+    """Return the tree of the file of a launch; None for what is installed, which is not the user's to mend."""
+    is_foreign = collector() is None or place.file.startswith((*INSTALLED, *PYTHON))
+    return None if is_foreign else tree_of(place.file)
+
+
+def _around(place: Place, tree: Tree) -> list[ast.expr | ast.stmt]:
+    """Return the nodes around a place, innermost first."""
+    span, found = place.span, []
+    for node in tree.nodes:
+        if node.lineno <= span.line and (node.end_lineno or 0) >= span.end_line:
+            held = node_span(place.file, node, quotes=True)
+            if (held.line, held.column) <= (span.line, span.column) and (span.end_line, span.end_column) <= (
+                held.end_line,
+                held.end_column,
+            ):
+                found.append((held, node))
+    found.sort(key=lambda item: (item[0].line, item[0].column, -item[0].end_line, -item[0].end_column))
+    return [node for _, node in reversed(found)]
+
+
+def _tested(node: ast.AST) -> Iterator[ast.expr]:
+    """Yield the expressions of which a node asks whether they are true."""
+    match node:
+        case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.Assert(test=test):
+            yield from _leaves(test)
+        case ast.UnaryOp(op=ast.Not(), operand=operand):
+            yield from _leaves(operand)
+        case ast.BoolOp(values=[*values, _]):
+            for value in values:
+                yield from _leaves(value)
+        case ast.Call(func=ast.Name(id="bool"), args=[value]):
+            yield value
+        case ast.ListComp(generators=parts) | ast.GeneratorExp(generators=parts):
+            for part in parts:
+                for test in part.ifs:
+                    yield from _leaves(test)
+
+
+def _leaves(test: ast.expr) -> Iterator[ast.expr]:
+    match test:
+        case ast.UnaryOp(op=ast.Not(), operand=operand):
+            yield from _leaves(operand)
+        case ast.BoolOp(values=values):
+            for value in values:
+                yield from _leaves(value)
+        case ast.Name() | ast.Call():
+            yield test
+
+
+def _is_shown(place: Place, tree: Tree) -> bool:
+    """Return whether what stands at a place is for people to read."""
+    return any(
+        isinstance(node, ast.Raise | ast.Assert) or called_by(node) in _SHOWING
+        for node in _around(place, tree)
+    )
+
+
+def _tell(
+    code: Code,
+    message: str,
+    place: Place,
+    notes: tuple[str, ...],
+    node: Any = None,
+    meant: str | None = None,
+) -> None:
+    collecting = collector()
+    if collecting is None:
+        return
+    problems, chain = collecting
+    span = place.span if node is None else node_span(place.file, node, quotes=True)
+    if all(problem.span != span or problem.code is not code for problem in problems):
+        problems.warning(code, message, Location(span, chain), notes=notes, suggestion=meant)
