@@ -4,6 +4,8 @@ fail=TRANSITION     this transition (configure, activate, ...) fails
 error=TRANSITION    ... raises, so that the node goes through error processing
 die=TRANSITION      ... ends the process with 7
 hang=TRANSITION     ... never comes to an end
+unheard=TRANSITION  the first request for it is lost
+unanswered=TRANSITION  the first answer to it is lost
 silent              no lifecycle node at all, only a process that runs
 """
 
@@ -13,6 +15,7 @@ import sys
 
 import rclpy
 from lifecycle_msgs.msg import State as StateMessage
+from lifecycle_msgs.srv import ChangeState
 from rclpy.lifecycle import LifecycleNode, State, TransitionCallbackReturn
 from rclpy.signals import SignalHandlerOptions
 
@@ -27,6 +30,23 @@ class Node(LifecycleNode):
     def __init__(self, name: str, manners: dict[str, str]) -> None:
         self.manners = manners
         super().__init__(name)
+
+        (service,) = (one for one in self.services if one.srv_name.endswith("/change_state"))
+        self.heard, self.answer = service.callback, service.send_response
+        service.callback, service.send_response = self.hear, self.reply
+        self.lost: set[str] = set()
+        self.silent = False
+
+    def hear(self, request: ChangeState.Request, response: ChangeState.Response) -> ChangeState.Response:
+        label = {1: "configure", 2: "cleanup", 3: "activate", 4: "deactivate"}[request.transition.id]
+        manner = self.manners.get(label)
+        self.silent = manner in ("unheard", "unanswered") and label not in self.lost
+        self.lost.add(label)
+        return response if self.silent and manner == "unheard" else self.heard(request, response)
+
+    def reply(self, response: ChangeState.Response, header: object) -> None:
+        if not self.silent:
+            self.answer(response, header)
 
     def pass_through(self, transition: str) -> TransitionCallbackReturn:
         write(transition)

@@ -12,7 +12,7 @@ from rclpy.parameter import Parameter
 
 from orchestra.ros.interfaces import load_node_type
 from orchestra.ros.observer.order import OFTEN, ImpossibleError
-from orchestra.ros.observer.service import Service
+from orchestra.ros.observer.service import OwnService
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -42,8 +42,8 @@ class ComponentLoad:
             self._kind = load_node_type()
         except ImportError as error:
             raise ImpossibleError(str(error)) from error
-        self._load = Service(node, self._kind, f"{container}/_container/load_node")
-        self._parameters = Service(node, ListParameters, f"{container}/list_parameters")
+        self._load = OwnService(node, self._kind, f"{container}/_container/load_node")
+        self._parameters = OwnService(node, ListParameters, f"{container}/list_parameters")
         self.every: float | None = OFTEN
 
     def look(self) -> None:

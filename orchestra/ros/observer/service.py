@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rclpy.client import Client
     from rclpy.node import Node
     from rclpy.task import Future
 
@@ -19,11 +20,11 @@ _AT_MOST = 8.0
 
 
 class Service:
-    """A client of one service. `answered` of a call hears the response."""
+    """Asks through a client, which is its maker's. `answered` of a call hears the response."""
 
-    def __init__(self, node: Node, kind: Any, name: str) -> None:  # noqa: ANN401 - a class of an untyped package
-        self._node = node
-        self._client = node.create_client(kind, name)
+    def __init__(self, client: Client) -> None:
+        self._client = client
+        self._closed = False
         self._call: Callable[[], None] | None = None
         self._again_at = 0.0
         self._patience = _ASK_AGAIN
@@ -44,7 +45,7 @@ class Service:
 
         def hear(future: Future) -> None:
             nonlocal pending
-            if pending and not future.cancelled():
+            if pending and not self._closed and not future.cancelled():
                 pending = False
                 self._call = None
                 answered(future.result())
@@ -64,6 +65,19 @@ class Service:
             self._call()
 
     def close(self) -> None:
-        """Give the client back; what has not been answered will not be heard."""
+        """Ask no more; what has not been answered will not be heard."""
         self._call = None
+        self._closed = True
+
+
+class OwnService(Service):
+    """One with a client of its own, made for the service of that type and name."""
+
+    def __init__(self, node: Node, kind: Any, name: str) -> None:  # noqa: ANN401 - a class of an untyped package
+        self._node = node
+        super().__init__(node.create_client(kind, name))
+
+    def close(self) -> None:
+        """Give the client back."""
+        super().close()
         self._node.destroy_client(self._client)

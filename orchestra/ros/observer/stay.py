@@ -1,12 +1,14 @@
-"""Keeps the observer here for a node that will have to be asked something at its end.
+"""Keeps the observer here for a lifecycle node that will have to change its state at its end, and the clients for that.
 
-Then it already knows the node: an order takes some milliseconds instead of the start of a process with rclpy and the
-time that discovery needs.
+Then it already knows the node, and the node knows the clients: an order takes some milliseconds instead of the start of
+a process with rclpy and the time that discovery needs.
 """
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
+
+from orchestra.ros.observer.peer import peers_of
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -15,15 +17,18 @@ if TYPE_CHECKING:
 
 
 class Stay:
-    """Does nothing until it is forgotten."""
+    """Does nothing until it is forgotten. `node` is the full name of the node."""
 
     every = None
 
-    def __init__(self, node: Node, request: Request, say: Say) -> None:
-        """Nothing is needed of all this."""
+    def __init__(self, node: Node, request: Request, _say: Say) -> None:
+        self._peers = peers_of(node)
+        self._name = request["node"]
+        self._peers.join(self._name).clients()
 
     def look(self) -> None:
         """Nothing has to be looked for."""
 
     def close(self) -> None:
-        """Nothing has to be given back."""
+        """Leave the node alone."""
+        self._peers.leave(self._name)

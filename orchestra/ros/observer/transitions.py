@@ -8,14 +8,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from lifecycle_msgs.msg import TransitionEvent
+from orchestra.ros.observer.peer import peers_of
 
 if TYPE_CHECKING:
+    from lifecycle_msgs.msg import TransitionEvent
     from rclpy.node import Node
 
     from orchestra.ros.observer.order import Request, Say
 
-_DEPTH = 100
 # The label of the transition that begins with a state on the way, and the states in which it may end well.
 _BEGINS = {
     "configuring": "configure",
@@ -64,19 +64,20 @@ class Transitions:
     every = None
 
     def __init__(self, node: Node, request: Request, say: Say) -> None:
-        self._node = node
         self._say = say
-        self._subscription = node.create_subscription(
-            TransitionEvent, f"{request['node']}/transition_event", self._came, _DEPTH
-        )
+        self._peers = peers_of(node)
+        self._name = request["node"]
+        self._listeners = self._peers.join(self._name).listeners
+        self._listeners.add(self._came)
         say("watching")
 
     def look(self) -> None:
         """Nothing has to be looked for."""
 
     def close(self) -> None:
-        """Give the subscription back."""
-        self._node.destroy_subscription(self._subscription)
+        """Listen no more."""
+        self._listeners.discard(self._came)
+        self._peers.leave(self._name)
 
     def _came(self, event: TransitionEvent) -> None:
         start, goal = event.start_state.label, event.goal_state.label

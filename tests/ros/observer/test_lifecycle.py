@@ -241,6 +241,22 @@ def test_nodes_that_do_not_deactivate_are_ended_all_the_same(tmp_path: Path) -> 
         assert not run.everything()
 
 
+@pytest.mark.parametrize("manner", ["unheard", "unanswered"])
+def test_what_is_lost_on_the_way_is_asked_again(tmp_path: Path, manner: str) -> None:
+    """Whether it was the request or the answer, each transition is made once."""
+    words = [f"{manner}={transition}" for transition in ("configure", "activate", "deactivate")]
+    with launched(tmp_path, plan(node(*words, lifecycle="active")), environment=DOMAIN) as run:
+        run.await_event("transition_done", "/managed", count=2)
+        run.send(signal.SIGINT)
+        assert run.wait() == 130
+        assert run.log("managed").splitlines() == ["up", "configure", "activate", "deactivate"]
+        assert [event.data["state"] for event in run.of_kind("transition_done")] == [
+            "inactive",
+            "active",
+            "inactive",
+        ]
+
+
 def test_a_node_that_was_deactivated_by_somebody_else_is_left_alone(tmp_path: Path) -> None:
     with launched(tmp_path, plan(node(lifecycle="active")), environment=DOMAIN) as run:
         run.await_event("transition_done", "/managed", count=2)

@@ -14,7 +14,7 @@ from lifecycle_msgs.msg import TransitionEvent
 from lifecycle_msgs.srv import GetState
 
 from orchestra.ros.observer.order import OFTEN
-from orchestra.ros.observer.service import Service
+from orchestra.ros.observer.service import OwnService
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -36,7 +36,7 @@ class StateReached:
         self._subscription = node.create_subscription(
             TransitionEvent, f"{request['node']}/transition_event", self._moved, _DEPTH
         )
-        self._service = Service(node, GetState, f"{request['node']}/get_state")
+        self._service = OwnService(node, GetState, f"{request['node']}/get_state")
         self._ask_at = 0.0
         self.every: float | None = OFTEN
 

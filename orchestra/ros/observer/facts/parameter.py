@@ -14,7 +14,7 @@ from rcl_interfaces.srv import GetParameters
 from rclpy.parameter import Parameter
 
 from orchestra.ros.observer.order import OFTEN
-from orchestra.ros.observer.service import Service
+from orchestra.ros.observer.service import OwnService
 
 if TYPE_CHECKING:
     from rclpy.node import Node
@@ -32,7 +32,7 @@ class ParameterThere:
         self._say = say
         self._request = GetParameters.Request(names=[request["name"]])
         self._wanted = request.get("value")
-        self._service = Service(node, GetParameters, f"{request['node']}/get_parameters")
+        self._service = OwnService(node, GetParameters, f"{request['node']}/get_parameters")
         self._ask_at = 0.0
         self.every: float | None = OFTEN
 
