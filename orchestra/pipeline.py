@@ -27,7 +27,9 @@ from orchestra.resolve.resolve import begin, carry_through, end, outcome
 from orchestra.resolve.single import single_node
 from orchestra.settings.find import without_settings
 from orchestra.settings.settle import settle
+from orchestra.witness.observing import observer
 from orchestra.witness.once import once, real
+from orchestra.witness.place import folder
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
@@ -120,7 +122,8 @@ def opened(
     the files does.
     """
     packages = packages or InstalledPackages(inputs.environment)
-    with _loading(path, inputs, load, packages, problems, isolating) as isolation:
+    keeping = whole and inputs.keeping  # of what is only checked the findings are kept
+    with _loading(path, inputs, load, packages, problems, isolating, keeping=keeping) as isolation:
         with _collector_paused():
             run = begin(inputs, problems, load=load, packages=packages, run_command=run_command)
             description = load(path, problems, ())
@@ -172,9 +175,9 @@ def _point_into_code(problems: Problems) -> None:
     """Let problems of Python files stand at the text that is wrong."""
     if any(problem.span is not None and is_python(problem.span) for problem in problems):
         # It takes time to import, and only problems of such files need it.
-        from orchestra.compat.suggestions import point_into_code  # noqa: PLC0415
+        from orchestra.compat.suggestions import in_place  # noqa: PLC0415
 
-        point_into_code(problems)
+        problems.amend(in_place)
 
 
 def _warn_of_remaining(path: str, isolation: Isolation, problems: Problems) -> None:
@@ -227,6 +230,13 @@ def _symbolic(resolved: Resolved, files: Files) -> Resolved:
     return relocated(resolved, files.folder, FILES) if files.folder is not None and files.used else resolved
 
 
+def _place_of_codes() -> str | None:
+    """Return the folder for compiled code of launch files; None where there is no place for it."""
+    with observer().aside():  # no plan depends on it
+        where = folder(os.environ)
+    return where and os.path.abspath(f"{where}/codes")  # noqa: PTH100 - pathlib is slow
+
+
 @contextmanager
 def _collector_paused() -> Iterator[None]:
     """Keep the garbage collector from walking the trees as they grow, which takes almost half of the time.
@@ -253,8 +263,10 @@ def _loading(
     packages: InstalledPackages,
     problems: Problems,
     isolating: Isolating = isolated,
+    *,
+    keeping: bool = False,
 ) -> Iterator[Isolation]:
-    """Let launch files in Python be loaded, and leave this process as it was."""
+    """Let launch files in Python be loaded, and leave this process as it was. `keeping`: their code is kept."""
 
     def begin_alone(problems: Problems) -> Resolution:
         """Begin a resolution for a context that user code builds for itself."""
@@ -262,6 +274,7 @@ def _loading(
         return begin(own, problems, load=load, packages=packages, run_command=run_command)
 
     words = (f"{item.name}:={item.value}" for item in inputs.arguments)
+    codes = (_place_of_codes() if keeping else None, path)
     with (
         isolating(
             inputs.environment, ("ros2", "launch", path, *words), launching=inputs.launching
@@ -274,6 +287,7 @@ def _loading(
                 problems=problems,
                 debug=inputs.debug,
                 launching=inputs.launching,
+                codes=codes,
             )
         ),
     ):

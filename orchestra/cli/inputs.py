@@ -72,7 +72,8 @@ def inputs_of(words: Sequence[str], options: Namespace) -> Inputs:
         given = replace(given, environment=environment)
     debug, noninteractive = getattr(options, "debug", False), getattr(options, "noninteractive", True)
     weights = severities.given(options)
-    return replace(given, debug=debug, noninteractive=noninteractive, severity=weights)
+    keeping = not getattr(options, "no_cache", False)
+    return replace(given, debug=debug, noninteractive=noninteractive, severity=weights, keeping=keeping)
 
 
 def plan_from(options: Namespace, *, launching: bool) -> Plan:

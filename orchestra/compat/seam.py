@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, MutableMapping, Sequence
+    from types import CodeType
     from typing import Protocol
 
     from orchestra.compat.exposures import Exposures
@@ -127,8 +128,11 @@ class Connection(Protocol):
     def prepare(self) -> None:
         """Get ready for code of a launch file."""
 
+    def code(self, path: str, source: bytes) -> CodeType:
+        """Return the code of a launch file in Python with this content. Raises what `compile` does."""
+
     def close(self) -> None:
-        """Let go of what has been made for this resolution alone."""
+        """Let go of what has been made for this resolution alone, and keep what serves others."""
 
     def engine(self, argv: Sequence[str]) -> Engine:
         """Return an engine with a state of its own."""

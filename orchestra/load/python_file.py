@@ -9,9 +9,8 @@ from __future__ import annotations
 import linecache
 import sys
 from contextlib import contextmanager
-from functools import lru_cache
 from importlib.machinery import ModuleSpec
-from types import CodeType, CoroutineType, FunctionType, ModuleType
+from types import CoroutineType, FunctionType, ModuleType
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat import faults
@@ -132,7 +131,7 @@ def load_module(path: str, source: bytes) -> ModuleType:
     module = ModuleType(_MODULE)
     module.__file__ = path
     module.__spec__ = ModuleSpec(_MODULE, None, origin=path)
-    code = _compiled(path, source)
+    code = connection().code(path, source)
     with _in_place(module):
         exec(code, vars(module))  # noqa: S102 - a launch file is code
     return module
@@ -149,11 +148,6 @@ def _in_place(module: ModuleType) -> Iterator[None]:
         sys.modules.pop(_MODULE, None)
         if outer is not None:
             sys.modules[_MODULE] = outer
-
-
-@lru_cache(maxsize=256)
-def _compiled(path: str, source: bytes) -> CodeType:
-    return compile(source, path, "exec", dont_inherit=True)
 
 
 def _made(module: ModuleType) -> Any:  # noqa: ANN401 - whatever the user's function returns

@@ -56,7 +56,8 @@ class Inputs:
     `launching` tells that processes will be started here: then a missing package is an error, not a warning about
     this host. `required` tells whether a required argument without a value is an error. `noninteractive` is what code
     of launch files is told: whether no terminal is assumed. With `debug` what that code raises is told with all calls.
-    `severity` says for codes how much they weigh, over what settings files say.
+    `severity` says for codes how much they weigh, over what settings files say. `keeping` lets what is worked out on
+    the way be kept for later plans.
     """
 
     environment: Mapping[str, str]
@@ -68,6 +69,7 @@ class Inputs:
     noninteractive: bool = True
     debug: bool = False
     severity: Mapping[str, str] = field(default_factory=dict)
+    keeping: bool = True
 
 
 def _behind(name: Span, value: str) -> Span:

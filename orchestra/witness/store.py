@@ -30,6 +30,26 @@ class Store:
 
     def read(self, key: str) -> tuple[Record, Any] | None:
         """Return what a result depends on, and the result; None where there is none that can be read."""
+        body = self.content(key)
+        if body is None:
+            return None
+        try:
+            found = json.loads(body)
+            if found["key"] != key:
+                return None
+            return Record.from_data(found["record"]), found["result"]
+        except (ValueError, KeyError, TypeError, RecursionError):
+            return None
+
+    def write(self, key: str, record: Record, result: Any) -> None:
+        """Keep a result, in place of any earlier one. Where the disk refuses, nothing is kept."""
+        if record.unknown:
+            return
+        body = json.dumps({"key": key, "record": record.whole().as_data(), "result": result})
+        self.put(key, body.encode("utf-8", "surrogatepass"))
+
+    def content(self, key: str) -> bytes | None:
+        """Return what is kept with a key, as we have written it; None where there is nothing."""
         path = self._path(key)
         try:
             with open(path, "rb") as file:
@@ -37,26 +57,17 @@ class Store:
                 if status is None:
                     return None
                 digest, _, body = file.read().partition(b"\n")
-            if digest.decode("ascii", "replace") != digest_of(body):
-                return None
-            found = json.loads(body)
-            if found["key"] != key:
-                return None
-            record, result = Record.from_data(found["record"]), found["result"]
-        except (OSError, ValueError, KeyError, TypeError, RecursionError):
+        except (OSError, ValueError):
+            return None
+        if digest.decode("ascii", "replace") != digest_of(body):
             return None
         if time.time() - status.st_mtime > _DAY:
             with suppress(OSError):  # it was removed meanwhile, or belongs to somebody else
                 os.utime(path)  # those that are used last are kept longest
-        return record, result
+        return body
 
-    def write(self, key: str, record: Record, result: Any) -> None:
-        """Keep a result, in place of any earlier one. Where the disk refuses, nothing is kept."""
-        if record.unknown:
-            return
-        body = json.dumps({"key": key, "record": record.whole().as_data(), "result": result}).encode(
-            "utf-8", "surrogatepass"
-        )
+    def put(self, key: str, body: bytes) -> None:
+        """Keep a content, in place of any earlier one. Where the disk refuses, nothing is kept."""
         replaced(self._path(key), digest_of(body).encode() + b"\n" + body)
 
     def prune(self) -> None:

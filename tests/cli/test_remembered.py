@@ -250,9 +250,37 @@ def test_other_words_and_other_places_are_other_launches(plans: Rememberer) -> N
     plans.folder = place
 
 
+# Large enough for its compiled code to be kept as well.
+_LARGE = f"""\
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, ExecuteProcess
+from launch.substitutions import LaunchConfiguration
+def generate_launch_description():
+    return LaunchDescription([
+        DeclareLaunchArgument("rate", default_value="1"),
+        ExecuteProcess(cmd=["tool", LaunchConfiguration("rate")]),
+    ])
+{"# It is a long file." * 1000}
+"""
+
+
+def test_plans_do_not_depend_on_code_that_is_kept(plans: Rememberer) -> None:
+    plans.write("work/large.launch.py", _LARGE)
+    made = plans.make("large.launch.py")
+    assert list((plans.folder / "cache/codes").iterdir())
+    other = plans.make("large.launch.py", "rate:=2")
+    assert made["kept"]
+    assert other["kept"]
+    shutil.rmtree(plans.folder / "cache/codes")
+    assert plans.recall("large.launch.py") == made["document"]
+    assert plans.recall("large.launch.py", "rate:=2") == other["document"] != made["document"]
+
+
 def test_nothing_is_kept_where_nobody_wants_it(plans: Rememberer) -> None:
-    assert not plans.make("main.launch.yaml", "--no-cache")["kept"]
-    assert not (plans.folder / "cache").exists()
+    plans.write("work/large.launch.py", _LARGE)
+    for file in ("main.launch.yaml", "large.launch.py"):
+        assert not plans.make(file, "--no-cache")["kept"]
+        assert not (plans.folder / "cache").exists()
 
 
 _UNKNOWABLE = {

@@ -12,10 +12,12 @@ from orchestra.resolve.refusals import missing_package
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
+    from types import CodeType
 
     from orchestra.compat.seam import Engine, FrontEnd
     from orchestra.errors import Severity
     from orchestra.resolve.packages import InstalledPackages
+    from orchestra.resolve.python.codes import Codes
     from orchestra.resolve.resolution import Resolution
 
 
@@ -24,7 +26,7 @@ class LoadingConnection:
 
     What comes up in such a state and stops nobody is reported to `problems`. `prepare` gets ready for their code; with
     `debug` what that raises is told with all calls, without `launching` a package that is not here is a fault of this
-    host.
+    host. Compiled code is kept for later plans: `codes` are a folder, None for nowhere, and the file at the top.
     """
 
     def __init__(
@@ -36,12 +38,14 @@ class LoadingConnection:
         problems: Problems | None = None,
         debug: bool = False,
         launching: bool = True,
+        codes: tuple[str | None, str] = (None, ""),
     ) -> None:
         self.debug = debug
         self.prepare = prepare
         self._packages = packages
         self._begin = begin
         self._launching = launching
+        self._place = codes
         self._problems = Problems() if problems is None else problems
 
     @cached_property
@@ -53,8 +57,21 @@ class LoadingConnection:
 
         return LoadingFrontEnd()
 
+    @cached_property
+    def _codes(self) -> Codes:
+        # Here, because only launch files in Python need it.
+        from orchestra.resolve.python.codes import Codes  # noqa: PLC0415
+
+        return Codes(*self._place)
+
+    def code(self, path: str, source: bytes) -> CodeType:
+        """Return the code of a launch file in Python with this content. Raises what `compile` does."""
+        return self._codes.code(path, source)
+
     def close(self) -> None:
-        """Let what has been added to the languages be imported anew by the next resolution."""
+        """Keep compiled code, and let what has been added to the languages be imported anew by the next resolution."""
+        if "_codes" in vars(self):
+            self._codes.keep()
         if "front_end" in vars(self):
             self.front_end.close()
 

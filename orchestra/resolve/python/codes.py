@@ -1,0 +1,114 @@
+"""The compiled code of Python launch files, kept for the next plan of a tree, as the interpreter keeps modules.
+
+A plan of the same words is kept as a whole; this is for those after a change of an argument or of a few files, where
+to compile takes a quarter of the time. A code counts for the content that it was compiled from, at its path, by this
+interpreter. All codes of a tree are in one file, named by the file at its top: fifty files take as long to write as
+half of the tree takes to compile. Rejected: `__pycache__` beside launch files, where nobody expects it, and where many
+may not write.
+"""
+
+from __future__ import annotations
+
+import marshal
+import os
+import sys
+import warnings
+from contextlib import contextmanager
+from functools import lru_cache
+from importlib.util import MAGIC_NUMBER
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.witness.digest import digest_of
+from orchestra.witness.observing import observer
+from orchestra.witness.store import Store
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from types import CodeType
+
+_MOST: Final = 32 * 1024 * 1024  # bytes that all trees may take together
+_MOST_OF_A_TREE: Final = 8 * 1024 * 1024
+_WORTH: Final = 1 << 14  # bytes of source: to compile less takes as long as to write a file
+
+
+class Codes:
+    """The codes of the files that the launch file `top` leads to, kept in a folder; nowhere where it is None.
+
+    What is new is kept when `keep` is called.
+    """
+
+    def __init__(self, folder: str | None, top: str) -> None:
+        self._store = None if folder is None else Store(folder, _MOST)
+        self._key = _key(top)
+        with observer().aside():  # they decide nothing: a code is what its source comes to
+            self._kept = {} if self._store is None else _unpacked(self._store, self._key)
+        self._used: dict[str, tuple[str, bytes]] = {}
+        self._new: dict[str, tuple[str, CodeType]] = {}
+        self._compiled = 0
+
+    def code(self, path: str, source: bytes) -> CodeType:
+        """Return the code of a file with this content. Raises what `compile` does."""
+        known = self._kept.get(path)
+        if known is not None and known[0] == digest_of(source):
+            code: CodeType = marshal.loads(known[1])  # noqa: S302 - ours, as what is in `__pycache__`
+            self._used[path] = known
+            return code
+        code, lasting = _compiled(path, source)
+        if lasting and path not in self._new:
+            self._new[path] = digest_of(source), code
+            self._compiled += len(source)
+        return code
+
+    def keep(self) -> None:
+        """Keep what was compiled, if it is worth that, beside what was kept. Where that cannot be, it is not."""
+        if self._store is None or self._compiled < _WORTH:
+            return
+        new = {path: (digest, marshal.dumps(code)) for path, (digest, code) in self._new.items()}
+        with observer().aside():
+            for codes in (self._kept | new, self._used | new):
+                packed = marshal.dumps((self._key, codes))
+                if len(packed) <= _MOST_OF_A_TREE:
+                    self._store.put(self._key, packed)
+                    self._store.prune()
+                    break
+
+
+def _key(top: str) -> str:
+    """Return what tells the codes of one tree and interpreter from those of others."""
+    ranges = sys._xoptions.get("no_debug_ranges"), os.environ.get("PYTHONNODEBUGRANGES")
+    return repr((os.path.abspath(top), sys.version, MAGIC_NUMBER, sys.flags, sys.warnoptions, ranges))  # noqa: PTH100
+
+
+def _unpacked(store: Store, key: str) -> dict[str, tuple[str, bytes]]:
+    packed = store.content(key)
+    if packed is None or len(packed) > _MOST_OF_A_TREE:
+        return {}
+    try:
+        whose, codes = marshal.loads(packed)  # noqa: S302 - as above
+    except (EOFError, TypeError, ValueError):
+        return {}
+    return codes if whose == key and isinstance(codes, dict) else {}
+
+
+@lru_cache(maxsize=256)
+def _compiled(path: str, source: bytes) -> tuple[CodeType, bool]:
+    """Return the code of a file, and whether to compile it again would tell nobody anything."""
+    with _told() as told:
+        code = compile(source, path, "exec", dont_inherit=True)
+    return code, not told
+
+
+@contextmanager
+def _told() -> Iterator[list[Any]]:
+    """Hear of warnings while they are shown as ever, and no filter changes."""
+    outer, told = warnings.showwarning, list[Any]()
+
+    def show(message: Warning | str, *args: Any) -> None:
+        told.append(message)
+        outer(message, *args)
+
+    warnings.showwarning = show  # type: ignore[assignment] # what is told is handed on as it is
+    try:
+        yield told
+    finally:
+        warnings.showwarning = outer
