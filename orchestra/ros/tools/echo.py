@@ -7,10 +7,11 @@ import time
 from typing import TYPE_CHECKING, Any
 
 from orchestra.errors import RunError
-from orchestra.ros.tools.graph.hearing import publishers, subscribe, type_of
+from orchestra.ros.tools.graph.hearing import identities, publishers, subscribe, type_of
 from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import absolute
 from orchestra.ros.tools.graph.qos import chosen, matched
+from orchestra.ros.tools.losses import Losses
 from orchestra.ros.tools.messages.commas import csv_text
 from orchestra.ros.tools.messages.expressions import field_of, passes
 from orchestra.ros.tools.messages.fields import is_message
@@ -35,6 +36,7 @@ def echo(options: Namespace) -> int:
 
     def heard(message: Any, about: dict[str, Any]) -> None:  # noqa: ANN401 - of any class
         nonlocal shown
+        losses.number(about["publication_sequence_number"])
         chosen_part = message if options.raw else select(message)
         if (wanted is not None and shown >= wanted) or not (options.raw or keep(chosen_part)):
             return
@@ -50,7 +52,10 @@ def echo(options: Namespace) -> int:
             profile, notes = matched(publishers(graph, topic), profile)
             for note in notes:
                 remark(options, note)
-        lost = None if options.no_lost_messages else _lost
+        losses = Losses(
+            lambda: identities(graph, topic), None if options.no_lost_messages else _tell_of_losses
+        )
+        lost = None if options.no_lost_messages else lambda status: losses.unheard(status.total_count_change)
         subscribe(graph.node, kind, topic, profile, heard, raw=options.raw, lost=lost)
         left = None if until is None else max(0.0, until - time.monotonic())
         enough = graph.wait(lambda: wanted is not None and shown >= wanted, left)
@@ -110,8 +115,5 @@ def _select(path: str | None) -> Callable[[Any], Any]:
     return (lambda message: message) if path is None else field_of(path)
 
 
-def _lost(status: Any) -> None:  # noqa: ANN401 - of an untyped package
-    warn(
-        f"A message was lost!!!\n\ttotal count change:{status.total_count_change}\n"
-        f"\ttotal count: {status.total_count}\n---"
-    )
+def _tell_of_losses(more: int, total: int) -> None:
+    warn(f"A message was lost!!!\n\ttotal count change:{more}\n\ttotal count: {total}\n---")

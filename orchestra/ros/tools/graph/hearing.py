@@ -24,9 +24,13 @@ _AT_ONCE = 1000
 
 def publishers(graph: Graph, topic: str) -> list[Any]:
     """Return the publishers of a topic, once all of them are known."""
-    look = graph.node.get_publishers_info_by_topic
-    graph.whole(lambda: sorted(bytes(endpoint.endpoint_gid) for endpoint in look(topic)))
-    return list(look(topic))
+    graph.whole(lambda: sorted(identities(graph, topic)))
+    return list(graph.node.get_publishers_info_by_topic(topic))
+
+
+def identities(graph: Graph, topic: str) -> list[bytes]:
+    """Return what each of the known publishers of a topic is told from all others by."""
+    return [bytes(endpoint.endpoint_gid) for endpoint in graph.node.get_publishers_info_by_topic(topic)]
 
 
 def type_of(graph: Graph, topic: str) -> str:
