@@ -1,6 +1,7 @@
 """Asks the fleet monitor for the place of a goal, so that no other robot is on its way there.
 
-A monitor that is not there or says nothing stops nobody: the goal is driven to unclaimed, with a warning.
+A monitor that is not there or says nothing stops nobody: the goal is driven to unclaimed, with a warning. It is asked
+all the same until it answers, and what it then tells to be another robot's place is not driven to any more.
 """
 
 from __future__ import annotations
@@ -36,28 +37,44 @@ class Claims:
         self._driven_to: Message = None
         # Whether a question was dropped: the monitor may have granted a place that nobody drives to.
         self._dropped = False
+        # Whether the goal that is driven to is still to be claimed.
+        self._overdue = False
 
     def ask(self, goal: Message) -> None:
         """Ask for the place of a goal; a question before this one is dropped."""
         self._dropped |= self._answer is not None
         self._goal, self._since, self._answer = goal, monotonic(), None
+        self._overdue = False
 
     def refusal(self) -> str | None:
         """Why the place is taken; '' if it may be driven to, None while that is not known yet."""
-        if self._answer is None and self._claim.service_is_ready():
-            self._answer = self._claim.call_async(ClaimGoal.Request(robot=self._robot, goal=self._goal))
-        if self._answer is not None and self._answer.done():
-            answer = self._answer.result()
-            self._answer = None
+        answer = self._answered()
+        if answer is not None:
             if answer.granted:
                 return self._free()
             if self._dropped:
                 self._restore()
-            return answer.message or f"{answer.holder} has claimed the place"
+            return _told(answer)
         if monotonic() - self._since < PATIENCE:
             return None
         self._node.get_logger().warning(f"{self.service} does not answer: the goal is not claimed")
+        self._overdue = True
         return self._free()
+
+    def late_refusal(self) -> str:
+        """Why the place that is driven to unclaimed is taken; '' as long as nobody says so.
+
+        The monitor is asked again and again: an answer that comes before both know each other is lost.
+        """
+        if self._overdue and monotonic() - self._since >= PATIENCE:
+            if self._answer is not None:
+                self._claim.remove_pending_request(self._answer)
+            self._since, self._answer = monotonic(), None
+        answer = self._answered() if self._overdue else None
+        if answer is None:
+            return ""
+        self._overdue = False
+        return "" if answer.granted else _told(answer)
 
     def withdraw(self) -> None:
         """The goal asked for is not driven to after all: its place is given back once it is known to be granted."""
@@ -71,8 +88,20 @@ class Claims:
     def release(self) -> None:
         """Give the place back; nobody waits for the answer."""
         self._driven_to = None
+        if self._overdue:
+            self._overdue = False
+            self.withdraw()
         if self._release.service_is_ready():
             self._release.call_async(ReleaseGoal.Request(robot=self._robot))
+
+    def _answered(self) -> Message | None:
+        """What the monitor says, which is asked as soon as it is there; None as long as it says nothing."""
+        if self._answer is None and self._claim.service_is_ready():
+            self._answer = self._claim.call_async(ClaimGoal.Request(robot=self._robot, goal=self._goal))
+        if self._answer is None or not self._answer.done():
+            return None
+        answer, self._answer = self._answer.result(), None
+        return answer
 
     def _free(self) -> str:
         self._driven_to, self._dropped = self._goal, False
@@ -90,3 +119,7 @@ class Claims:
         """Leave the graph."""
         self._node.destroy_client(self._claim)
         self._node.destroy_client(self._release)
+
+
+def _told(answer: Message) -> str:
+    return answer.message or f"{answer.holder} has claimed the place"

@@ -8,6 +8,7 @@ a goal is executed at its end, by a callback that has its result already.
 from __future__ import annotations
 
 import math
+from time import monotonic
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from rclpy.action import ActionServer, CancelResponse
@@ -15,7 +16,7 @@ from rclpy.impl.implementation_singleton import rclpy_implementation
 
 from bringup.control.journey import Goal
 from bringup.control.outcome import Outcome, Result
-from bringup.control_node.claims import Claims
+from bringup.control_node.claims import PATIENCE, Claims
 from bringup.control_node.interfaces import GoToGoal
 from bringup.control_node.messages import duration, fill_pose, pose_of
 
@@ -45,6 +46,7 @@ class Goals:
     def __init__(self, node: Node) -> None:
         self._node = node
         self._waiting: Handle = None
+        self._came = 0.0
         self._asked = False
         self._driving: Handle = None
         self._claims: Claims | None = None
@@ -60,15 +62,22 @@ class Goals:
         )
 
     @property
-    def canceled(self) -> bool:
-        """Whether the client wants the goal that is driven to no more."""
-        return self._driving is not None and bool(self._driving.is_cancel_requested)
+    def called_off(self) -> Result | None:
+        """Why the goal that is driven to is not to be driven to any more, None as long as it is."""
+        if self._driving is None:
+            return None
+        if self._driving.is_cancel_requested:
+            return CANCELED
+        text = self._claims.late_refusal() if self._claims is not None and self._waiting is None else ""
+        return Result(Outcome.OVERRULED, text) if text else None
 
     def due(self, settings: Settings, odometry: Odometry | None, frame: str) -> Goal | None:
         """The goal to drive to from now on, if one has come and nothing speaks against it; the one before ends."""
         self._connect(settings.claim_service)
         handle = self._waiting
         if handle is None:
+            return None
+        if self._comes_early(handle, odometry):
             return None
         goal = _goal(handle.request, settings)
         refusal = CANCELED if handle.is_cancel_requested else _objection(handle.request, odometry, frame)
@@ -117,9 +126,13 @@ class Goals:
     def _accept(self, handle: Handle) -> None:
         if self._waiting is not None:
             self._finish(self._waiting, REPLACED, 0.0, math.nan)
-        self._waiting, self._asked = handle, False
+        self._waiting, self._asked, self._came = handle, False, monotonic()
         if not handle.is_cancel_requested:
             handle._update_state(EXECUTE)  # noqa: SLF001 - see EXECUTE
+
+    def _comes_early(self, handle: Handle, odometry: Odometry | None) -> bool:
+        """Tell whether a goal is to wait for the first odometry: a node that has just begun may not have met it."""
+        return odometry is None and not handle.is_cancel_requested and monotonic() - self._came < PATIENCE
 
     def _connect(self, service: str) -> None:
         """Have the service of claims known before a goal comes: on a busy machine that takes seconds."""

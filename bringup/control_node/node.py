@@ -27,7 +27,6 @@ from bringup.control.command import STANDSTILL, Command
 from bringup.control.controller import Odometry, Sight, State, ended, ticked
 from bringup.control.journey import Journey
 from bringup.control.modes import SIMPLE, Mode, following
-from bringup.control.outcome import Outcome
 from bringup.control.sight import clear_points, obstacle_points
 from bringup.control_node.diagnostics import OK, Diagnostics
 from bringup.control_node.goals import Goals
@@ -140,8 +139,9 @@ class VelocityController:
         return float(self._node.get_clock().now().nanoseconds) * 1e-9
 
     def _take_goal(self, now: float) -> None:
-        if self._goals.canceled:
-            self._state = ended(self._state, Outcome.CANCELED, "canceled by its client")
+        called_off = self._goals.called_off
+        if called_off is not None:
+            self._state = ended(self._state, called_off.outcome, called_off.text)
         goal = self._goals.due(self._settings, self._odometry, self._frame)
         if goal is None:
             return

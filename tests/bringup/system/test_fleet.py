@@ -40,6 +40,7 @@ class _Operator:
     """Sees the fleet and sends robots to goals."""
 
     def __init__(self, run: Run) -> None:
+        self.run = run
         self.context = rclpy.Context()
         rclpy.init(context=self.context, domain_id=run.domain)
         self.node = rclpy.create_node("operator", context=self.context)
@@ -56,7 +57,8 @@ class _Operator:
     def until(self, condition: Callable[[], bool], what: str) -> None:
         end = time.monotonic() + _PATIENCE
         while not condition():
-            assert time.monotonic() < end, f"not within {_PATIENCE} s: {what}; {self.robots}"
+            late = time.monotonic() >= end
+            assert not late, f"not within {_PATIENCE} s: {what}; {self.robots}\n{self.run.output}"
             self.executor.spin_once(timeout_sec=0.1)
 
     def send(self, robot: str, x: float, y: float) -> Any:
@@ -130,7 +132,10 @@ def test_two_robots_are_not_sent_to_one_place(operator: _Operator) -> None:
         first.pose.pose.position.y + 0.7 * math.sin(turn),
     )
     reached = operator.send("robot1", *_seen_from(first, *place))
-    operator.until(lambda: operator.robots["robot1"].has_goal, "the claim of robot1 is told")
+    operator.until(
+        lambda: operator.robots["robot1"].has_goal or reached.done(), "the claim of robot1 is told"
+    )
+    assert not reached.done(), f"{reached.result()}\n{operator.run.output}"
     refused = operator.send("robot2", *_seen_from(second, *place))
     operator.until(refused.done, "robot2 tells why it does not go")
     result = refused.result().result
