@@ -8,10 +8,10 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.compat.joined_texts import joined
 from orchestra.compat.place import Place
 from orchestra.compat.refusing import collector
+from orchestra.compat.remarks import remark
 from orchestra.compat.syntax_trees import called_by, node_span, tree_of
 from orchestra.errors import Code, Problem, Severity
 from orchestra.fields import replace
-from orchestra.location import Location
 from orchestra.witness.origins import INSTALLED, PYTHON
 
 if TYPE_CHECKING:
@@ -157,10 +157,5 @@ def _tell(
     node: Any = None,
     meant: str | None = None,
 ) -> None:
-    collecting = collector()
-    if collecting is None:
-        return
-    problems, chain = collecting
     span = place.span if node is None else node_span(place.file, node, quotes=True)
-    if all(problem.span != span or problem.code is not code for problem in problems):
-        problems.warning(code, message, Location(span, chain), notes=notes, suggestion=meant)
+    remark(code, message, span, suggestion=meant, notes=notes)

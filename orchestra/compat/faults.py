@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.compat.ament_index_python.packages import PackageNotFoundError
 from orchestra.compat.explanation import Explanation, in_their_words
-from orchestra.compat.place import Place, is_own
+from orchestra.compat.place import Argument, Place, is_own
 from orchestra.compat.refusing import Refusing
 from orchestra.compat.seam import debugging
 from orchestra.compat.syntax_errors import span_of_syntax
@@ -82,10 +82,14 @@ def _explained(error: BaseException, call: TracebackType | None) -> Explanation:
         return found
     if isinstance(error, WrongValue):
         # Here, because only mistakes need it, and what it imports.
+        from orchestra.compat.rewritten import rewritten  # noqa: PLC0415
         from orchestra.compat.suggestions import whole  # noqa: PLC0415
 
-        span = None if error.at is None else whole(error.at)
-        return Explanation(in_their_words(" ".join(str(error).split())), error.code, span, error.suggestion)
+        message = in_their_words(" ".join(str(error).split()))
+        span, meant = None if error.at is None else whole(error.at), error.suggestion
+        if meant is None and isinstance(error.at, Argument) and span is not None:
+            meant = rewritten(error.at.place.file, span, error.value, message)
+        return Explanation(message, error.code, span, meant)
     code = Code.SYNTAX if isinstance(error, SyntaxError) else Code.USER_CODE
     return Explanation(_message(error), code)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import inspect
 import re
 from typing import TYPE_CHECKING, Any, Final
@@ -10,6 +11,8 @@ from orchestra.compat.explanation import Explanation
 from orchestra.compat.keywords import keyword_meant, parameters_of, shown
 from orchestra.compat.literals import argument, call_at, keyword_span
 from orchestra.compat.names_in_frames import value_of
+from orchestra.compat.rewritten import Rewritten
+from orchestra.compat.syntax_trees import called_by, tree_of
 from orchestra.errors import Code
 
 if TYPE_CHECKING:
@@ -65,12 +68,25 @@ def _unknown(name: str, key: str, parameters: dict[str, Any], place: Place) -> E
     return Explanation(message, Code.UNKNOWN_KEY, span, meant)
 
 
+def _handed_over(place: Place) -> Rewritten | None:
+    """Return the function alone where it is called in place of being handed over to an OpaqueFunction."""
+    tree, call = tree_of(place.file), call_at(place)
+    if tree is None or call is None:
+        return None
+    for node in tree.nodes:
+        match node:
+            case ast.Call(keywords=words) if called_by(node) == "OpaqueFunction":
+                if any(word.arg == "function" and word.value is call for word in words):
+                    return Rewritten(ast.unparse(call.func))
+    return None
+
+
 def _missing(error: TypeError, name: str, parameters: dict[str, Any], place: Place) -> Explanation | None:
     """Return what is wrong with a call whose keywords are known."""
     text = str(error)
     if "missing" in text and "required" in text:
         words = " and ".join(_NAME.findall(text))
-        return Explanation(f"{name} needs {words}", Code.MISSING_KEY, place.span)
+        return Explanation(f"{name} needs {words}", Code.MISSING_KEY, place.span, _handed_over(place))
     if "positional argument" in text:
         by_place = sum(item.kind is _Parameter.POSITIONAL_OR_KEYWORD for item in parameters.values())
         message = f"{name} takes {by_place or 'no'} argument{'s' * (by_place != 1)} without a name"

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.compat.forms_meant import form_meant
 from orchestra.compat.source_text import text_at
 from orchestra.compat.syntax_trees import tree_of
 from orchestra.fields import replace
@@ -15,10 +16,6 @@ if TYPE_CHECKING:
 
 _MOST: Final = 100  # characters: what is longer is read better in the message alone
 _TWO_TEXTS: Final = re.compile(r"""((["'])(?:(?!\2).)+\2)\s*((["'])(?:(?!\4).)+\4)""")
-_PLAIN: Final = re.compile(r"[\w./:=@%+, -]+")
-# What is said of one thing where several are expected.
-_ONE_OF_MANY: Final = ("parameters are a list of dictionaries and files, not {", "this is one of them: ")
-_NUMBERS: Final = (int, float)
 # Arguments whose values are names, hardly ever variables of the name that they have.
 _NAMES: Final = frozenset({"executable", "exec", "name", "namespace", "output", "package", "pkg", "plugin"})
 _TAKE_A_NAME: Final = frozenset(
@@ -46,26 +43,11 @@ def rewritten(file: str, span: Span, value: Any, message: str) -> Rewritten | No
     source = _short(file, span)
     if source is None:
         return None
-    if isinstance(value, type) and _is_ours(value) and source.rpartition(".")[2] == value.__name__:
-        return Rewritten(f"{source}()")
-    if type(value) in _NUMBERS and source == repr(value) and "expected a text" in message:
-        return Rewritten(repr(source))
-    if "a remapping is a tuple" in message:
-        return _pair(value) if isinstance(value, str) and ":=" in value else _apart(file, span, source)
-    if "cmd is a list of words" in message and isinstance(value, str) and _PLAIN.fullmatch(value):
-        return Rewritten(repr(value.split()))
-    if any(part in message for part in _ONE_OF_MANY):
-        is_list = isinstance(value, list) and source[:1] + source[-1:] == "[]"
-        return Rewritten(f"[({source[1:-1]})]" if is_list else f"[{source}]")
-    if "is a list, this is" in message or "a list of actions is expected" in message:
-        return Rewritten(f"[{source}]") if callable(getattr(value, "visit", None)) else None
-    return None
-
-
-def _pair(value: str) -> Rewritten:
-    """Return a remapping of the command line as that of a launch file."""
-    name, _, target = value.partition(":=")
-    return Rewritten(f"({name!r}, {target!r})")
+    if "a remapping is a tuple" in message and not (isinstance(value, str) and ":=" in value):
+        return _apart(file, span, source)
+    meant = form_meant(source, value, message)
+    is_given = source in _arguments_around(file, span)  # then the mistake may be where the function is called
+    return None if meant is None or is_given else Rewritten(meant)
 
 
 def _apart(file: str, span: Span, source: str) -> Rewritten | None:
@@ -107,17 +89,16 @@ def in_quotes(place: Place, name: str) -> Rewritten | None:
 
 def arguments_around(place: Place) -> tuple[str, ...]:
     """Return the arguments of the functions around a place: a frame has only those that its code names."""
-    tree = tree_of(place.file)
-    node = None if tree is None else tree.expression(place.file, place.span)
+    return _arguments_around(place.file, place.span)
+
+
+def _arguments_around(file: str, span: Span) -> tuple[str, ...]:
+    tree = tree_of(file)
+    node = None if tree is None else tree.expression(file, span)
     if node is None or tree is None:
         return ()
     functions = tree.functions_around(node)
     return tuple(item.arg for each in functions for item in (*each.args.args, *each.args.kwonlyargs))
-
-
-def _is_ours(kind: type[Any]) -> bool:
-    """Return whether a class is one of the launch language."""
-    return kind.__module__.startswith("orchestra.compat.")
 
 
 def _short(file: str, span: Span) -> str | None:

@@ -238,6 +238,7 @@ _ENTITIES = {
         "[GroupAction(«Node(**TALKER)»)]",
         "a list of actions is expected here, this is a Node",
         Code.WRONG_TYPE,
+        suggestion="[Node(**TALKER)]",
     ),
     "a node among components": Mistake(
         "[LoadComposableNodes(target_container='/c', composable_node_descriptions=[«Node(**TALKER)»])]",
@@ -255,17 +256,20 @@ _VALUES = {
         "[Node(**TALKER, condition=IfCondition(«True»))]",
         "expected a text or a substitution",
         Code.WRONG_TYPE,
+        suggestion="'true'",
     ),
     "a truth value as a condition": Mistake(
         "[Node(**TALKER, condition=«True»)]",
         "a condition is made by IfCondition or UnlessCondition, this is True",
         Code.WRONG_TYPE,
+        suggestion="IfCondition('true')",
     ),
     "a substitution as a component's condition": Mistake(
         "[LoadComposableNodes(target_container='/c', composable_node_descriptions=["
         "ComposableNode(package='demo', plugin='P', condition=«LaunchConfiguration('a')»)])]",
         "a condition is made by IfCondition or UnlessCondition, this is a LaunchConfiguration",
         Code.WRONG_TYPE,
+        suggestion="IfCondition(LaunchConfiguration('a'))",
     ),
     "a remapping that is a list": Mistake(
         "[Node(**TALKER, remappings=[«['a', 'b']»])]",
@@ -276,6 +280,7 @@ _VALUES = {
         "[Node(**TALKER, parameters=«{'a': 1}»)]",
         "'parameters' of a Node is a list, not dict: {'a': 1}",
         Code.WRONG_TYPE,
+        suggestion="[{'a': 1}]",
     ),
     "a parameter without a value": Mistake(
         "[Node(**TALKER, parameters=[{'a': «None»}])]",
@@ -316,6 +321,7 @@ _VALUES = {
         "[IncludeLaunchDescription('inner.launch.py', launch_arguments={'a': «5»}.items())]",
         "a: expected a text or a substitution (or several in a list), found int: 5",
         Code.WRONG_TYPE,
+        suggestion="'5'",
     ),
     "a substitution added to a text": Mistake(
         "[LogInfo(msg=«'a' + LaunchConfiguration('b')»)]",

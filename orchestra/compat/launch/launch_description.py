@@ -29,6 +29,7 @@ class LaunchDescription(LaunchDescriptionEntity):
         self.__entities = list(initial_entities) if initial_entities is not None else []
         self.__deprecated_reason = deprecated_reason
         self._place = here(self)
+        self._lacks_entities = initial_entities is None
 
     @property
     def entities(self) -> list[LaunchDescriptionEntity]:

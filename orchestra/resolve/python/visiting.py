@@ -12,7 +12,7 @@ from orchestra.compat.functions import name_of, returned_by
 from orchestra.compat.launch.action import Action, ModelledAction
 from orchestra.compat.launch.launch_description import LaunchDescription
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
-from orchestra.compat.literals import item_span
+from orchestra.compat.literals import call_at, item_span, keyword
 from orchestra.compat.misplaced import misplaced
 from orchestra.compat.place import Argument
 from orchestra.compat.refusing import is_lost
@@ -88,12 +88,30 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
         message = f"{displayed(run.context.file or '')} is deprecated: {entity.deprecated_reason}"
         run.problems.warning(Code.DEPRECATED, message, run.at(action.span))
     if type(entity).visit is LaunchDescription.visit:
+        if not entity.entities and entity._lacks_entities:
+            _warn_of_none(entity, run)
         visit_entities(entity.entities, run, getattr(entity, "_place", None))
         return
     if run.later:
         put_off(Deferred("entity", entity), run.at(action.span), run)
         return
     _carry_out(entity, action.span, run)
+
+
+def _warn_of_none(description: LaunchDescription, run: Resolution) -> None:
+    """Warn of a launch description that is given None: code that does so has lost its actions."""
+    # Here, because only mistakes need it, and what it imports.
+    from orchestra.compat.rewritten import rewritten  # noqa: PLC0415
+
+    place = description._place
+    call = call_at(place)
+    if call is not None and (call.args or call.keywords):
+        span = keyword(place, "initial_entities").whole
+        message = (
+            "a launch description of None has no action: append and extend change a list and return None"
+        )
+        meant = rewritten(place.file, span, None, message)
+        run.problems.warning(Code.WRONG_TYPE, message, run.at(span), suggestion=meant)
 
 
 def _carry_out(entity: Any, span: Span, run: Resolution) -> None:

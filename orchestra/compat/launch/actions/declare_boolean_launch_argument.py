@@ -16,4 +16,5 @@ class DeclareBooleanLaunchArgument(DeclareLaunchArgument):
     """Declare an argument of the launch file that is true or false."""
 
     def __init__(self, name: str, *, default_value: Sub | bool | None = None, **kwargs: Any) -> None:
-        super().__init__(name, default_value=default_value, choices=_CHOICES, **kwargs)
+        default = str(default_value) if isinstance(default_value, bool) else default_value
+        super().__init__(name, default_value=default, choices=_CHOICES, **kwargs)

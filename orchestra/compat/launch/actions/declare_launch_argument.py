@@ -47,6 +47,11 @@ class DeclareLaunchArgument(ModelledAction):
         # Whether a condition decides on the declaration, as `get_launch_arguments` has found.
         self._conditionally_included = False
         _check(name, default_value, self.__choices, choices)
+        if isinstance(default_value, int | float):
+            from orchestra.compat.remarks import remark_of_value  # noqa: PLC0415 - only mistakes need it
+
+            told = f"the default of a launch argument is a text, this is {default_value!r}: ROS 2 refuses it"
+            remark_of_value(told, default_value, self._place, "default_value")
 
     @property
     def name(self) -> str:

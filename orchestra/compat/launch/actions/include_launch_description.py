@@ -20,6 +20,7 @@ from orchestra.compat.launch.substitutions.substitution_failure import Substitut
 from orchestra.compat.place import here
 from orchestra.compat.text import normalized
 from orchestra.compat.values import pairs
+from orchestra.compat.wrong import WrongType
 from orchestra.description.actions.include import Include
 from orchestra.location import is_file
 
@@ -54,6 +55,8 @@ class IncludeLaunchDescription(ModelledAction):
         if not isinstance(source, LaunchDescriptionSource):
             source = AnyLaunchDescriptionSource(source)
         self.__launch_description_source = source
+        if callable(launch_arguments):
+            raise WrongType("the launch_arguments are a method: it is not called", path=("launch_arguments",))
         given = launch_arguments.items() if isinstance(launch_arguments, Mapping) else launch_arguments
         self.__launch_arguments = tuple(given or ())
 

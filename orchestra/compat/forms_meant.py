@@ -1,0 +1,115 @@
+"""Code of the form that an argument takes, made of code that was refused: by what was said of it."""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+_Form: TypeAlias = "Callable[[str, Any], str | None]"
+_PLAIN: Final = re.compile(r"[\w./:=@%+, -]+")
+_CALLED: Final = re.compile(r"([\w.]+)\(.*\)")
+
+
+def form_meant(source: str, value: Any, message: str) -> str | None:
+    """Return what was meant by an expression that has come to a value; None where a message has no such remedy."""
+    if isinstance(value, type) and _is_ours(value) and source.rpartition(".")[2] == value.__name__:
+        return f"{source}()"
+    return next((form(source, value) for part, form in _FORMS.items() if part in message), None)
+
+
+def _as_text(source: str, value: Any) -> str | None:
+    """Return a number or a truth value as a text of a launch file."""
+    if type(value) not in (bool, int, float):
+        return None
+    if source != repr(value):
+        return f"str({source})"
+    return repr(source.lower() if isinstance(value, bool) else source)
+
+
+def _words(source: str, value: Any) -> str | None:
+    """Return a text with the words of a command line as a list of them."""
+    if isinstance(value, str):
+        if source[1:-1] == value:
+            return repr(value.split()) if _PLAIN.fullmatch(value) else None
+        return f"{source}.split()" if " " in value else f"[{source}]"
+    return f"[{source}]" if callable(getattr(value, "perform", None)) else None
+
+
+def _condition(source: str, value: Any) -> str | None:
+    """Return a condition that is made of what was given as one."""
+    if isinstance(value, bool):
+        return f"IfCondition({str(value).lower()!r})" if source == repr(value) else None
+    if isinstance(value, str) or callable(getattr(value, "perform", None)):
+        return f"IfCondition({source})"
+    return None
+
+
+def _remappings(source: str, value: Any) -> str | None:
+    """Return remappings that are a dictionary as a list of pairs."""
+    if not isinstance(value, dict):
+        return None
+    is_plain = source.startswith("{") and all(
+        isinstance(item, str) for pair in value.items() for item in pair
+    )
+    return repr(list(value.items())) if is_plain else f"list({source}.items())"
+
+
+def _pair(source: str, value: str) -> str:  # noqa: ARG001 - as the others
+    """Return a remapping of the command line as that of a launch file."""
+    name, _, target = value.partition(":=")
+    return f"({name!r}, {target!r})"
+
+
+def _one_of_many(source: str, value: Any) -> str:
+    """Return a list of one thing."""
+    is_list = isinstance(value, list) and source[:1] + source[-1:] == "[]"
+    return f"[({source[1:-1]})]" if is_list else f"[{source}]"
+
+
+def _parameters(source: str, value: Any) -> str | None:
+    return None if isinstance(value, tuple) else _one_of_many(source, value)
+
+
+def _actions(source: str, value: Any) -> str | None:
+    """Return a list of one action."""
+    return f"[{source}]" if callable(getattr(value, "visit", None)) else None
+
+
+def _uncalled(source: str, value: Any) -> str | None:
+    return f"{source}()" if callable(value) else None
+
+
+def _handed_over(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the others
+    """Return a function that was called in place of being handed over."""
+    called = _CALLED.fullmatch(source)
+    return None if called is None else called[1]
+
+
+def _nothing(source: str, value: Any) -> str | None:
+    return "[]" if value is None and source == "None" else None
+
+
+def _is_ours(kind: type[Any]) -> bool:
+    """Return whether a class is one of the launch language."""
+    return kind.__module__.startswith("orchestra.compat.")
+
+
+_FORMS: Final[dict[str, _Form]] = {
+    "expected a text": _as_text,
+    "of a launch argument is a text": _as_text,
+    "a remapping is a tuple": _pair,
+    " is a list of words, not": _words,
+    "a condition is made by IfCondition": _condition,
+    "remappings are a list of tuples of two names, not": _remappings,
+    "this is one of them: ": _one_of_many,
+    "parameters are a list of dictionaries and files, not ": _parameters,
+    "'parameters' of a Node is a list, not ": _parameters,
+    "is a list, this is": _actions,
+    "a list of actions is expected": _actions,
+    "is not called": _uncalled,
+    "of an OpaqueFunction cannot be called": _handed_over,
+    "of None has no action": _nothing,
+}
