@@ -373,7 +373,7 @@ def test_with_nobody_to_answer_a_goal_is_driven_to_until_the_place_is_told_to_be
         return len(asked) >= count
 
     try:
-        standing = {"max_linear_vel": 0.0, "progress_timeout": 600.0}
+        standing: dict[str, Any] = {"max_linear_vel": 0.0, "progress_timeout": 600.0}
         assert room.set(claim_service="/silent_monitor/claim_goal", **standing)[0][0]
         handle = room.send(room.goal(*elsewhere(room)))
         room.until(lambda: heard(1), "the place is asked for")
