@@ -10,12 +10,24 @@ The library itself, and what it needs to write code, is imported only where some
 
 from __future__ import annotations
 
-from operator import attrgetter, ge, gt, le, lt
-from reprlib import recursive_repr
+from operator import ge, gt, le, lt
 
-from orchestra.fields import UNWRITTEN, ForLibrary, fields, getstate, own_fields, refusals, setstate
+from orchestra.fields import (
+    UNWRITTEN,
+    ForLibrary,
+    equality,
+    fields,
+    getstate,
+    hashing,
+    ordering,
+    own_fields,
+    refusals,
+    repr_of,
+    setstate,
+    values_of,
+)
 
-__all__ = ["changer", "dataclass", "maker", "opened"]
+__all__ = ["changer", "dataclass", "maker", "opened", "unguard"]
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -77,19 +89,19 @@ def _made(cls: type, *, frozen: bool, eq: bool, order: bool, slots: bool, kw_onl
     made.__record_fields__ = items
     methods: dict[str, Any] = {"__init__": _Late(made, frozen=frozen)}
     methods["__match_args__"] = tuple(item.name for item in items if item.init and not item.kw_only)
-    methods["__repr__"] = _repr(tuple(item.name for item in items if item.repr))
+    methods["__repr__"] = repr_of(tuple(item.name for item in items if item.repr))
     methods["__dataclass_fields__"] = ForLibrary(made, "__dataclass_fields__")
     methods["__dataclass_params__"] = ForLibrary(made, "__dataclass_params__")
     if eq:
-        methods["__eq__"] = _eq(_values([item.name for item in items if item.compare]))
+        methods["__eq__"] = equality(values_of([item.name for item in items if item.compare]))
         # As the standard library decides: a class that says how it is compared has None here, and gets no other.
         hashed = [item.name for item in items if (item.compare if item.hash is None else item.hash)]
-        methods["__hash__"] = _hash(_values(hashed)) if frozen else None
+        methods["__hash__"] = hashing(values_of(hashed)) if frozen else None
         if vars(made).get("__hash__") is None and "__eq__" in own:
             own.discard("__hash__")
     if order:
-        values = _values([item.name for item in items if item.compare])
-        methods.update((f"__{name}__", _ordered(values, compare)) for name, compare in _ORDER.items())
+        values = values_of([item.name for item in items if item.compare])
+        methods.update((f"__{name}__", ordering(values, compare)) for name, compare in _ORDER.items())
     if frozen:
         methods["__setattr__"], methods["__delattr__"] = refusals(made, frozenset(known))
         if slots:
@@ -129,7 +141,9 @@ class _Late:
             instance.__post_init__()
 
     def _compiled(self, instance: object, owner: type | None) -> Any:
-        method = _init(self._cls, frozen=self._frozen)
+        if self._frozen and _unguarded:
+            _left_open(self._cls)
+        method = _init(self._cls, frozen=self._frozen and not _unguarded)
         setattr(self._cls, "__init__", method)  # noqa: B010 - mypy takes the other way for a mistake
         return method.__get__(instance, owner)
 
@@ -192,42 +206,6 @@ def _assignment(item: Field, known: dict[str, Any], *, frozen: bool) -> str:
     return f"_set(self, {name!r}, {value})" if frozen else f"self.{name} = {value}"
 
 
-def _values(names: list[str]) -> Callable[[Any], tuple[Any, ...]]:
-    """Return what gives the values of these fields, always as a tuple: its comparison knows what is identical."""
-    if len(names) > 1:
-        return attrgetter(*names)
-    return lambda record: tuple(getattr(record, name) for name in names)
-
-
-def _repr(names: tuple[str, ...]) -> Any:
-    @recursive_repr()
-    def __repr__(self: Any) -> str:
-        return f"{type(self).__qualname__}({', '.join(f'{name}={getattr(self, name)!r}' for name in names)})"
-
-    return __repr__
-
-
-def _eq(values: Callable[[Any], tuple[Any, ...]]) -> Any:
-    def __eq__(self: Any, other: object) -> bool:
-        return values(self) == values(other) if other.__class__ is self.__class__ else NotImplemented
-
-    return __eq__
-
-
-def _ordered(values: Callable[[Any], tuple[Any, ...]], compare: Callable[[Any, Any], bool]) -> Any:
-    def ordered(self: Any, other: object) -> bool:
-        return compare(values(self), values(other)) if other.__class__ is self.__class__ else NotImplemented
-
-    return ordered
-
-
-def _hash(values: Callable[[Any], tuple[Any, ...]]) -> Any:
-    def __hash__(self: Any) -> int:
-        return hash(values(self))
-
-    return __hash__
-
-
 def maker(cls: Callable[P, T]) -> Callable[P, T]:
     """Return what makes objects of a frozen class with slots as calling it does, in a third of the time.
 
@@ -260,9 +238,10 @@ class _Maker:
     def _compile(self) -> None:
         known = self._known
         items: Any = fields(self._cls)
-        known.update(_unwritten=UNWRITTEN, _new=object.__new__, _cls=self._cls, _open=opened(self._cls))
+        known.update(_unwritten=UNWRITTEN, _new=object.__new__, _cls=self._cls)
+        known["_open"] = _left_open(self._cls) if _unguarded else opened(self._cls)
         lines = ["self = _new(_open)", *(_assignment(item, known, frozen=False) for item in items)]
-        lines += ["self.__class__ = _cls", "return self"]
+        lines += [*([] if _unguarded else ["self.__class__ = _cls"]), "return self"]
         words = [_parameter(item, known) for item in items if item.init]
         text = "\n ".join([f"def make({', '.join(words)}):", *lines])
         exec(compile(text, _MADE, "exec"), known)  # noqa: S102 - names of fields, which are identifiers
@@ -275,11 +254,32 @@ def _called(*args: Any, **named: Any) -> Any:
     return globals()["_maker"].make(*args, **named)
 
 
+# Both make up one slot of a type, which is quick only where neither is one of Python code.
+_OPEN = {"__setattr__": object.__setattr__, "__delattr__": object.__delattr__}
+_unguarded = False
+
+
 def opened(cls: Any) -> type:
     """Return a class of the same layout whose objects can become ones of this class, and whose fields are open."""
-    # Both make up one slot of a type, which is quick only where neither is one of Python code.
-    quick = {"__setattr__": object.__setattr__, "__delattr__": object.__delattr__}
-    return type(f"_Open{cls.__name__}", cls.__bases__, {"__slots__": cls.__slots__, **quick})
+    return type(f"_Open{cls.__name__}", cls.__bases__, {"__slots__": cls.__slots__, **_OPEN})
+
+
+def unguard() -> None:
+    """Let makers leave their classes open from now on: fields are set in the object itself, and refused to nobody.
+
+    For a process that does one thing many times and has no use for its objects afterwards. Where it is watched, the
+    interpreter tells of each object that becomes one of another class, which takes as long as to make it.
+    """
+    global _unguarded  # noqa: PLW0603 - a process is one, and does not go back
+    _unguarded = True
+
+
+def _left_open(cls: Any) -> type:
+    """Return the class itself, which refuses nothing any more."""
+    for name, method in _OPEN.items():
+        setattr(cls, name, method)
+    opened_class: type = cls
+    return opened_class
 
 
 def changer(cls: Callable[..., T], name: str) -> Callable[[T, Any], T]:

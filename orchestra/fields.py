@@ -6,12 +6,15 @@ To the standard library these classes have the same fields as its own, so its `f
 
 from __future__ import annotations
 
+from operator import attrgetter
+from reprlib import recursive_repr
 from types import MemberDescriptorType
 
 __all__ = ["field", "fields", "is_dataclass", "replace"]
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from dataclasses import field, fields, is_dataclass, replace
     from typing import Any
 
@@ -154,3 +157,39 @@ def setstate(self: Any, state: list[Any]) -> None:
     """Set the values of an object whose class has slots."""
     for item, value in zip(fields(self), state, strict=True):
         object.__setattr__(self, item.name, value)
+
+
+def values_of(names: list[str]) -> Callable[[Any], tuple[Any, ...]]:
+    """Return what gives the values of these fields, always as a tuple: its comparison knows what is identical."""
+    if len(names) > 1:
+        return attrgetter(*names)
+    return lambda record: tuple(getattr(record, name) for name in names)
+
+
+def repr_of(names: tuple[str, ...]) -> Any:
+    @recursive_repr()
+    def __repr__(self: Any) -> str:
+        return f"{type(self).__qualname__}({', '.join(f'{name}={getattr(self, name)!r}' for name in names)})"
+
+    return __repr__
+
+
+def equality(values: Callable[[Any], tuple[Any, ...]]) -> Any:
+    def __eq__(self: Any, other: object) -> bool:
+        return values(self) == values(other) if other.__class__ is self.__class__ else NotImplemented
+
+    return __eq__
+
+
+def ordering(values: Callable[[Any], tuple[Any, ...]], compare: Callable[[Any, Any], bool]) -> Any:
+    def ordered(self: Any, other: object) -> bool:
+        return compare(values(self), values(other)) if other.__class__ is self.__class__ else NotImplemented
+
+    return ordered
+
+
+def hashing(values: Callable[[Any], tuple[Any, ...]]) -> Any:
+    def __hash__(self: Any) -> int:
+        return hash(values(self))
+
+    return __hash__

@@ -287,3 +287,27 @@ def test_what_a_maker_makes_is_what_the_class_makes() -> None:
     assert not frozen("a").made
     with pytest.raises(TypeError):
         frozen()  # type: ignore[call-arg] # refused at run time too
+
+
+def test_where_nothing_is_refused_objects_are_made_as_what_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whoever watches this process is told of each object that becomes one of another class."""
+    monkeypatch.setattr("orchestra.dataclass._unguarded", True)
+
+    @dataclass(frozen=True, slots=True)
+    class Outer:
+        name: str
+        many: tuple[int, ...] = ()
+
+    @dataclass(frozen=True, slots=True)
+    class Inner(Outer):
+        more: str = "more"
+
+    make: Any = maker(Inner)
+    for _ in range(5):  # the first few are made by the class
+        made = make("a", more="b")
+        assert (type(made), made) == (Inner, Inner("a", (), "b"))
+    assert "__class__" not in make.__code__.co_names
+    assert (hash(made), repr(made)) == (hash(Inner("a", (), "b")), repr(Inner("a", (), "b")))
+    assert dataclasses.replace(made, name="c") == Inner("c", (), "b")
+    assert copy.copy(made) == made
+    assert Outer("a") != made

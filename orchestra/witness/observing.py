@@ -9,19 +9,20 @@ from functools import wraps
 from types import CodeType
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
+from orchestra.dataclass import unguard
 from orchestra.witness import looking, origins, unknowable
-from orchestra.witness.origins import INSTALLED, OURS, is_python, source_of
+from orchestra.witness.origins import INSTALLED, is_python, source_of
 from orchestra.witness.record import Record, question
 from orchestra.witness.variables import ObservedData
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+    from contextlib import AbstractContextManager
 
     from orchestra.witness.record import Signature
 
 _AnswerT = TypeVar("_AnswerT")
 
-_MOST_PATHS: Final = 100_000  # that are remembered
 _WRITING: Final = os.O_WRONLY | os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_TRUNC
 
 
@@ -37,9 +38,10 @@ class Observer:
         self.scratch: str | None = None
         self.foreign: set[str] = set()
         self.code: set[str] = set()
-        self._aside = 0
+        self._aside = 0  # how many times it is told to record nothing
+        self._being_aside = _Aside(self)
         self._seen: dict[str, Signature | None] = {}
-        self._parts: dict[int, Record] = {}
+        self._parts: set[Record] = set()
         self._digests: dict[str, tuple[Signature | None, str]] = {}
         self._folders = looking.Folders().listing
         self._installed: Record = Record()
@@ -47,7 +49,8 @@ class Observer:
         self._environment: dict[str, str] = {}
         self._paths: set[tuple[Any, ...]] = set()
         self._harmless: set[str] = set()
-        self._wholes: dict[str, str | None] = {}
+        self._outside = origins.Outside(lambda: self.scratch)
+        self._whole = self._outside.whole
         self.installed, self.asks = False, True
         self.kept: dict[tuple[Any, ...], tuple[Record, Any]] = {}
 
@@ -60,6 +63,7 @@ class Observer:
         """Begin to watch this process, which cannot be undone."""
         if not self.installed:
             self.installed = True
+            unguard()
             sys.addaudithook(unknowable.sifted(self._heard, self._harmless))
             looking.wrap(self._wrapped)
             environ: Any = os.environ
@@ -67,22 +71,19 @@ class Observer:
 
     def begin(self, environment: dict[str, str]) -> None:
         """Begin a record; `environment` is the one that counts as being outside."""
-        self.record, self._seen, self.ran_code, self.certain, self._parts = Record(), {}, False, True, {}
+        self.record, self._seen, self.ran_code, self.certain, self._parts = Record(), {}, False, True, set()
         self._environment, self._paths = environment, set()
-        if len(self._wholes) > _MOST_PATHS:
-            self._wholes.clear()
+        self._outside.shorten()
 
     def end(self) -> Record:
         """Return the record, complete with what the files were that have been opened."""
         record = self.record
         if record is None:
             raise AssertionError("nothing has begun")
-        with self.aside():
-            for path, before in self._seen.items():
-                self._complete(record, path, before)
-            if self.ran_code:
-                record.depend(self._installed)
-            if self.ran_code and self.foreign:
+        self._complete_all(record)
+        if self.ran_code:
+            record.depend(self._installed)
+            if self.foreign:
                 record.unknown = record.unknown or f"code outside Python has been loaded: {min(self.foreign)}"
         self.record = None
         return record
@@ -90,33 +91,26 @@ class Observer:
     @contextmanager
     def part(self) -> Iterator[Record]:
         """Record for a while what belongs to one part of the result, which may serve others; see `depend`."""
-        outer, seen, parts, part = self.record, self._seen, self._parts, Record()
+        part, outer, seen, parts = Record(), self.record, self._seen, self._parts
         if outer is None:
             yield part
             return
-        self.record, self._seen, self._parts = part, {}, {}
+        self.record, self._seen, self._parts = part, {}, set()
         try:
             yield part
         finally:
-            with self.aside():
-                for path, before in self._seen.items():
-                    self._complete(part, path, before)
+            self._complete_all(part)
             self.record, self._seen, self._parts = outer, seen, parts
 
     def depend(self, part: Record) -> None:
         """Record that the result has a part that is recorded already."""
-        if id(part) not in self._parts and self.record is not None and not self._aside:
-            self._parts[id(part)] = part  # kept, so that no other one gets its number
+        if part not in self._parts and self.record is not None and not self._aside:
+            self._parts.add(part)
             self.record.depend(part)
 
-    @contextmanager
-    def aside(self) -> Iterator[None]:
+    def aside(self) -> AbstractContextManager[None]:
         """Record nothing for a while: what is looked at decides nothing, or is recorded in another way."""
-        self._aside += 1
-        try:
-            yield
-        finally:
-            self._aside -= 1
+        return self._being_aside
 
     def variable(self, name: str) -> None:
         """Record that a variable of the environment is read."""
@@ -155,6 +149,12 @@ class Observer:
             if path not in looks:
                 with self.aside():
                     looks[path] = self._folders(path) if kind == "listing" else looking.LOOKS[kind](path)
+
+    def _complete_all(self, record: Record) -> None:
+        if self._seen:
+            with self._being_aside:
+                for path, before in self._seen.items():
+                    self._complete(record, path, before)
 
     def _complete(self, record: Record, path: str, before: Signature | None) -> None:
         known = self._digests.get(path)
@@ -197,23 +197,6 @@ class Observer:
         whole = self._whole(path)
         if whole is not None:
             self._look(kind, whole)
-
-    def _whole(self, path: Any) -> str | None:
-        """Return the absolute path of something outside; None for what is no path, or ours alone."""
-        try:
-            text = os.fsdecode(path)
-        except TypeError:
-            return None
-        if not text.startswith("/"):
-            return self._outside(os.path.join(os.getcwd(), text))
-        if text not in self._wholes:
-            self._wholes[text] = self._outside(text)
-        return self._wholes[text]
-
-    def _outside(self, whole: str) -> str | None:
-        if self.scratch is not None and whole.startswith(self.scratch):
-            return None
-        return None if whole.startswith((OURS, "/proc/self/task")) or is_python(whole) else whole
 
     def _heard(self, event: str, args: tuple[Any, ...]) -> None:
         """Be told of something by the interpreter that is not known to be harmless."""
@@ -290,6 +273,21 @@ class Observer:
             sign = unknowable.sign_in(code)
             if sign is not None:
                 self.unknown(f"code uses {sign}")
+
+
+class _Aside:
+    """While it is entered, how often that may be, nothing is recorded."""
+
+    __slots__ = ("_observer",)
+
+    def __init__(self, observer: Observer) -> None:
+        self._observer = observer
+
+    def __enter__(self) -> None:
+        self._observer._aside += 1  # noqa: SLF001 - its own module
+
+    def __exit__(self, *error: object) -> None:
+        self._observer._aside -= 1  # noqa: SLF001
 
 
 _OBSERVER: Final = Observer()

@@ -6,12 +6,12 @@ import os
 import sys
 import sysconfig
 from importlib.util import source_from_cache
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.witness import looking
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Callable, Iterable
 
 OURS: Final = os.path.dirname(os.path.dirname(os.path.abspath(__file__))) + os.sep
 _PATHS: Final = sysconfig.get_paths()
@@ -26,6 +26,7 @@ INSTALLED: Final = tuple(
     for path in {_PATHS[name], os.path.realpath(_PATHS[name])}
 )
 OF_THE_KERNEL: Final = ("/proc/", "/sys/", "/dev/")
+_MOST_PATHS: Final = 100_000  # that are remembered
 
 
 def is_python(path: str) -> bool:
@@ -56,3 +57,39 @@ def loaded(more: Iterable[str] = ()) -> set[str]:
     """Return the files that are loaded as code, and some more; what is part of Python itself is left out."""
     files = {getattr(module, "__file__", None) for module in list(sys.modules.values())}
     return {file for file in (*files, *more) if isinstance(file, str) and not is_python(file)}
+
+
+class Outside:
+    """Tells which paths are of neither Orchestra nor Python.
+
+    `scratch` gives the folder of temporary files, whose names tell nothing; None where there is none.
+    """
+
+    def __init__(self, scratch: Callable[[], str | None]) -> None:
+        self._scratch = scratch
+        self._known: dict[str, str | None] = {}
+
+    def whole(self, path: Any) -> str | None:
+        """Return the absolute path of something outside; None for what is no path, or ours alone."""
+        if type(path) is str and path in self._known:
+            return self._known[path]
+        try:
+            text = os.fsdecode(path)
+        except TypeError:
+            return None
+        if not text.startswith("/"):
+            return self._told(os.path.join(os.getcwd(), text))
+        if text not in self._known:
+            self._known[text] = self._told(text)
+        return self._known[text]
+
+    def shorten(self) -> None:
+        """Forget what is known of paths where that is much."""
+        if len(self._known) > _MOST_PATHS:
+            self._known.clear()
+
+    def _told(self, whole: str) -> str | None:
+        scratch = self._scratch()
+        if scratch is not None and whole.startswith(scratch):
+            return None
+        return None if whole.startswith((OURS, "/proc/self/task")) or is_python(whole) else whole

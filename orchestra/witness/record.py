@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 Signature: TypeAlias = tuple[int, ...]
 
 
-@dataclass(slots=True)
+@dataclass(slots=True, eq=False)
 class Record:
     """What a result depends on.
 
@@ -45,15 +45,15 @@ class Record:
         """Return it with its parts and theirs, each once."""
         if not self.parts:
             return [self]
-        found = {id(self): self}
+        found = {self: None}
         waiting = [self]
         while waiting:
             for part in waiting.pop().parts:
-                if id(part) not in found:
-                    found[id(part)] = part
+                if part not in found:
+                    found[part] = None
                     if part.parts:
                         waiting.append(part)
-        return list(found.values())
+        return list(found)
 
     def whole(self) -> Record:
         """Return a record without parts that depends on the same; what is here counts before what is there."""

@@ -50,7 +50,7 @@ def take_environment(run: Resolution, span: Span) -> None:
     """Make what user code has done to the environment of this process part of the scope."""
     environment, now = run.scope.environment, environment_now()
     with observer().aside():
-        if now == environment:
+        if dict.__eq__(now, environment) is True:  # not `==`, as in `put_environment`
             return
         location = Location(span, run.context.included_from)
         for name in environment.keys() - now.keys():
