@@ -22,6 +22,7 @@ FIGURES = (
     Figure("plan-again", "`orchestra plan` of it again, all of it", _COMPOSE, "ratio", 3.0, "s", 1000, _SIZES, 20),
     Figure("plan-xml", "the same in XML", _YAML, "ratio", 1.0, "s", 1000, _SIZES, 20),
     Figure("plan-python", "the same in Python", _YAML, "ratio", 1.0, "s", 1000, _SIZES, 20),
+    Figure("plan-compiled", "the same in Python, planned before", _YAML, "ratio", 1.0, "s", 1000, _SIZES, 20),
     Figure(
         "plan-growth", "plan of 10,000 nodes in YAML", "plan of 1,000 nodes",
         "exponent", 1.1, "s", 1000, (100, 300, 1000), 20,
@@ -58,21 +59,23 @@ def measure(site: Site, size: int) -> Mapping[str, Sample]:
     """Measure it with so many nodes, and with ten times as many."""
     files = {language: node_tree.write(site.folder, language, size) for language in ("yaml", "xml", "py")}
     composed = launching.printed(_COMPOSING, [files["yaml"].parent], site)
+    # New in a folder that code is imported from, it would be a reason to make the plan again.
+    (site.folder / "cache").mkdir()
     yaml, xml, python = (_planned(site, language, file, size) for language, file in files.items())
+    compiled = _planned(site, "py", files["py"], size)
     many = _planned(site, "yaml", node_tree.write(site.folder, "yaml", 10 * size), 10 * size)
     return {
         "plan-yaml": Sample(yaml, composed),
         "plan-again": Sample(_again(site, files["yaml"]), composed),
         "plan-xml": Sample(xml, yaml),
         "plan-python": Sample(python, yaml),
+        "plan-compiled": Sample(compiled, yaml),
         "plan-growth": Sample(many, yaml),
     }
 
 
 def _again(site: Site, file: Path) -> float:
     """Return the seconds that a command took which another one with the same words came before."""
-    # New in a folder that code is imported from, it would be a reason to make the plan again.
-    (site.folder / "cache").mkdir()
     _planning(site, file)
     before = resource.getrusage(resource.RUSAGE_CHILDREN)
     _planning(site, file)

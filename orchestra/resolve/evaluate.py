@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
-from orchestra.description.text import MatchedTemplate, Opaque, Words
+from orchestra.description.text import Call, MatchedTemplate, Opaque, Words
+from orchestra.location import new_location
 from orchestra.resolve.context import POISON, Poison, new_value
 from orchestra.resolve.substitutions.table import SUBSTITUTIONS
 
 if TYPE_CHECKING:
-    from orchestra.description.text import Call, Template
-    from orchestra.resolve.context import Context, Evaluated
+    from collections.abc import Sequence
+
+    from orchestra.description.text import Part, Template
+    from orchestra.resolve.context import Context, Evaluated, Value
+
+_VARIABLE: Final = "var"
 
 
 def evaluate(template: Template, context: Context) -> Evaluated:
@@ -20,13 +25,41 @@ def evaluate(template: Template, context: Context) -> Evaluated:
     """
     if type(template) is MatchedTemplate:
         return _matched(template, context)
-    parts = template.parts
-    if len(parts) == 1 and type(parts[0]) is Words and not template.faulty:
-        return new_value(parts[0].text, context.at(template.span), verbatim=True)
-    constant = template.constant if len(parts) != 1 else None
-    if constant is not None and not template.faulty:
-        return new_value(constant, context.at(template.span), verbatim=True)
+    if not template.faulty:
+        parts = template.parts
+        if len(parts) == 1 and type(parts[0]) is Words:
+            at = new_location(template.span, context.included_from)
+            return new_value(parts[0].text, at, verbatim=True)
+        value = _at_once(template, parts, context)
+        if value is not None:
+            return value
     return _concatenated(template, context)
+
+
+def _at_once(template: Template, parts: Sequence[Part], context: Context) -> Value | None:
+    """Return what a text comes to whose calls, if any, are variables without anything to tell of; else None."""
+    pieces: list[str | None] = []
+    names = []
+    for part in parts:
+        if type(part) is Words:
+            pieces.append(part.text)
+            continue
+        if type(part) is not Call or part.name != _VARIABLE:
+            return None
+        name = part.arguments[0]
+        if len(name.parts) != 1 or type(name.parts[0]) is not Words or name.faulty:
+            return None
+        names.append(name.parts[0].text)
+        pieces.append(None)
+    at = new_location(template.span, context.included_from)
+    if not names:
+        return new_value("".join(filter(None, pieces)), at, verbatim=True)
+    known = context.variables.known(names)
+    if known is None:
+        return None
+    values = iter(known[0])
+    text = "".join([next(values) if piece is None else piece for piece in pieces])
+    return new_value(text, at, through=known[1], raw=template.raw)
 
 
 def _concatenated(template: Template, context: Context) -> Evaluated:

@@ -10,7 +10,7 @@ from orchestra.dataclass import dataclass
 from orchestra.description.entity import Action, Entity
 from orchestra.description.fields import FLAG_WORDS
 from orchestra.description.launch import Description
-from orchestra.description.text import MatchedTemplate
+from orchestra.description.text import MatchedTemplate, Words
 from orchestra.errors import Code, Problems
 from orchestra.fields import field, replace
 from orchestra.location import Location, Span, location_of
@@ -178,8 +178,13 @@ class Resolution:
 
     def text(self, template: Template | None) -> str | Poison | None:
         """Return what a text comes to."""
-        if type(template) is MatchedTemplate and template.constant is not None:
-            return template.constant
+        if type(template) is MatchedTemplate:
+            if template.constant is not None:
+                return template.constant
+        elif template is not None and not template.faulty:
+            parts = template.parts
+            if len(parts) == 1 and type(parts[0]) is Words:
+                return parts[0].text
         value = self.evaluate(template)
         return value.text if isinstance(value, Value) else value
 

@@ -34,7 +34,7 @@ def check_doubled(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     nodes: list[ResolvedProcess | ResolvedComponent] = [*resolved.processes, *resolved.components]
     sections = _Sections()
     for node in nodes:
-        if len(node.parameters) < 2:  # noqa: PLR2004 - nothing stands twice
+        if _are_single(node.parameters):
             continue
         own = [item for item in node.parameters if not item.everywhere and not is_python(item.location)]
         inline = [item for item in own if isinstance(item, InlineParameter)]
@@ -42,6 +42,12 @@ def check_doubled(resolved: Resolved, plan: Plan, problems: Problems) -> None:
         _check_values(inline, told, problems)
         if inline and len(own) > len(inline):
             _check_files(own, node_name(node), sections, told, problems)
+
+
+def _are_single(parameters: Sequence[ParameterSource]) -> bool:
+    """Return whether there are no files, and no name stands twice."""
+    names = {item.name for item in parameters if type(item) is InlineParameter}
+    return len(names) == len(parameters)
 
 
 def _check_values(inline: Sequence[InlineParameter], told: set[str], problems: Problems) -> None:
