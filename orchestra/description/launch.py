@@ -23,6 +23,7 @@ class Description:
 
     `path` is the absolute path. `deprecated` says why the file is not to be used any more. `lost` has every scalar of
     the actions that have been left out for their faults: what they would have provided is not reported missing.
+    `foreign` tells that the file may have variables in it as other languages write them.
     """
 
     path: str
@@ -30,3 +31,4 @@ class Description:
     actions: tuple[Action, ...]
     deprecated: Template | None = None
     lost: frozenset[str] = frozenset()
+    foreign: bool = False

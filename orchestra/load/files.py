@@ -8,11 +8,13 @@ from typing import TYPE_CHECKING, cast
 
 from orchestra.description.launch import Description
 from orchestra.errors import Code, Problems
+from orchestra.fields import replace
 from orchestra.load.encodings import UndecodableError, decoded
 from orchestra.load.entities import describe
 from orchestra.load.offsets import source
 from orchestra.load.reader import Reader
 from orchestra.location import Location, Span, displayed, point
+from orchestra.patterns import pattern
 from orchestra.witness.once import once, real
 
 if TYPE_CHECKING:
@@ -35,6 +37,7 @@ ONE_BY_ONE: dict[str, str] = {"xml_file": "xml_items", "yaml_file": "yaml_items"
 _LARGEST = 64 * 1024 * 1024
 _PIECE = 64 * 1024  # of a file that does not say how long it is
 _LONG = 1_000  # characters
+_FOREIGN = pattern(r"\$\{?\s*[A-Za-z_]|\{\{")  # what may be a variable as other languages write it
 
 
 def load(
@@ -61,11 +64,13 @@ def load(
     text = _text(path, file, problems, location)
     if text is None:
         return None
+    foreign = _FOREIGN.search(text) is not None
     actions = _one_by_one(text, file, module, reader) if len(text) >= _LONG else None
     if actions is not None:
-        return Description(path, file, actions)
+        return Description(path, file, actions, foreign=foreign)
     tree = import_module(f"orchestra.load.{module}").read(text, file, reader)
-    return None if tree is None else describe(tree, path, file, reader)
+    description = None if tree is None else describe(tree, path, file, reader)
+    return description if description is None or not foreign else replace(description, foreign=True)
 
 
 def _one_by_one(text: str, file: str, module: str, reader: Reader) -> tuple[Action, ...] | None:

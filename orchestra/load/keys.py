@@ -12,7 +12,7 @@ from orchestra.description.actions import ACTIONS
 from orchestra.description.source import Keyed, Listed
 from orchestra.errors import Code
 from orchestra.load.elements import Tagged, emptied, noun
-from orchestra.load.pairs import written_item
+from orchestra.load.pairs import whole_item, written_item
 from orchestra.load.words import ELSEWHERE, KEYS_ELSEWHERE, snake
 from orchestra.nearest import is_slip, nearest
 from orchestra.patterns import pattern
@@ -146,7 +146,11 @@ class _Strangers:
             message, instead = _parted(*joined.groups())
             stands_for = frozenset({spelled(joined[1])})
         elif near is None and self.pair is not None:
-            notes.append(f"it is written {self.pair[1]}")
+            whole = whole_item(self.mapping)
+            if whole is not None:
+                at, instead = whole, self.pair[1]
+            else:
+                notes.append(f"it is written {self.pair[1]}")
             stands_for = frozenset(self.pair[0])
         elif near is None and self.lacking:
             instead = _abbreviated(key, self.lacking)
@@ -155,7 +159,7 @@ class _Strangers:
             ]
             stands_for = frozenset({instead}) if instead is not None else self.lacking
         self.lacking -= stands_for
-        suggestion = None if instead is None else as_written(instead, key)
+        suggestion = instead if instead is None or " " in instead else as_written(instead, key)
         report(Code.UNKNOWN_KEY, message, at, suggestion=suggestion, notes=notes)
         return stands_for
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.description.source import Keyed, Listed, Written, shortened
+from orchestra.location import Span
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
@@ -60,6 +61,19 @@ def written_item(known: AbstractSet[str], content: Keyed) -> tuple[tuple[str, st
         return None
     pair = next((pair for pair in (_NAMED, _RULE) if known >= set(pair)), None)
     return None if pair is None else (pair, shortened(_items(content, pair), _LONGEST))
+
+
+def whole_item(content: Keyed) -> Span | None:
+    """Return the place of all of such an item, None where it is on several lines or is none of YAML."""
+    ((key, value),) = content.items()
+    at = content.keys_at[key]
+    if type(content) is not Keyed or not isinstance(value, Written) or value.null:
+        return None
+    end = content.span if content.span < at else value.span  # in flow form it has braces
+    begin = min(content.span, at)
+    if begin.line != end.end_line:
+        return None
+    return Span(begin.file, begin.line, begin.column, end.end_line, end.end_column)
 
 
 def _items(content: Keyed, pair: tuple[str, str]) -> str:

@@ -130,13 +130,12 @@ class _Shaper:
             tagged.place_later(lambda: {item.name: item.span(self.whole) for item in element.attributes})
             return
         separators = _separators(element)
+        lost = self._misspelt_separators(element, forms, tagged)
         for attribute in element.attributes:
-            if attribute in separators.values() or attribute.name.split(":")[0] == "xmlns":
+            if attribute in separators.values() or attribute.name.split(":")[0] in ("xmlns", *lost):
                 continue
             form = self._form(attribute.name, forms) or forms.others
             at = attribute.span(self.whole)
-            if self._misspelt_separator(attribute, element, forms, tagged):
-                continue
             if form.or_text:
                 tagged.put(attribute.name, attribute.written(self.whole), at)
             elif form.kind not in _ATTRIBUTES:
@@ -149,22 +148,24 @@ class _Shaper:
             else:
                 tagged.put(attribute.name, attribute.written(self.whole), at)
 
-    def _misspelt_separator(
-        self, attribute: Attribute, element: Element, forms: Forms, tagged: Tagged
-    ) -> bool:
-        """Report an attribute that is a slip for the one that separates the items of another; return whether it is."""
-        name = spelled(attribute.name)
-        if not forms.by_key or name in forms.by_key or "_" not in name:
-            return False
-        beside = {spelled(item.name) for item in element.attributes} & forms.by_key.keys()
-        near = nearest(name, {f"{key}{_SEPARATOR}" for key in beside} | forms.by_key.keys())
-        if near is None or not near.endswith(_SEPARATOR) or not is_slip(name, near):
-            return False
-        message = f"unknown attribute '{attribute.name}'"
-        near = near.replace("_", "-") if "-" in attribute.name else near
-        self.reader.error(Code.UNKNOWN_KEY, message, attribute.span(self.whole), suggestion=near)
-        _lose(tagged, near.removesuffix(_SEPARATOR))
-        return True
+    def _misspelt_separators(self, element: Element, forms: Forms, tagged: Tagged) -> tuple[str, ...]:
+        """Report attributes that are slips for those that separate the items of others; return the names of both."""
+        beside = {spelled(item.name): item.name for item in element.attributes}
+        lost = list[str]()
+        for name, written in beside.items():
+            if not forms.by_key or name in forms.by_key or not ("_" in name or name.endswith(_SEPARATOR[1:])):
+                continue
+            near = nearest(
+                name, {f"{key}{_SEPARATOR}" for key in beside.keys() & forms.by_key} | {*forms.by_key}
+            )
+            if near is None or not near.endswith(_SEPARATOR) or not is_slip(name, near):
+                continue
+            at = next(item for item in element.attributes if item.name == written).span(self.whole)
+            instead = near if "_" in written else near.replace("_", "-")
+            self.reader.error(Code.UNKNOWN_KEY, f"unknown attribute '{written}'", at, suggestion=instead)
+            _lose(tagged, near.removesuffix(_SEPARATOR))
+            lost += [written, beside[near.removesuffix(_SEPARATOR)]]
+        return tuple(lost)
 
     def _form(self, name: str, forms: Forms, *, actions: bool = False, element: bool = False) -> Form | None:
         """Return the form of a key, or of the one that it is a slip of unless it may as well be an action.

@@ -111,6 +111,10 @@ def visit_file(description: Description, run: Resolution) -> None:
         message = f"{description.file} is deprecated: {description.deprecated.constant}"
         run.problems.warning(Code.DEPRECATED, message, at)
     visit(description.actions, run)
+    if description.foreign:
+        from orchestra.resolve.foreign import warn_of_foreign  # noqa: PLC0415 - few files have anything of it
+
+        warn_of_foreign(description, run)
 
 
 def _report_faults(action: Action, run: Resolution) -> None:
@@ -146,6 +150,10 @@ def wanted(action: Conditional, word: str, run: Resolution) -> bool:
 
             run.found.doubts.append((action, doubts(action, run)))
         return False
+    if not run.inputs.launching and not is_python(action.span):
+        from orchestra.resolve.unvisited import doubts  # noqa: PLC0415 - as above
+
+        run.found.doubts.append((action, doubts(action, run, known=False)))
     if isinstance(value, Value):
         message = f"a condition is true or false, this is '{value.text}'"
         meant = nearest(value.text, FLAG_WORDS)

@@ -17,6 +17,9 @@ SIZES: Final = frozenset({"as", "core", "data", "fsize", "memlock", "msgqueue", 
 _LAST_CORE: Final = 8191  # Linux is built for 8192 at most
 _MOST: Final = 2**63 - 1
 _SIZE: Final = pattern(r"([0-9]{1,20})(?:\.([0-9]{1,20}))?\s*([KMGT]?)(?:i?B)?", re.IGNORECASE)
+_SAID: Final = pattern(
+    r"([0-9]+(?:\.[0-9]+)?)\s*([KMGT])i?(?:B|bytes?|ilo|ega|iga|era|egs?|igs?)\w*", re.IGNORECASE
+)
 _POWERS: Final = {"": 0, "K": 1, "M": 2, "G": 3, "T": 4}
 _CORES: Final = pattern(r"\s*([0-9]{1,20})\s*(?:-\s*([0-9]{1,20})\s*)?")
 _WORDS: Final = ("unlimited", "infinity", "infinite", "inf", "none", "max")
@@ -32,7 +35,9 @@ def size(text: str) -> int:
         number, rest = divmod(scaled, parts)
         if not rest and number <= _MOST:
             return number
-    raise UnfitError(f"expected a size as 512M or 2G, or a number of bytes, found '{shortened(text)}'")
+    said = _SAID.fullmatch(text.strip())
+    meant = f"{said[1]}{said[2].upper()}" if said is not None else None
+    raise UnfitError(f"expected a size as 512M or 2G, or a number of bytes, found '{shortened(text)}'", meant)
 
 
 def cap(text: str) -> int:

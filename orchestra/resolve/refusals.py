@@ -160,7 +160,8 @@ def report_missing_executable(
         return refuse(written, context, Code.MISSING_EXECUTABLE, told, notes=("`chmod +x` makes it so",))
     notes = (f"it has {', '.join(sorted(known))}",) if known else ("it has no executables",)
     told = f"package {package!r} has no executable {executable!r}"
-    meant = nearest(executable, known)
+    name = executable.rpartition("/")[2]
+    meant = name if name in known else nearest(executable, known)
     if value is not None:
         return refuse_value(value, context.problems, Code.MISSING_EXECUTABLE, told, meant=meant, notes=notes)
     return refuse(written, context, Code.MISSING_EXECUTABLE, told, meant=meant, notes=notes)

@@ -30,7 +30,8 @@ def remap(source: Template, target: Template, run: Resolution) -> ResolvedRemap 
     except InvalidName as error:
         value = left if error.name == left.text else right
         message = f"'{error.name}' cannot be a name: {error.fault.reason}"
-        meant = mended(value.text, rule_name_fault)
+        name = value.text.partition(":=")[0] if value is left else value.text
+        meant = name if rule_name_fault(name) is None else mended(name, rule_name_fault)
         refuse_value(value, run.problems, Code.BAD_NAME, message, meant=meant)
         return None
     same = left.text == right.text and source.constant is not None and source.constant == target.constant

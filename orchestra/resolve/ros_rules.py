@@ -1,6 +1,10 @@
 """Rules among the arguments of a node that rcl cannot read, so that the node ends at once: `-r chatter=talk`.
 
-Source: rcl, `_rcl_parse_remap_rule` and `_rcl_parse_param_rule`: a rule is in two parts with `:=` between them.
+And rules in vain, which stand where rcl does not look: `-p rate:=5` without `--ros-args` before it. Remaps it takes
+there too, with a warning of its own.
+
+Source: rcl, `_rcl_parse_remap_rule` and `_rcl_parse_param_rule`: a rule is in two parts with `:=` between them; what
+stands outside of `--ros-args` is measured with rclpy.
 """
 
 from __future__ import annotations
@@ -9,6 +13,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
+from orchestra.location import is_python
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
@@ -22,10 +27,18 @@ OPTIONS: Final = {
     **dict.fromkeys(("-p", "--param"), "NAME:=VALUE"),
 }
 _JOINED: Final = pattern(r"([\w/~.]+)(?:=|:)([^=:\s]+)")
+_FOR_ROS: Final = "--ros-args"
+_ALIKE: Final = pattern(r"-{0,2}ros[-_]?args?:?")
+_PARAMETERS: Final = ("-p", "--param")
+_RULE: Final = pattern(r"[\w/~.]+:=.*")
+_OF_ROS_1: Final = pattern(r"_(_params|_log_level|[A-Za-z]\w*):=(.+)")
+_OPTIONS: Final = {"_params": "--params-file", "_log_level": "--log-level"}
 
 
 def check_rules(words: Sequence[Value], problems: Problems, *, for_ros: bool) -> None:
     """Report rules without a `:=` where they stand; `for_ros` tells that all words are for rcl."""
+    if not for_ros:
+        _check_in_vain(words, problems)
     for option, word in _rules(words, for_ros=for_ros):
         if ":=" in word.text:
             continue
@@ -33,6 +46,35 @@ def check_rules(words: Sequence[Value], problems: Problems, *, for_ros: bool) ->
         message = f"'{word.text}' is no rule: behind {option} stands {OPTIONS[option]}"
         instead = f"{joined[1]}:={joined[2]}" if joined is not None else None
         problems.error(Code.BAD_VALUE, message, word.location, suggestion=instead)
+
+
+def _check_in_vain(words: Sequence[Value], problems: Problems) -> None:
+    """Report what is meant for rcl, which does not see it: the first of that, for what is behind it follows."""
+    for index, word in enumerate(words):
+        if word.text in (_FOR_ROS, "--"):
+            return
+        following = words[index + 1].text if index + 1 < len(words) else ""
+        if _ALIKE.fullmatch(word.text) and following.startswith("-"):
+            told = f"'{word.text}' is not {_FOR_ROS}: what follows is not for ROS"
+            problems.warning(Code.BAD_VALUE, told, word.location, suggestion=_FOR_ROS)
+            return
+        instead = _for_ros(word.text, following)
+        if instead is not None:
+            told = f"'{word.text}' is read by ROS only behind {_FOR_ROS}"
+            whole = _is_written(word) and not is_python(word.location)
+            problems.warning(Code.BAD_VALUE, told, word.location, suggestion=instead if whole else None)
+            return
+
+
+def _for_ros(text: str, following: str) -> str | None:
+    """Return how a word is written that ROS is to read, None for one that it is not meant for."""
+    if text in _PARAMETERS and _RULE.fullmatch(following):
+        return f"{_FOR_ROS} {text}"
+    found = _OF_ROS_1.fullmatch(text)
+    if found is None:
+        return None
+    option = _OPTIONS.get(found[1])
+    return f"{_FOR_ROS} {option} {found[2]}" if option else f"{_FOR_ROS} -p {found[1]}:={found[2]}"
 
 
 def _is_written(word: Value) -> bool:

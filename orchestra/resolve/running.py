@@ -12,6 +12,7 @@ from orchestra.description.running import ON_EXIT
 from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Poison, Read, Value
 from orchestra.resolve.dependencies import dependencies
+from orchestra.resolve.environment_names import is_faulty_name
 from orchestra.resolve.exit_codes import exit_codes
 from orchestra.resolve.for_all import emulate_tty, set_for_all
 from orchestra.resolve.idle_keys import check_keys
@@ -31,12 +32,11 @@ from orchestra.resolve.policies import restart, stop
 from orchestra.resolve.reactions import ResolvedStart
 from orchestra.resolve.readiness import life, readiness
 from orchestra.resolve.sound import Sound
-from orchestra.resolve.words import split
+from orchestra.resolve.worded import texts
 from orchestra.witness.variables import copied
 
 if TYPE_CHECKING:
     from orchestra.description.running import Running
-    from orchestra.description.text import Template
     from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
 
@@ -214,31 +214,6 @@ def _tell(process: ResolvedProcess, run: Resolution) -> None:
     process.origin._prepared_as(name, words_of(process), process.cwd, environment)  # noqa: SLF001 - a class of ours
 
 
-def texts(
-    argv: Template | tuple[Template, ...] | None, run: Resolution, *, for_ros: bool | None = None
-) -> tuple[str, ...] | Poison:
-    """Return words: a text is split as a shell would, an item of a list is one word.
-
-    A text that is empty, or blank, is one empty word (launch, `ExecuteProcess._parse_cmdline`). Of a node, `for_ros`
-    tells whether all words are for rcl, or those behind `--ros-args` only.
-    """
-    if argv is None:
-        return ()
-    words = split(argv, run.context)
-    if isinstance(words, Poison):
-        return POISON
-    if for_ros is not None and any(word.text == "--log-level" for word in words):
-        # Here, because few nodes have one.
-        from orchestra.resolve.log_levels import check_levels  # noqa: PLC0415
-
-        check_levels(words, run.problems, for_ros=for_ros)
-    if for_ros is not None and len(words) > 1:
-        from orchestra.resolve.ros_rules import check_rules  # noqa: PLC0415 - as above
-
-        check_rules(words, run.problems, for_ros=for_ros)
-    return tuple(word.text for word in words) or (() if isinstance(argv, tuple) else ("",))
-
-
 def _stdin(action: Running, run: Resolution) -> Location | Poison | None:
     """Return the place that says that the process reads what is typed."""
     reads = run.flag(action.stdin)
@@ -292,7 +267,7 @@ def _environment(action: Running, run: Resolution) -> dict[str, tuple[Environmen
     changes = dict(run.scope.changes) if action.env_only is None else {}
     for pair in (*(action.env_only or ()), *action.env):
         name, value = run.text(pair.name), run.evaluate(pair.value)
-        if not isinstance(name, str) or not isinstance(value, Value):
+        if not isinstance(name, str) or not isinstance(value, Value) or is_faulty_name(name, pair.name, run):
             return POISON
         change = EnvironmentChange(value.text, run.place(pair.value), value.through)
         changes[name] = (*changes.get(name, ()), change)

@@ -50,10 +50,13 @@ _ASKS: Final = re.compile(r"exists|is_?file|is_?dir", re.IGNORECASE)
 _FINDS: Final = ("find-pkg-share", "find-pkg-prefix", "exec-in-pkg")
 
 
-def doubts(action: Conditional, run: Resolution) -> Problems:
-    """Return what is wrong with an action that is left out, and with those in it, as warnings."""
+def doubts(action: Conditional, run: Resolution, *, known: bool = True) -> Problems:
+    """Return what is wrong with an action that is left out, and with those in it, as warnings.
+
+    Where it is not `known` what the condition comes to, for that is faulty, they are errors as everywhere.
+    """
     found = Problems()
-    look = _Look(action, run, found)
+    look = _Look(action, run, found, known=known)
     for entity in entities_in(action):
         look.at_packages(entity)
         if isinstance(entity, Node):
@@ -68,9 +71,10 @@ def doubts(action: Conditional, run: Resolution) -> Problems:
 class _Look:
     """A look at an action that is left out, with the variables that do not depend on why it is."""
 
-    def __init__(self, action: Conditional, run: Resolution, found: Problems) -> None:
+    def __init__(self, action: Conditional, run: Resolution, found: Problems, *, known: bool) -> None:
         self.run = run
         self.found = found
+        self.known = known
         conditions = [item for item in map(_condition, entities_in(action)) if item is not None]
         self.variables = _independent(action, conditions, run.scope.variables)
         self.asked = any(_ASKS.search(item.raw) for item in conditions)
@@ -163,8 +167,11 @@ class _Look:
         self, code: Code, told: str, written: Template, meant: str | None, notes: tuple[str, ...] = ()
     ) -> None:
         at: Location = self.run.at(written.span)
-        notes = (*notes, "a condition leaves this out here")
-        self.found.warning(code, told, at, suggestion=meant, notes=notes)
+        if self.known:
+            notes = (*notes, "a condition leaves this out here")
+            self.found.warning(code, told, at, suggestion=meant, notes=notes)
+        else:
+            self.found.error(code, told, at, suggestion=meant, notes=notes)
 
 
 def _condition(entity: Entity) -> Template | None:

@@ -12,16 +12,18 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
-from orchestra.description.text import MatchedTemplate, Words
+from orchestra.description.text import MatchedTemplate, Opaque, Words
 from orchestra.errors import Code
 from orchestra.fields import field
 from orchestra.location import Span, inside, is_within
 from orchestra.patterns import pattern
-from orchestra.resolve.context import POISON, Poison, Value, new_value
+from orchestra.resolve.context import POISON, Poison, Read, Value, new_value
 from orchestra.resolve.evaluate import evaluate, perform
 
 if TYPE_CHECKING:
-    from orchestra.description.text import Template
+    from collections.abc import Sequence
+
+    from orchestra.description.text import Call, Template
     from orchestra.resolve.context import Context
 
 _BLANKS: Final = " \t\r\n"
@@ -56,19 +58,30 @@ def _split(template: Template, context: Context) -> tuple[Value, ...] | Poison:
         if isinstance(part, Words):
             _read(part, splitter)
             continue
-        value = perform(part, context)
+        with context.variables.tracing() as reads:
+            value = perform(part, context)
         if isinstance(value, Poison):
             poisoned = True
         else:
-            splitter.substituted(value.text, part.span)
+            splitter.substituted(value.text, part.span, reads, _as_written(part))
     if poisoned:
         return POISON
     splitter.end()
     for span, told in splitter.faults:
         _report(told, span, context)
-    return (
-        POISON if splitter.faults else tuple(Value(word, context.at(span)) for word, span in splitter.words)
+    if splitter.faults:
+        return POISON
+    return tuple(
+        Value(word.text, context.at(word.span), through=tuple(word.reads), raw=word.raw)
+        for word in splitter.words
     )
+
+
+def _as_written(part: Call | Opaque) -> str | None:
+    """Return a substitution as it is written, None where quotes or others in it leave that open."""
+    if isinstance(part, Opaque) or any(item.quoted for item in part.arguments):
+        return None
+    return f"$({' '.join([part.name, *(item.raw for item in part.arguments)])})"
 
 
 def _read(words: Words, splitter: _Splitter) -> None:
@@ -95,17 +108,32 @@ def _report(told: str, span: Span, context: Context) -> None:
     problems.error(Code.SUBSTITUTION_SYNTAX, told, context.at(place), suggestion=instead)
 
 
+@dataclass(frozen=True, slots=True)
+class _Word:
+    """A word: its text, its place, what was read for it, and what stands there where no quotes do."""
+
+    text: str
+    span: Span
+    reads: tuple[Read, ...]
+    raw: str | None
+
+
 @dataclass(slots=True)
 class _Splitter:
-    """The state between two characters: behind which backslash, inside which quote, within which word."""
+    """The state between two characters: behind which backslash, inside which quote, within which word.
 
-    words: list[tuple[str, Span]] = field(default_factory=list)
+    `raw` are the pieces of the current word as they are written, None among them for what is not known.
+    """
+
+    words: list[_Word] = field(default_factory=list)
     faults: list[tuple[Span, str]] = field(default_factory=list)
     backslash: Span | None = None
     quote: str = ""
     quote_at: Span | None = None
     pieces: list[str] | None = None
     spans: list[Span] = field(default_factory=list)
+    raw: list[str | None] = field(default_factory=list)
+    reads: list[Read] = field(default_factory=list)
 
     def literal(self, character: str, span: Span) -> None:
         """Take a character of the literal text."""
@@ -127,24 +155,37 @@ class _Splitter:
         else:
             self.append(character, span)
 
-    def substituted(self, text: str, span: Span) -> None:
-        """Take the result of a substitution."""
+    def substituted(self, text: str, span: Span, reads: Sequence[Read], raw: str | None) -> None:
+        """Take the result of a substitution, which stands there as `raw`."""
         self.end_of_backslash()
         self.append(text, span)
+        self.raw[-1] = raw
+        self.reads += reads
 
     def append(self, text: str, span: Span) -> None:
         """Add to the current word, which begins here where there is none."""
         if self.pieces is None:
             self.pieces = []
         self.pieces.append(text)
+        self.raw.append(text or None)
         self.spans.append(span)
 
     def finish(self) -> None:
         """Finish the current word, if there is one."""
         if self.pieces is not None:
-            self.words.append(("".join(self.pieces), _joined(self.spans[0], self.spans[-1])))
+            raw = [piece for piece in self.raw if piece is not None]
+            self.words.append(
+                _Word(
+                    "".join(self.pieces),
+                    _joined(self.spans[0], self.spans[-1]),
+                    tuple(self.reads),
+                    "".join(raw) if len(raw) == len(self.raw) else None,
+                )
+            )
         self.pieces = None
         self.spans.clear()
+        self.raw.clear()
+        self.reads.clear()
 
     def end(self) -> None:
         """Finish the text."""

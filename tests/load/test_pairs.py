@@ -45,14 +45,11 @@ def test_what_is_shown_is_taken(tmp_path: Path, written: str, meant: str) -> Non
 @pytest.mark.parametrize(
     ("action", "notes", "suggestion"),
     [
-        ("node: {exec: a, param: [{rate: 2.0}]}", ("it is written {name: rate, value: 2.0}",), None),
-        ("node: {exec: a, remap: [{scan: /scan}]}", ("it is written {from: scan, to: /scan}",), None),
-        ("let: {world: maze}", ("it is written {name: world, value: maze}",), None),
-        (
-            "executable: {cmd: a, ready: {parameter: {rate: 5}}}",
-            ("it is written {name: rate, value: 5}",),
-            None,
-        ),
+        ("node: {exec: a, param: [{rate: 2.0}]}", (), "{name: rate, value: 2.0}"),
+        ("node: {exec: a, remap: [{scan: /scan}]}", (), "{from: scan, to: /scan}"),
+        ("let: {world: maze}", (), "{name: world, value: maze}"),
+        ("let:\n    world:\n      maze", ("it is written {name: world, value: maze}",), None),
+        ("executable: {cmd: a, ready: {parameter: {rate: 5}}}", (), "{name: rate, value: 5}"),
         ("unset_env: {x: y}", ("the key 'name' is missing",), None),
     ],
 )

@@ -318,7 +318,7 @@ FAULTS = [
     ("limits: {priority: 3}", "priority", "`priority` goes with `scheduler: fifo` or", None),
     ("limits: {scheduler: rr, priority: 0}", "0", "expected a whole number from 1 to 99, found '0'", None),
     ("limits: {memory: 0}", "0", "a process needs memory", None),
-    ("limits: {memory: 2 gigs}", "2 gigs", "expected a size as 512M or 2G", None),
+    ("limits: {memory: 2 gigs}", "2 gigs", "expected a size as 512M or 2G", "2G"),
     ("limits: {memory_lock: inf}", "inf", "expected a number or unlimited, found 'inf'", "unlimited"),
     ("limits: {memory_lock: 1, rlimits: {memlock: 1}}", "rlimits", "`memory_lock` and `memlock`", None),
     ("limits: {rlimits: {nofiles: 3}}", "nofiles", "unknown key 'nofiles'", "nofile"),

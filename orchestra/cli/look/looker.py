@@ -13,6 +13,7 @@ from orchestra.cli.look.finding import Finding
 from orchestra.cli.look.questions import RecordedPackages
 from orchestra.cli.look.sharing import SharedLoader
 from orchestra.cli.look.standing import Standing
+from orchestra.declared.alone import check_common
 from orchestra.errors import HERE, Code, Problems, Severity
 from orchestra.fields import replace
 from orchestra.location import Location, displayed, point
@@ -121,7 +122,7 @@ class Looker:
             message = f"cannot read the parameter file {file}: {error}"
             problems.error(Code.UNREADABLE_FILE, message, Location(point(file)))
         else:
-            read_parameter_file(text, file, problems, ())
+            check_common(read_parameter_file(text, file, problems, ()), problems)
         settle(problems, str(Path(path).absolute()), self._inputs.severity)
         silencing = frozenset(problems.silencing)
         return Finding(real(path), problems.ordered, silencing=silencing, comments=_has_comments(path))

@@ -11,6 +11,7 @@ from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.programs import program_words
 from orchestra.resolve.running import Program, add_process
+from orchestra.resolve.worded import look_at_paths
 from orchestra.resolve.words import split
 
 if TYPE_CHECKING:
@@ -54,5 +55,6 @@ def _words(action: Executable, run: Resolution) -> tuple[str, ...] | Poison:
     if run.flag(action.shell, default=False) is True:
         return (words[0].text, *rest)
     first = words[0]
+    look_at_paths(words[1:], run)
     program = program_words(first.text, first.location, run, elsewhere=action.cwd is not None)
     return POISON if isinstance(program, Poison) else (*program, *rest)

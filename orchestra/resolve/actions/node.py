@@ -14,8 +14,9 @@ from orchestra.resolve.params_schema import params_schema
 from orchestra.resolve.programs import packaged_words
 from orchestra.resolve.python_programs import module_words, script_words
 from orchestra.resolve.remapping import remaps
-from orchestra.resolve.running import add_process, new_program, texts
+from orchestra.resolve.running import add_process, new_program
 from orchestra.resolve.unpackaged import unpackaged_words
+from orchestra.resolve.worded import texts
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

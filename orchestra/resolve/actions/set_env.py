@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.errors import Code
 from orchestra.resolve.context import Value
+from orchestra.resolve.environment_names import is_faulty_name
 
 if TYPE_CHECKING:
     from orchestra.description.actions.set_env import SetEnv
@@ -15,11 +15,9 @@ if TYPE_CHECKING:
 def visit(action: SetEnv, run: Resolution) -> None:
     """Set an environment variable for what follows."""
     name, value = run.text(action.name), run.evaluate(action.value)
-    if isinstance(name, str) and "=" in name:
-        message = f"'{name}' cannot be the name of a variable: it holds '='"
-        instead = name.partition("=")[0] if action.name.constant is not None else None
-        run.problems.error(Code.BAD_NAME, message, run.place(action.name), suggestion=instead)
-    elif isinstance(name, str) and isinstance(value, Value):
+    if isinstance(name, str) and is_faulty_name(name, action.name, run):
+        return
+    if isinstance(name, str) and isinstance(value, Value):
         run.scope.change(name, value.text, run.place(action.value), value.through)
     elif isinstance(name, str):
         run.found.lost.add(name)

@@ -14,6 +14,7 @@ from orchestra.dataclass import dataclass
 from orchestra.description.source import shortened
 from orchestra.errors import Code
 from orchestra.patterns import pattern
+from orchestra.resolve.rcl.oddities import report_oddities
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -53,6 +54,7 @@ class Surprise:
 def report_surprises(sections: Sequence[Section], text: str, problems: Problems) -> None:
     """Report what is surprising about the values in the text of a file; in a list the first."""
     lines = _BREAK.split(text)
+    report_oddities(sections, lines, problems)
     for section in sections:
         for entry in section.entries:
             for value, location in _scalars(entry):

@@ -1,0 +1,68 @@
+"""Variables as other languages write them: `$world`, `${world}`, `{{ world }}`. They stay the texts that they are.
+
+Told is only of names that the file declares or that are set where it is read: `${HOME}` may be for a shell.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from orchestra.description.actions.arg import Arg
+from orchestra.description.actions.executable import Executable
+from orchestra.description.actions.let import Let
+from orchestra.description.text import Call, Words
+from orchestra.errors import Code
+from orchestra.fields import replace
+from orchestra.location import is_within
+from orchestra.patterns import pattern
+from orchestra.resolve.mentions import entities_in, templates_of
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from orchestra.description.launch import Description
+    from orchestra.description.text import Template
+    from orchestra.location import Span
+    from orchestra.resolve.resolution import Resolution
+
+_FOREIGN: Final = pattern(
+    r"(?<![\\$])\$(?:\{\s*([A-Za-z_]\w*)\s*\}|([A-Za-z_]\w*))|\{\{\s*([A-Za-z_]\w*)\s*\}\}"
+)
+
+
+def warn_of_foreign(description: Description, run: Resolution) -> None:
+    """Tell of variables in a file, which has been visited, that are none for the way in which they are written."""
+    entities = [item for item in entities_in(description.actions) if not _is_for_shell(item)]
+    declared = {item.name.constant for item in entities if isinstance(item, Arg | Let)}
+    known = declared | set(run.scope.variables)
+    told = [problem.span for problem in run.problems if problem.span is not None]
+    for entity in entities:
+        for template in templates_of(entity):
+            for name, span, written in _found(template):
+                if name in known and not any(is_within(span, at) or is_within(at, span) for at in told):
+                    message = f"{written} stays a text: a variable is written $(var {name})"
+                    at = run.at(span)
+                    run.problems.warning(Code.SUBSTITUTION_SYNTAX, message, at, suggestion=f"$(var {name})")
+
+
+def _is_for_shell(entity: object) -> bool:
+    return isinstance(entity, Executable) and entity.shell is not None
+
+
+def _found(template: Template) -> Iterator[tuple[str, Span, str]]:
+    """Yield the names of such variables, with their places and how they are written."""
+    for part in template.parts:
+        if isinstance(part, Call):
+            for argument in part.arguments:
+                yield from _found(argument)
+        elif isinstance(part, Words):
+            for found in _FOREIGN.finditer(part.text):
+                yield found[1] or found[2] or found[3], _place(part, *found.span()), found[0]
+
+
+def _place(words: Words, begin: int, end: int) -> Span:
+    """Return the place of characters: exact where the text is written as it reads, else that of the whole piece."""
+    span = words.span
+    if span.line != span.end_line or span.end_column - span.column != len(words.text):
+        return span
+    return replace(span, column=span.column + begin, end_column=span.column + end)

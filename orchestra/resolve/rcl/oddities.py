@@ -1,0 +1,116 @@
+"""What rcl takes and hardly anybody means: names that no node declares, numbers with units, lists within a text.
+
+Told of a unit is only where the same parameter of another node in the file is a number: most texts that look like
+numbers with units are texts.
+"""
+
+from __future__ import annotations
+
+from types import NoneType
+from typing import TYPE_CHECKING, Final
+
+from orchestra.description.source import shortened
+from orchestra.errors import Code
+from orchestra.fields import replace
+from orchestra.patterns import pattern
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
+    from orchestra.errors import Problems
+    from orchestra.location import Location
+    from orchestra.resolve.rcl.sections import Entry, Section
+
+_BLANKS: Final = pattern(r"\s*\w+(?:\s+\w+)*\s*")
+_UNIT: Final = pattern(
+    r"([-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)\s?"
+    r"(?:deg|degrees?|rad|m|cm|mm|km|s|sec|ms|us|ns|min|k?Hz|M[Hh]z|hz|m/s|rad/s|deg/s|m/s\^?2|kg|g|N|Nm|V|A|W|Ah|%|°)"
+)
+_TAG: Final = pattern(r"!\S*")
+_KINDS: Final = {"!!str": str, "!!int": int, "!!float": float, "!!bool": bool, "!!seq": tuple}
+_ITEM: Final = pattern(r"\s*(-\s.*?)\s*")
+
+
+def report_oddities(sections: Sequence[Section], lines: Sequence[str], problems: Problems) -> None:
+    """Report such names and values in the lines of a file."""
+    for section in sections:
+        for entry in section.entries:
+            if entry.value is not None:
+                _report_name(entry, lines, problems)
+                _report_tag(entry, lines, problems)
+            if isinstance(entry.value, str):
+                _report_unit(entry, entry.value, sections, problems)
+                _report_items(entry.location, entry.value, lines, problems)
+            elif isinstance(entry.value, tuple):
+                for value, at in zip(entry.value, entry.items, strict=False):
+                    if isinstance(value, str):
+                        _report_items(at, value, lines, problems)
+
+
+def _report_name(entry: Entry, lines: Sequence[str], problems: Problems) -> None:
+    """Report a name that begins with a slash, as those of topics do, and one with blanks in it."""
+    name = entry.name
+    if name[:1] != "/" and " " not in name and "\t" not in name:
+        return
+    key = _text_at(entry.key, lines).strip("\"'")
+    if key == name and name.startswith("/"):
+        told, instead = "names of parameters begin with no '/'", name.lstrip("/")
+    elif " " in key and _BLANKS.fullmatch(key):
+        told, instead = "names of parameters have no blanks", "_".join(key.split())
+    else:
+        return
+    message = f"no node declares '{shortened(key)}': {told}"
+    problems.warning(Code.SURPRISING_SCALAR, message, entry.key, suggestion=instead)
+
+
+def _report_tag(entry: Entry, lines: Sequence[str], problems: Problems) -> None:
+    """Report a tag that says something else than the type that the value has: to rcl only `!!str` says something."""
+    found = _TAG.match(_text_at(entry.location, lines))
+    if found is None or isinstance(entry.value, _KINDS.get(found[0], NoneType)):
+        return
+    span = entry.location.span
+    place = replace(span, end_line=span.line, end_column=span.column + len(found[0]))
+    read = "a list" if isinstance(entry.value, tuple) else repr(entry.value)
+    told = f"the tag {found[0]} says nothing to rcl, which reads {read}"
+    problems.warning(Code.SURPRISING_SCALAR, told, replace(entry.location, span=place))
+
+
+def _report_unit(entry: Entry, text: str, sections: Sequence[Section], problems: Problems) -> None:
+    found = _UNIT.fullmatch(text) if text[:1] in "+-.0123456789" else None
+    if found is None or not any(_is_number(other.value) for other in _others(entry, sections)):
+        return
+    told = f"'{text}' is a text: a number has no unit"
+    problems.warning(Code.SURPRISING_SCALAR, told, entry.location, suggestion=found[1])
+
+
+def _others(entry: Entry, sections: Sequence[Section]) -> Iterator[Entry]:
+    """Yield what is set for the same parameter of others."""
+    for section in sections:
+        yield from (other for other in section.entries if other.name == entry.name)
+
+
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _report_items(at: Location, value: str, lines: Sequence[str], problems: Problems) -> None:
+    """Report a line of a plain text that is an item of a list but for its indentation."""
+    span = at.span
+    if span.line == span.end_line or " - " not in value or _text_at(at, lines)[:1] in ("'", '"', "|", ">"):
+        return
+    for number in range(span.line + 1, span.end_line + 1):
+        line = lines[number - 1]
+        found = _ITEM.fullmatch(line)
+        if found is not None:
+            place = replace(span, line=number, column=found.start(1) + 1)
+            place = replace(place, end_line=number, end_column=found.end(1) + 1)
+            told = f"'{shortened(found[1])}' is indented so far that it belongs to the text above it"
+            problems.warning(Code.SURPRISING_SCALAR, told, replace(at, span=place))
+            return
+
+
+def _text_at(at: Location, lines: Sequence[str]) -> str:
+    """Return what stands at a place, on its first line."""
+    span = at.span
+    end = span.end_column - 1 if span.line == span.end_line else None
+    return lines[span.line - 1][span.column - 1 : end]
