@@ -12,7 +12,7 @@ from rclpy.signals import SignalHandlerOptions
 from orchestra.ros.capture.interfaces import interfaces_of
 from orchestra.ros.capture.parameters import parameters_of
 from orchestra.ros.observer.participant import hidden_node
-from orchestra.ros.observer.service import Service
+from orchestra.ros.observer.service import OwnService
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -73,7 +73,7 @@ class Asking:
 
     def ask(self, kind: Any, service: str, request: Any) -> Any:  # noqa: ANN401 - of an untyped package
         """Return the response of a service. Raises `NoAnswerError`."""
-        client = Service(self.node, kind, service)
+        client = OwnService(self.node, kind, service)
         answers: list[Any] = []
         try:
             if not self.wait(lambda: client.ready):

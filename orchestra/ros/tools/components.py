@@ -9,7 +9,7 @@ from rcl_interfaces.msg import Parameter
 
 from orchestra.errors import RunError, UsageError
 from orchestra.ros.interfaces.definitions import provide
-from orchestra.ros.observer.service import Service
+from orchestra.ros.observer.service import OwnService
 from orchestra.ros.tools.graph.asking import Deadline, ask
 from orchestra.ros.tools.graph.joining import joined
 from orchestra.ros.tools.graph.names import NO_CONTAINER, absolute, nodes, services, unknown
@@ -130,7 +130,7 @@ def _ordered(graph: Graph, kind: Any, service: str, request: Any, deadline: Dead
     An answer that comes before the container has discovered its reader is lost, so something harmless is asked first,
     when that reader is there: readers are discovered in the order in which they were made.
     """
-    client, answers = Service(graph.node, kind, service), list[Any]()
+    client, answers = OwnService(graph.node, kind, service), list[Any]()
     try:
         _loaded(graph, service.partition("/_container/")[0], deadline)
         if graph.wait(lambda: client.ready, deadline.left):

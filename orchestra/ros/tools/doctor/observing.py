@@ -11,7 +11,7 @@ from rclpy.qos import HistoryPolicy, QoSProfile, ReliabilityPolicy
 from rosgraph_msgs.msg import Clock
 
 from orchestra.ros.interfaces import tf_message_type
-from orchestra.ros.observer.service import Service
+from orchestra.ros.observer.service import OwnService
 from orchestra.ros.tools.doctor.members import members
 from orchestra.ros.tools.doctor.observed import Heard, Observed, Tick
 from orchestra.ros.tools.graph.hearing import subscribe
@@ -94,7 +94,7 @@ def _sim_time(graph: Graph, seen: System, timeout: float) -> dict[str, bool | No
     """
     offered = {name for name, types in seen.services if _ASKED in types}
     nodes = [node for node in dict.fromkeys(seen.nodes) if f"{node}{_ASK}" in offered]
-    clients = {node: Service(graph.node, GetParameters, f"{node}{_ASK}") for node in nodes}
+    clients = {node: OwnService(graph.node, GetParameters, f"{node}{_ASK}") for node in nodes}
     answers: dict[str, bool | None] = {}
     asked: set[str] = set()
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.errors import RunError
 from orchestra.nearest import nearest
-from orchestra.ros.observer.service import Service
+from orchestra.ros.observer.service import OwnService
 from orchestra.ros.tools.graph.names import NO_NODE, NO_SERVICE, absolute, nodes, services, unknown
 from orchestra.ros.tools.telling import warn
 
@@ -55,7 +55,7 @@ def ask(
 
     Raises `RunError` where the service is not there, or does not answer, in time.
     """
-    client = Service(graph.node, kind, service)
+    client = OwnService(graph.node, kind, service)
     answers: list[Any] = []
     try:
         if not graph.wait(lambda: client.ready, deadline.left, LOOK):
