@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import importlib
+import math
+from functools import cache
 
 
 def visible(modules: str) -> dict[str, object]:
@@ -13,7 +15,13 @@ def visible(modules: str) -> dict[str, object]:
     names: dict[str, object] = {}
     for name in filter(None, map(str.strip, modules.split(","))):
         module = importlib.import_module(name)
-        names[name.partition(".")[0]] = importlib.import_module(name.partition(".")[0])
+        top = name.partition(".")[0]
+        names[top] = module if top == name else importlib.import_module(top)
         if name == "math":
-            names |= {member: value for member, value in vars(module).items() if not member.startswith("_")}
+            names |= _members_of_math()
     return names
+
+
+@cache  # most expressions see them
+def _members_of_math() -> dict[str, object]:
+    return {member: value for member, value in vars(math).items() if not member.startswith("_")}

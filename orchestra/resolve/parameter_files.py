@@ -49,12 +49,14 @@ def file_parameters(
     value = run.evaluate(written)
     if not isinstance(value, Value):
         return None
-    needed = substitute or everywhere or plain
-    lacking = None if needed and (run.context.launching or not value.text) else _lacking(value, run)
-    if lacking is not None:
-        _warn_of_lacking(lacking, value, written, run)
-        return FileParameters("", (), value.location)
-    path = existing_file(value, written, "parameter file", run)
+    path = beside(run.context.file, value.text) if value.text else None
+    if path is None:
+        needed = substitute or everywhere or plain
+        lacking = None if needed and (run.context.launching or not value.text) else _lacking(value, run)
+        if lacking is not None:
+            _warn_of_lacking(lacking, value, written, run)
+            return FileParameters("", (), value.location)
+        path = existing_file(value, written, "parameter file", run)
     if path is None:
         return None
     if substitute:
@@ -82,7 +84,7 @@ def _warn_of_lacking(told: str, value: Value, written: Template, run: Resolution
 
 
 def _lacking(value: Value, run: Resolution) -> str | None:
-    """Return what is to be told of a file that the node can do without, None for one that is there or must be.
+    """Return what is to be told of a file that is not there and that the node can do without, None if it must be.
 
     Upstream warns of every file that is not there, and of an empty path, which is how an argument makes one optional. A
     file neither beside the launch file nor where packages are is of the machine (`/etc/robot/control.yaml`), and may
@@ -90,8 +92,6 @@ def _lacking(value: Value, run: Resolution) -> str | None:
     """
     if not value.text:
         return "the path of the parameter file is empty"
-    if beside(run.context.file, value.text) is not None:
-        return None
     folder = folder_of(run.context.file)
     path = os.path.normpath(os.path.join(folder, os.path.expanduser(value.text)))  # noqa: PTH111, PTH118 - no `~x` fails
     prefixes = run.scope.environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)

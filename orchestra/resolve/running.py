@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import partial
 from operator import attrgetter
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -204,14 +205,20 @@ def words_of(process: ResolvedProcess) -> list[str]:
 
 
 def _tell(process: ResolvedProcess, run: Resolution) -> None:
-    """Let the object of a Python launch file know what the process is started with: user code asks for it."""
-    if process.faulty or not hasattr(process.origin, "_prepared_as"):
+    """Let the object of a Python launch file know what the process is started with: user code may ask for it."""
+    origin = process.origin
+    if origin is None or process.faulty or not hasattr(origin, "_prepared_by"):
         return
     environment = copied(run.scope.environment) if process.inherit_environment else {}
+    origin._prepared_by(partial(_prepared, process, len(run.found.processes) - 1, environment))  # noqa: SLF001 - a class of ours
+
+
+def _prepared(
+    process: ResolvedProcess, index: int, environment: dict[str, str]
+) -> tuple[str, list[str], str | None, dict[str, str]]:
     changed = {name: changes[-1].value for name, changes in process.environment.items()}
     environment |= {name: value for name, value in changed.items() if value is not None}
-    name = name_in_launch(process, len(run.found.processes) - 1)
-    process.origin._prepared_as(name, words_of(process), process.cwd, environment)  # noqa: SLF001 - a class of ours
+    return name_in_launch(process, index), words_of(process), process.cwd, environment
 
 
 def _stdin(action: Running, run: Resolution) -> Location | Poison | None:

@@ -207,8 +207,8 @@ def test_what_is_changed_in_a_node_counts() -> None:
 
 def test_what_a_visit_comes_to_is_kept_until_somebody_asks() -> None:
     node = _made(_USUAL)
-    node._resolved_as("a1", "/x", iter([("a", "/b")]))
-    node._prepared_as("talker-1", ["talker"], None, {"A": "1"})
+    node._resolved_by(lambda: ("a1", "/x", iter([("a", "/b")])))
+    node._prepared_by(lambda: ("talker-1", ["talker"], None, {"A": "1"}))
     assert _is_plain(node)
     assert (node.node_name, node.expanded_remapping_rules) == ("/x/a1", [("a", "/b")])
     assert (node.name, node.cmd, node.env) == ("talker-1", ["talker"], {"A": "1"})

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 class Plain:
     """What a node is made of: the fields of its model, and its arguments, with lists and dictionaries of its own.
 
-    `resolved` and `prepared` are what a visit has come to.
+    `resolved` and `prepared` give what a visit has come to.
     """
 
     __slots__ = ("fields", "given", "prepared", "resolved")
@@ -38,8 +38,8 @@ class Plain:
     def __init__(self, fields: dict[str, Any], given: dict[str, Any]) -> None:
         self.fields = fields
         self.given = given
-        self.resolved: tuple[Any, ...] | None = None
-        self.prepared: tuple[Any, ...] | None = None
+        self.resolved: Callable[[], tuple[Any, ...]] | None = None
+        self.prepared: Callable[[], tuple[Any, ...]] | None = None
 
     def model(self, place: Place, common: Mapping[str, Any]) -> Any:
         """Return the model; `common` are the fields that every action has."""
@@ -92,9 +92,9 @@ class PlainNode(ExecuteProcess):
             self.__init__(**made.given)  # type: ignore[misc] # with the keywords of the subclass
         vars(self).update(own)
         if made.resolved is not None:
-            self._resolved_as(*made.resolved)
+            self._resolved_by(made.resolved)
         if made.prepared is not None:
-            self._prepared_as(*made.prepared)
+            self._prepared_by(made.prepared)
 
     def _plainly(self) -> Plain | None:
         """Return what the node is made of as long as nobody has asked for more, or set something."""
@@ -105,18 +105,23 @@ class PlainNode(ExecuteProcess):
             return None
         return made
 
-    def _resolved_as(self, name: str | None, namespace: str | None, rules: Any) -> None:
-        """Take note of what a visit has come to."""
+    def _resolved_by(self, names: Callable[[], tuple[Any, ...]]) -> None:
+        """Take note of what gives what a visit has come to."""
         made = self._plainly()
         if made is not None:
-            made.resolved = name, namespace, rules
-
-    def _prepared_as(self, name: str, cmd: list[str], cwd: str | None, env: dict[str, str]) -> None:
-        made = self._plainly()
-        if made is None:
-            super()._prepared_as(name, cmd, cwd, env)
+            made.resolved = names
         else:
-            made.prepared = name, cmd, cwd, env
+            self._resolved_as(*names())
+
+    def _resolved_as(self, name: str | None, namespace: str | None, rules: Any) -> None:
+        """Take note of what a visit has come to; a node does."""
+
+    def _prepared_by(self, details: Callable[[], tuple[Any, ...]]) -> None:
+        made = self._plainly()
+        if made is not None:
+            made.prepared = details
+        else:
+            super()._prepared_by(details)
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         made = self._plainly()

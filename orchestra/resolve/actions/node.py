@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 from orchestra.description.actions.node import REACHED
@@ -102,11 +103,14 @@ def _arguments(
 
 
 def _tell(origin: Any, program: Program) -> None:  # noqa: ANN401 - any object
-    """Let the object of a Python launch file know what its names have come to: user code asks for them."""
-    if origin is not None and not program.faulty and hasattr(origin, "_resolved_as"):
-        name, namespace = (None if item is None else item.text for item in (program.name, program.namespace))
-        rules = [(rule.source.text, rule.target.text) for rule in program.remaps]
-        origin._resolved_as(name, namespace, rules)  # noqa: SLF001 - the class of ours that made the action
+    """Let the object of a Python launch file know what its names have come to: user code may ask for them."""
+    if origin is not None and not program.faulty and hasattr(origin, "_resolved_by"):
+        origin._resolved_by(partial(_names, program))  # noqa: SLF001 - the class of ours that made the action
+
+
+def _names(program: Program) -> tuple[str | None, str | None, list[tuple[str, str]]]:
+    name, namespace = (None if item is None else item.text for item in (program.name, program.namespace))
+    return name, namespace, [(rule.source.text, rule.target.text) for rule in program.remaps]
 
 
 def _extended(program: Program, action: Node, run: Resolution) -> Program:

@@ -7,11 +7,12 @@ A comparison of constants is meant: that is how people switch something off.
 from __future__ import annotations
 
 import warnings
+from collections.abc import Callable
 from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
-from orchestra.description.text import Call, Opaque, Words
+from orchestra.description.text import Call, Opaque, Words, new_words
 from orchestra.errors import Code
 from orchestra.location import Span
 from orchestra.nearest import nearest
@@ -32,11 +33,14 @@ _PLACE: Final = pattern("\ue000([0-9]+)\ue001")
 
 @dataclass(frozen=True, slots=True)
 class _Side:
-    """A side of a comparison: the texts it can come to, None where that is not known; the argument that it reads."""
+    """A side of a comparison: the texts it can come to, None where that is not known; the argument that it reads.
+
+    `place` works out where it stands, which is seldom asked for.
+    """
 
     texts: tuple[str, ...] | None
     argument: str | None
-    span: Span
+    place: Callable[[], Span]
 
 
 def check_comparisons(template: Template, run: Resolution) -> None:
@@ -67,10 +71,10 @@ def _parts(template: Template) -> Iterator[Part]:
 
 
 def _side(template: Template, run: Resolution) -> _Side:
-    return _made_of(template.parts, template.span, run)
+    return _made_of(template.parts, lambda: template.span, run)
 
 
-def _made_of(parts: Sequence[Part], span: Span, run: Resolution) -> _Side:
+def _made_of(parts: Sequence[Part], place: Callable[[], Span], run: Resolution) -> _Side:
     """Return what constant text around at most one argument can come to."""
     texts: tuple[str, ...] = ("",)
     argument: str | None = None
@@ -81,10 +85,10 @@ def _made_of(parts: Sequence[Part], span: Span, run: Resolution) -> _Side:
         name = _argument(part)
         choices = run.found.choices_of(name) if name is not None and argument is None else None
         if choices is None:
-            return _Side(None, name, span)
+            return _Side(None, name, place)
         argument = name
         texts = tuple(text + choice for text in texts for choice in choices)
-    return _Side(texts, argument, span)
+    return _Side(texts, argument, place)
 
 
 def _argument(part: Part) -> str | None:
@@ -100,7 +104,7 @@ def _check(one: _Side, other: _Side, run: Resolution, *, holds: bool) -> None:
     if one.argument is None or one.texts is None or other.texts is None or other.argument is not None:
         return
     if not any(equal(mine, its) for mine in one.texts for its in other.texts):
-        _report(one.argument, other.texts[0], other.span, run, holds=holds)
+        _report(one.argument, other.texts[0], other.place(), run, holds=holds)
 
 
 def _report(argument: str, text: str, span: Span, run: Resolution, *, holds: bool) -> None:
@@ -174,7 +178,7 @@ def _check_texts(one: _Side, others: Sequence[object], run: Resolution, *, holds
             return
         values.update(side.texts)
     if values.isdisjoint(one.texts):
-        _report(one.argument, (sides[0].texts or ("",))[0], sides[0].span, run, holds=holds)
+        _report(one.argument, (sides[0].texts or ("",))[0], sides[0].place(), run, holds=holds)
 
 
 def _constant(node: ast.Constant, template: Template, lead: int, run: Resolution) -> _Side | object:
@@ -187,8 +191,8 @@ def _constant(node: ast.Constant, template: Template, lead: int, run: Resolution
         if index % 2:
             parts.append(template.parts[int(piece)])
         elif piece:
-            parts.append(Words(piece, template.span))
-    return _made_of(parts, _place(node, template, lead), run)
+            parts.append(new_words(piece, template.span))
+    return _made_of(parts, lambda: _place(node, template, lead), run)
 
 
 def _report_kind(

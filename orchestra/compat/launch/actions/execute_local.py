@@ -24,7 +24,7 @@ from orchestra.description.actions.register_event_handler import RegisterEventHa
 from orchestra.description.running import Running
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from orchestra.compat.launch.descriptions.executable import Executable
     from orchestra.compat.launch.event import Event
@@ -143,6 +143,10 @@ class ExecuteLocal(ModelledAction):
         description.prepare(context, self)
         description._add(self._words_of_its_own(context))
         self._details = {"action": self, **description._final}
+
+    def _prepared_by(self, details: Callable[[], tuple[Any, ...]]) -> None:
+        """Take note of what gives what a visit has come to."""
+        self._prepared_as(*details())
 
     def _prepared_as(self, name: str, cmd: list[str], cwd: str | None, env: dict[str, str]) -> None:
         """Take note of what a visit has come to."""

@@ -171,9 +171,6 @@ class Node(PlainNode):
 
     def _resolved_as(self, name: str | None, namespace: str | None, rules: Iterable[tuple[str, str]]) -> None:
         """Take note of what a visit has come to. `rules` are the remappings of all nodes, then the node's own."""
-        if self._plainly() is not None:
-            super()._resolved_as(name, namespace, rules)
-            return
         self.__expanded_node_name = self.UNSPECIFIED_NODE_NAME if name is None else name.removeprefix("/")
         self.__expanded_node_namespace = self.UNSPECIFIED_NODE_NAMESPACE if namespace is None else namespace
         self.__expanded_remappings = list(rules) or None
