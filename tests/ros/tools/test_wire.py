@@ -7,6 +7,7 @@ import random
 import socket
 import struct
 import time
+import tracemalloc
 from argparse import Namespace
 from typing import TYPE_CHECKING, Any
 
@@ -27,7 +28,7 @@ from orchestra.ros.tools.graph.wire.parameters import (
     described,
     read_text,
 )
-from orchestra.ros.tools.graph.wire.received import Received
+from orchestra.ros.tools.graph.wire.received import LARGEST, Received
 from orchestra.ros.tools.graph.wire.speaking import domain_on_wire
 from orchestra.ros.tools.graph.wire.submessages import (
     Acknowledgement,
@@ -140,6 +141,45 @@ def test_pieces_make_a_sample_in_any_order() -> None:
     last = received.piece(pieces[0]._replace(first=2, content=text[100:200]))
     assert last is not None
     assert last.payload == text
+
+
+def _piece(number: int, first: int, content: bytes, *, size: int = 100, whole: int = 250) -> Fragment:
+    return Fragment(_WRITER, number, first, size, whole, {}, content, "<")
+
+
+def test_pieces_that_fit_nowhere_are_passed_over() -> None:
+    received, text = Received(), bytes(range(250))
+    odd = [
+        _piece(1, 0, text[:100]),  # they count from 1
+        _piece(1, 4, text[:100]),
+        _piece(1, 1, text[:99]),
+        _piece(1, 1, text[:10], size=1, whole=LARGEST),
+        _piece(1, 1, text, whole=2**32 - 1),
+        _piece(1, 1, text, size=250, whole=251),
+    ]
+    assert [received.piece(one) for one in odd] == [None] * len(odd)
+    whole = received.piece(_piece(1, 1, text + text))
+    assert whole is not None
+    assert whole.payload == text
+    received.take(whole)
+    assert received.piece(_piece(1, 1, text)) is None  # it is there already
+
+
+def test_of_what_is_begun_no_more_is_kept_than_of_one_large_sample() -> None:
+    received, half = Received(), LARGEST // 2
+    tracemalloc.start()
+    try:
+        for number in range(1, 7):
+            assert received.piece(_piece(number, 1, bytes(1024), size=1024, whole=half)) is None
+        for number in range(7, 400):
+            assert received.piece(_piece(number, 1, b"a", size=1, whole=2)) is None
+        kept, _ = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+    assert kept < 2 * LARGEST
+    last = received.piece(_piece(399, 2, b"b", size=1, whole=2))
+    assert last is not None
+    assert last.payload == b"ab"
 
 
 def test_a_large_sample_goes_in_messages_that_udp_takes() -> None:

@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from orchestra.ros.tools.graph.wire.submessages import Fragment, Gap, Heartbeat
 
 _MOST: Final = 256  # that are asked for at once
+LARGEST: Final = 1 << 26  # bytes of a sample that comes in pieces
+_PIECES: Final = 1 << 16  # of a sample: those of Fast DDS have some kB each
 
 
 class Received:
@@ -22,7 +24,7 @@ class Received:
         self.asked = 0  # the last one that was asked for
         self.samples: dict[int, Data | None] = {}
         self._next = 1
-        self._pieces: dict[int, dict[int, bytes]] = {}
+        self._pieces: dict[int, _Pieces] = {}  # those that were begun, the latest last
 
     @property
     def next(self) -> int:
@@ -60,12 +62,50 @@ class Received:
         return new
 
     def piece(self, fragment: Fragment) -> Data | None:
-        """Take some of a sample; return all of it once there is no more to come."""
-        pieces = self._pieces.setdefault(fragment.number, {})
-        for place in range(0, len(fragment.content), fragment.size):
-            pieces[fragment.first + place // fragment.size] = fragment.content[place : place + fragment.size]
-        if len(pieces) < -(-fragment.whole // fragment.size):
+        """Take some of a sample; return all of it once there is no more to come.
+
+        Of a writer no more is kept so than its largest sample may have: what is begun makes room for what comes later,
+        and is asked for again.
+        """
+        if fragment.whole > LARGEST or fragment.pieces > _PIECES or self.samples.get(fragment.number):
+            return None
+        pieces = self._pieces.pop(fragment.number, None)
+        if pieces is None or not pieces.fit(fragment):
+            pieces = _Pieces(fragment)
+        self._pieces[fragment.number] = pieces
+        while len(self._pieces) > _MOST or sum(one.whole for one in self._pieces.values()) > LARGEST:
+            del self._pieces[next(iter(self._pieces))]
+        pieces.take(fragment)
+        if not pieces.complete:
             return None
         del self._pieces[fragment.number]
-        payload = b"".join(pieces[place] for place in sorted(pieces))[: fragment.whole]
-        return Data(fragment.writer, fragment.number, fragment.qos, payload, fragment.order)
+        return Data(fragment.writer, fragment.number, fragment.qos, bytes(pieces.content), fragment.order)
+
+
+class _Pieces:
+    """What has come of one sample, each piece in its place."""
+
+    def __init__(self, fragment: Fragment) -> None:
+        self.whole = fragment.whole
+        self.content = bytearray(fragment.whole)
+        self._size, self._count = fragment.size, fragment.pieces
+        self._there: set[int] = set()
+
+    @property
+    def complete(self) -> bool:
+        """Whether no piece is missing."""
+        return len(self._there) == self._count
+
+    def fit(self, fragment: Fragment) -> bool:
+        """Tell whether these are pieces of the same sample."""
+        return (self.whole, self._size) == (fragment.whole, fragment.size)
+
+    def take(self, fragment: Fragment) -> None:
+        """Put pieces in their places; one that has none, or is too short for it, is passed over."""
+        for at in range(0, len(fragment.content), self._size):
+            place = fragment.first - 1 + at // self._size
+            begin, end = place * self._size, min((place + 1) * self._size, self.whole)
+            content = fragment.content[at : at + end - begin]
+            if 0 <= place < self._count and len(content) == end - begin:
+                self.content[begin:end] = content
+                self._there.add(place)

@@ -53,6 +53,11 @@ class Fragment(NamedTuple):
     content: bytes
     order: str
 
+    @property
+    def pieces(self) -> int:
+        """How many pieces the sample has."""
+        return -(-self.whole // self.size)
+
 
 class Heartbeat(NamedTuple):
     """What numbers of samples a writer has."""
