@@ -12,6 +12,7 @@ from orchestra.compat.remarks import remark
 from orchestra.compat.syntax_trees import called_by, node_span, tree_of
 from orchestra.errors import Code, Problem, Severity
 from orchestra.fields import replace
+from orchestra.location import is_python
 from orchestra.witness.origins import INSTALLED, PYTHON
 
 if TYPE_CHECKING:
@@ -21,7 +22,7 @@ if TYPE_CHECKING:
     from orchestra.compat.syntax_trees import Tree
 
 _EARLY: Final = "is no text before the launch file is visited"
-_WRITTEN: Final = f"{_EARLY}: what is written here is '<"
+AS_WRITTEN: Final = "what is written here is '"
 _HAS_TEXT: Final = "a function that OpaqueFunction calls has the text: {}(...).perform(context)"
 # Functions whose texts people read: there is nothing wrong with a substitution among them.
 _SHOWING: Final = frozenset(
@@ -63,32 +64,40 @@ def tell_written(written: object, frame: FrameType) -> None:
         return
     kinds = ast.JoinedStr, ast.BinOp, ast.Call
     node = next((node for node in _around(place, tree) if isinstance(node, kinds)), None)
-    message = f"{name} {_WRITTEN}{name}>'"
+    message = f"{name} {_EARLY}: {AS_WRITTEN}<{name}>'"
     notes = ("a list joins texts and substitutions: ['a', LaunchConfiguration('b')]", _HAS_TEXT.format(name))
     meant = None if node is None else joined(node, tree, place.file)
     _tell(Code.USER_CODE, message, place, notes, node, meant)
 
 
 def without_echoes(problems: Iterable[Problem]) -> Callable[[Problem], Problem | None]:
-    """Return what leaves out problems of texts that a substitution was written into, which is told itself.
+    """Return what leaves out problems of texts that are told to be none: of what a substitution was written into.
 
-    It is an error where one of them is.
+    What is told is an error where one of them is.
     """
-    told = {problem.message.partition(" ")[0] for problem in problems if _WRITTEN in problem.message}
-    echoes = [
-        problem
-        for problem in problems
-        if _WRITTEN not in problem.message and any(f"<{name}>" in problem.message for name in told)
-    ]
-    stops = {name for name in told for item in echoes if item.severity is Severity.ERROR}
+    told = {_mark(problem) for problem in problems} - {None}
+    echoes = {id(problem): _echoed(problem, told) for problem in problems if told}
+    stops = {echoes.get(id(problem)) for problem in problems if problem.severity is Severity.ERROR} - {None}
 
     def kept(problem: Problem) -> Problem | None:
-        if any(problem is echo for echo in echoes):
+        if echoes.get(id(problem)) is not None:
             return None
-        is_stopping = _WRITTEN in problem.message and problem.message.partition(" ")[0] in stops
-        return replace(problem, severity=Severity.ERROR) if is_stopping else problem
+        return replace(problem, severity=Severity.ERROR) if _mark(problem) in stops else problem
 
     return kept
+
+
+def _mark(problem: Problem) -> str | None:
+    """Return what a problem tells to stand in texts, None where it tells of something else."""
+    _, found, mark = problem.message.partition(AS_WRITTEN)
+    return mark.removesuffix("'") if found else None
+
+
+def _echoed(problem: Problem, told: set[str | None]) -> str | None:
+    """Return which of the texts that are told a problem only follows from."""
+    if _mark(problem) is not None or problem.span is None or not is_python(problem.span):
+        return None
+    return next((mark for mark in told if mark is not None and mark in problem.message), None)
 
 
 def _tree(place: Place) -> Tree | None:

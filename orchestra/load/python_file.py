@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat import faults
 from orchestra.compat.explanation import told
+from orchestra.compat.idle_names import has_idle_names
 from orchestra.compat.launch.launch_description import LaunchDescription
 from orchestra.compat.place import show
 from orchestra.compat.refusing import collecting, is_lost
@@ -79,6 +80,7 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
     if is_lost(made):
         return None
     if isinstance(made, LaunchDescription):
+        _look_for_slips(module, source, path, problems, included_from)
         at = point(file)
         return Description(
             path, file, (OpaqueAction.at(at, target=made, origin=made),), _deprecated(made, at)
@@ -89,6 +91,21 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
         Code.NO_DESCRIPTION, message, Location(where, included_from), suggestion=meant, notes=notes
     )
     return None
+
+
+def _look_for_slips(
+    module: ModuleType, source: bytes, path: str, problems: Problems, included_from: tuple[Span, ...]
+) -> None:
+    """Warn of what code does in vain: actions that are added to nothing, substitutions of other languages."""
+    # Here, because only what may be a mistake needs them.
+    if has_idle_names(module):
+        from orchestra.compat.unadded import tell_unadded  # noqa: PLC0415
+
+        tell_unadded(path, problems, included_from)
+    if b"$(" in source:
+        from orchestra.compat.foreign_substitutions import tell_foreign  # noqa: PLC0415
+
+        tell_foreign(path, problems, included_from)
 
 
 def _undescribed_at(module: ModuleType, made: object, at: Span) -> tuple[Span, str | None]:

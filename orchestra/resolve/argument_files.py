@@ -16,7 +16,8 @@ from orchestra.location import Location, displayed, is_python
 from orchestra.nearest import is_slip
 from orchestra.patterns import pattern
 from orchestra.resolve.misspelt import misspelt
-from orchestra.resolve.paths import near_names, near_path, settled_path
+from orchestra.resolve.near_paths import near_names, near_path
+from orchestra.resolve.paths import settled_path
 
 if TYPE_CHECKING:
     from collections.abc import Sequence

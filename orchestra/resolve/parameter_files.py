@@ -15,8 +15,9 @@ from orchestra.location import displayed
 from orchestra.patterns import pattern
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import FileParameters
+from orchestra.resolve.near_paths import near_path
 from orchestra.resolve.other_kinds import refused_as_parameters
-from orchestra.resolve.paths import beside, existing_file, folder_of, near_path
+from orchestra.resolve.paths import beside, existing_file, folder_of
 from orchestra.resolve.rcl.files import read_kept, read_plain_file
 from orchestra.resolve.rcl.sections import included
 from orchestra.resolve.rcl.strays import SECTION_KEY

@@ -8,11 +8,11 @@ from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
 from orchestra.location import displayed, is_file, is_python
-from orchestra.nearest import nearest
+from orchestra.resolve.near_paths import exists, near_names, near_path, rewritten
 from orchestra.resolve.refusals import refuse_value
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Sequence
 
     from orchestra.description.text import Template
     from orchestra.resolve.context import Value
@@ -42,7 +42,7 @@ def check_folder(value: Value, written: Template, run: Resolution) -> None:
     folder, path = folder_of(run.context.file), _expanded(value.text)
     prefixes = run.scope.environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
     settled = (folder, *(Path(prefix) for prefix in prefixes if prefix))
-    if not value.text or "${" in value.text or run.later or _exists(Path.cwd() / path):
+    if not value.text or "${" in value.text or run.later or exists(Path.cwd() / path):
         return
     if path.is_absolute() and not any(map(path.is_relative_to, settled)):
         return  # of the machine that it runs on
@@ -71,7 +71,7 @@ def settled_path(value: Value, run: Resolution) -> Path | None:
     settled = (folder, *(Path(prefix) for prefix in prefixes if prefix))
     path = Path(os.path.normpath(folder / written))
     known = any(map(path.is_relative_to, settled))
-    return path if known and not _exists(path) and _found(str(folder), value.text) is None else None
+    return path if known and not exists(path) and _found(str(folder), value.text) is None else None
 
 
 def file_below(
@@ -81,7 +81,7 @@ def file_below(
     found = _found(folder, value.text)
     if found is None:
         path = Path(folder) / _expanded(value.text)
-        folder_there = _exists(path)
+        folder_there = exists(path)
         message = f"there is no {what} {displayed(str(path))}" + (": it is a folder" if folder_there else "")
         changes = () if folder_there else near_names(path)
         _refuse_path(value, value.text if written is None else written, changes, message, run)
@@ -100,49 +100,11 @@ def _refuse_path(
         used = () if place.at == value.location else (f"it is used at {value.location}",)
         run.problems.error(Code.MISSING_FILE, message, place.at, suggestion=place.instead, notes=used)
         return
-    near = _with(written, changes) if changes else None
+    near = rewritten(written, changes) if changes else None
     if near is not None and near == written:  # the wrong part of it came from elsewhere
-        refuse_value(value, run.problems, Code.MISSING_FILE, message, meant=_with(value.text, changes))
+        refuse_value(value, run.problems, Code.MISSING_FILE, message, meant=rewritten(value.text, changes))
     else:
         run.problems.error(Code.MISSING_FILE, message, value.location, suggestion=near)
-
-
-def near_path(path: Path, written: str) -> str | None:
-    """Return how a path that does not exist was probably to be written: one with near names that does exist."""
-    changes = near_names(path)
-    return _with(written, changes) if changes else None
-
-
-def near_names(path: Path) -> tuple[tuple[str, str], ...]:
-    """Return the names in a path that are not there with those that were probably meant; none where one has no such.
-
-    A file that is there in one folder below, or in one beside the folder that is named, was probably meant there.
-    """
-    there, names = path, list[str]()
-    while not _exists(there) and there != there.parent:
-        names.insert(0, there.name)
-        there = there.parent
-    changes = list[tuple[str, str]]()
-    for index, name in enumerate(names, start=1):
-        near = name if _exists(there / name) else _near(there, name, is_last=index == len(names))
-        if near is None and len(names) == 1:
-            near = _one_folder_below(there, name)
-        if near is None:
-            return _elsewhere(there, names[index - 1 :]) if not changes else ()
-        if near != name:
-            changes.append((name, near))
-        there /= near
-    return tuple(changes)
-
-
-def _with(written: str, changes: Iterable[tuple[str, str]]) -> str:
-    for name, near in changes:
-        folder, slash, file = name.partition("/")
-        if slash and name not in written and f"{folder}/" not in written:  # the folder is not written there
-            written = _replaced(written, file, f"../{near}")
-        else:
-            written = _replaced(written, name, near)
-    return written
 
 
 def _start_of(file: str | None) -> str:
@@ -165,63 +127,3 @@ def _expanded(written: str) -> Path:
         return Path(written).expanduser()
     except RuntimeError:  # `~somebody` where there is no somebody
         return Path(written)
-
-
-def _elsewhere(there: Path, names: Sequence[str]) -> tuple[tuple[str, str], ...]:
-    """Return the wrong part of a path with the right one, for a file that is there in another folder; else nothing.
-
-    `names` are what is not there below a folder that is: the file, or its folder too.
-    """
-    *folders, name = names
-    if not Path(name).suffix or len(folders) > 1:
-        return ()
-    folder, around = (folders[0], there) if folders else (there.name, there.parent)
-    if is_file(str(around / name)):
-        return ((f"{folder}/{name}", name),)
-    found = _one_folder_below(around, name)
-    if found is None or around.name == "share":  # that is another package
-        return ()
-    return ((folder, found.rpartition("/")[0]),) if folders else ((f"{folder}/{name}", found),)
-
-
-def _one_folder_below(folder: Path, name: str) -> str | None:
-    """Return the name of a file with the one folder below that has it, None where none or several have it."""
-    try:
-        found = [entry.name for entry in folder.iterdir() if (entry / name).is_file()]
-    except (OSError, ValueError):
-        return None
-    return f"{found[0]}/{name}" if len(found) == 1 else None
-
-
-def _near(folder: Path, name: str, *, is_last: bool) -> str | None:
-    """Return the name in a folder that was probably meant; the endings alone make no two names alike.
-
-    The last name of a path is that of a folder only where it has no ending.
-    """
-    is_file = is_last and bool(Path(name).suffix)
-    try:
-        names = [entry.name for entry in folder.iterdir() if not (is_file and entry.is_dir())]
-    except (OSError, ValueError):
-        return None
-    stem = _stem(name)
-    stems = {_stem(other) for other in names}
-    meant = stem if stem in stems else nearest(stem, stems)
-    alike = [other for other in names if _stem(other) == meant]
-    return nearest(name, alike) or min(alike, default=None)
-
-
-def _stem(name: str) -> str:
-    return name.partition(".")[0]
-
-
-def _replaced(written: str, name: str, near: str) -> str:
-    """Return a path with the last part of this name replaced."""
-    before, found, after = written.rpartition(name)
-    return f"{before}{near}{after}" if found else written
-
-
-def _exists(path: Path) -> bool:
-    try:
-        return path.exists()
-    except (OSError, ValueError):
-        return False

@@ -10,7 +10,8 @@ from orchestra.errors import Code
 from orchestra.location import displayed
 from orchestra.resolve.containers import own_words
 from orchestra.resolve.context import POISON
-from orchestra.resolve.paths import beside, folder_of, near_path
+from orchestra.resolve.near_paths import near_path
+from orchestra.resolve.paths import beside, folder_of
 from orchestra.resolve.refusals import report_missing_executable, report_missing_package
 from orchestra.resolve.runnable import fault_of, program_on_path, programs_on_path
 from orchestra.resolve.typos import is_typo

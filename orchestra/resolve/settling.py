@@ -5,6 +5,8 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any
 
 from orchestra.dataclass import dataclass
+from orchestra.errors import Code
+from orchestra.location import Location
 from orchestra.resolve.occasions import Occasion, OpenAction, Registration
 from orchestra.resolve.reactions import (
     ResolvedCancel,
@@ -125,11 +127,27 @@ def _due_or_unmet(occasion: Occasion, run: Resolution) -> list[_Due]:
     if found:
         return found
     run.found.unmet.append(occasion)
+    _tell_unadded(occasion, run)
     if not any(isinstance(action, ResolvedStart | ResolvedLoad) for action in occasion.do):
         return []
     on = occasion.on
     event = ResolvedEvent(on.event, None, on.stream, on.transition, on.start_state, on.goal_state)
     return [_Due(occasion, event, occasion.delay, unmet=True)]
+
+
+def _tell_unadded(occasion: Occasion, run: Resolution) -> None:
+    """Warn of an event handler that waits for an action of a Python launch file which is made and added to nothing."""
+    place = getattr(occasion.handler, "_place", None)
+    if occasion.on.target is not None and place is not None:
+        # Here, because only what may be a mistake needs it.
+        from orchestra.compat.unadded import target_unadded  # noqa: PLC0415
+
+        span = target_unadded(place)
+        if span is not None:
+            message = "what is waited for is added to no launch description: it never starts"
+            run.problems.warning(
+                Code.UNKNOWN_DEPENDENCY, message, Location(span, occasion.location.included_from)
+            )
 
 
 def _due(occasion: Occasion, run: Resolution) -> Iterable[_Due]:

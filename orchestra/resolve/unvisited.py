@@ -31,7 +31,8 @@ from orchestra.resolve.mentions import (
     templates_of,
     variables_in,
 )
-from orchestra.resolve.paths import beside, near_path, settled_path
+from orchestra.resolve.near_paths import near_path
+from orchestra.resolve.paths import beside, settled_path
 from orchestra.resolve.python_programs import is_slip_of, module_fault
 from orchestra.resolve.refusals import missing_package
 

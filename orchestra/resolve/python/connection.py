@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Problems
-from orchestra.resolve.paths import near_path
+from orchestra.resolve.near_paths import near_path
 from orchestra.resolve.refusals import missing_package
 
 if TYPE_CHECKING:

@@ -41,6 +41,17 @@ def blamed(written: Template, text: str, error: BaseException) -> tuple[Span | N
     return None, False
 
 
+def stands_at(written: Template, text: str, begin: int, end: int) -> tuple[Span, str | None]:
+    """Return where some characters stand of what a text came to, and what is written there where it is plain text."""
+    for index, (part, first, last) in enumerate(_placed(written, text)):
+        if first <= begin < last:
+            if isinstance(part, Words):
+                inside = part.text[begin - first : min(end, last) - first]
+                return _inside(part, begin - first, min(end, last) - first), inside
+            return _used_at(index, written), None
+    return written.span, None
+
+
 def _failed_part(written: Template, text: str, failed: tuple[int, int]) -> Span | None:
     """Return where what has failed of an expression stands, None where that is the whole of it.
 

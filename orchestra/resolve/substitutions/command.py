@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
 from orchestra.nearest import nearest
-from orchestra.resolve.context import POISON
+from orchestra.resolve.context import POISON, Value
 from orchestra.resolve.refusals import refuse
-from orchestra.resolve.substitutions.arguments import made, texts
+from orchestra.resolve.substitutions.arguments import made
 
 if TYPE_CHECKING:
     from orchestra.description.text import Call
@@ -25,10 +25,16 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
     It fails where the status is not 0 and, by default, where anything goes to standard error; `ignore` and `warn` let
     that pass, `capture` appends it to the output. Upstream keeps the line break.
     """
-    words = texts(call, context, evaluate)
-    if words is None:
+    values = [evaluate(argument, context) for argument in call.arguments]
+    words = [value for value in values if isinstance(value, Value)]
+    if len(words) < len(values):
+        if values[0] is POISON:
+            # Here, because only what is missing needs it.
+            from orchestra.resolve.faulty_commands import look_at_files  # noqa: PLC0415
+
+            look_at_files(call.arguments[0], context, evaluate)
         return POISON
-    command, on_stderr = words[0], words[1] if len(words) > 1 else "fail"
+    command, on_stderr = words[0].text, words[1].text if len(words) > 1 else "fail"
     if on_stderr not in _ON_STDERR:
         told = f"on_stderr is one of {', '.join(_ON_STDERR)}, not {on_stderr!r}"
         return refuse(call.arguments[1], context, Code.BAD_VALUE, told, meant=nearest(on_stderr, _ON_STDERR))
@@ -45,6 +51,12 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
     result = context.run_command(argv, context.environment)
     fault = _fault(result, on_stderr)
     if fault is not None:
+        # Here, because only mistakes need it.
+        from orchestra.resolve.faulty_commands import explained  # noqa: PLC0415
+
+        started = result.failure is None or not result.failure.startswith("cannot be started")
+        if explained(argv, call.arguments[0], words[0], context, started=started):
+            return POISON
         told, notes = f"command {argv[0]!r} {fault}", _notes(argv, result)
         context.problems.error(Code.COMMAND_FAILED, told, context.at(call.span), notes=notes)
         return POISON

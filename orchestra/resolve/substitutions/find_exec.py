@@ -5,15 +5,10 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING
 
-from orchestra.errors import Code
-from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON, Poison
-from orchestra.resolve.refusals import refuse
 from orchestra.resolve.substitutions.arguments import made
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from orchestra.description.text import Call
     from orchestra.resolve.context import Context, Evaluated
     from orchestra.resolve.substitutions.arguments import Evaluate
@@ -31,15 +26,8 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
     found = shutil.which(name.text, path=path)
     if found is not None:
         return made(call, context, os.path.abspath(found))  # noqa: PTH100 - a link must stay a link
-    told = f"there is no program {name.text!r} on the PATH"
-    return refuse(
-        written, context, Code.MISSING_EXECUTABLE, told, meant=nearest(name.text, _programs(path)), notes=()
-    )
+    # Here, because only what is missing needs it.
+    from orchestra.resolve.faulty_commands import report_program  # noqa: PLC0415
 
-
-def _programs(path: str) -> Iterator[str]:
-    for folder in path.split(os.pathsep):
-        try:
-            yield from os.listdir(folder or os.curdir)  # noqa: PTH208 - names are all that is wanted
-        except OSError:
-            continue  # a PATH may name folders that are not there
+    report_program(name.text, written.span, context)
+    return POISON

@@ -347,10 +347,14 @@ class TestCommand:
         assert [problem.severity for problem in place.problems] == severities
         assert all("it says: err" in problem.notes for problem in place.problems)
 
+    def test_a_program_that_is_not_there_is_told_at_its_name(self, place: Place) -> None:
+        problem = place.refusal("$(command 'nosuchprogram -x' ignore)")
+        assert problem.code is Code.MISSING_EXECUTABLE
+        assert place.stretch(problem.span) == "nosuchprogram"
+
     @pytest.mark.parametrize(
         ("command", "told"),
         [
-            ("nosuchprogram -x", "command 'nosuchprogram' cannot be started: No such file or directory"),
             ("sh -c 'exit 3'", "command 'sh' ended with status 3"),
             ("sh -c 'kill -9 $$'", "command 'sh' was ended by signal 9"),
         ],

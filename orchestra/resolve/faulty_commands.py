@@ -1,0 +1,122 @@
+"""What is wrong with a command that has failed: a program or a file that is not there, or a blank."""
+
+from __future__ import annotations
+
+import os
+import shutil
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from orchestra.description.text import Template
+from orchestra.errors import HERE, Code
+from orchestra.location import displayed, is_python
+from orchestra.nearest import is_slip, nearest
+from orchestra.resolve.context import Value
+from orchestra.resolve.misspelt import misspelt
+from orchestra.resolve.near_paths import near_names, near_path
+from orchestra.resolve.substitutions.blamed import stands_at
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from orchestra.location import Span
+    from orchestra.resolve.context import Context
+    from orchestra.resolve.substitutions.arguments import Evaluate
+
+
+def explained(
+    argv: tuple[str, ...], written: Template, command: Value, context: Context, *, started: bool
+) -> bool:
+    """Report why a command has failed, where more is known of it than that; return whether something is."""
+    if not started and _without_blank(argv[0], written, command, context):
+        return True
+    for word in argv[1:]:
+        if _lacks(word):
+            _report_file(Path(word), written, command, context)
+            return True
+    if started or "/" in argv[0]:
+        return False
+    report_program(argv[0], _program_at(argv[0], written, command.text), context)
+    return True
+
+
+def look_at_files(written: Template, context: Context, evaluate: Evaluate) -> None:
+    """Report files that are not there of a command whose program is not known."""
+    for part in written.parts:
+        value = evaluate(Template((part,), written.raw, part.span), context)
+        if isinstance(value, Value) and _lacks(value.text):
+            _report_file(Path(value.text), written, value, context)
+
+
+def report_program(name: str, at: Span, context: Context) -> None:
+    """Report a program that is not on the PATH.
+
+    Where nothing will be started it may be on another machine: then it is a warning, given once, unless the name is a
+    slip for one that is here.
+    """
+    meant = nearest(name, _programs(context.environment.get("PATH", os.defpath)))
+    if context.launching or (meant is not None and is_slip(name, meant)):
+        told = f"there is no program {name!r} on the PATH"
+        context.problems.error(Code.MISSING_EXECUTABLE, told, context.at(at), suggestion=meant)
+        return
+    if f"program {name}" not in context.elsewhere:
+        told = f"there is no program {name!r} {HERE}: what it would give is left open"
+        context.problems.warning(Code.MISSING_EXECUTABLE, told, context.at(at))
+    context.elsewhere.add(f"program {name}")
+
+
+def _programs(path: str) -> Iterator[str]:
+    for folder in path.split(os.pathsep):
+        try:
+            yield from os.listdir(folder or os.curdir)  # noqa: PTH208 - names are all that is wanted
+        except OSError:
+            continue  # a PATH may name folders that are not there
+
+
+def _without_blank(word: str, written: Template, command: Value, context: Context) -> bool:
+    """Report that a program and the path behind it are one word, for want of a blank between them."""
+    for end in range(1, len(word)):
+        program, path = word[:end], word[end:]
+        if path[0] != "/" or not os.path.exists(path):  # noqa: PTH110 - pathlib is slow
+            continue
+        is_program = "/" not in program or shutil.which(program) is not None
+        at = command.text.find(word)
+        if is_program and at >= 0:
+            span, text = stands_at(written, command.text, at, at + end)
+            told = f"a blank is missing between {displayed(program)} and {displayed(path)}"
+            instead = None if text is None else f"{text} "
+            context.problems.error(Code.COMMAND_FAILED, told, context.at(span), suggestion=instead)
+            return True
+    return False
+
+
+def _lacks(word: str) -> bool:
+    """Return whether a word is the path of a file that is not there in a folder that is, or near one that is there."""
+    path = Path(word)
+    try:
+        return path.is_absolute() and not path.exists() and (path.parent.is_dir() or bool(near_names(path)))
+    except OSError:
+        return False
+
+
+def _report_file(path: Path, written: Template, value: Value, context: Context) -> None:
+    told = f"there is no file {displayed(str(path))}"
+    changes = near_names(path)
+    is_sure = all(_is_sure(*(Path(name).name for name in change)) for change in changes)
+    place = misspelt(value, written.raw, changes) if is_sure and not is_python(written.span) else None
+    if place is not None:
+        context.problems.error(Code.MISSING_FILE, told, place.at, suggestion=place.instead)
+    else:
+        near = near_path(path, str(path)) if is_sure else None
+        context.problems.error(Code.MISSING_FILE, told, context.at(written.span), suggestion=near)
+
+
+def _is_sure(name: str, near: str) -> bool:
+    """Return whether a name is hardly anything but another one, mistyped or with another ending."""
+    is_cut = name.startswith(near) or near.startswith(name)
+    return is_cut or is_slip(name, near) or Path(name).suffix == Path(near).suffix
+
+
+def _program_at(name: str, written: Template, command: str) -> Span:
+    at = command.find(name)
+    return written.span if at < 0 else stands_at(written, command, at, at + len(name))[0]
