@@ -36,8 +36,9 @@ def temporary_files(files: Files) -> Iterator[None]:
         tempfile.tempdir, tempfile._name_sequence = before  # type: ignore[attr-defined]
         if not files.kept:
             with watching.aside():
-                if watching.installed and folder != watching.scratch and _is_as_made(folder):
-                    _unused.append(folder)  # for the next file; what is around it goes away with the process
+                # For the next file: whoever has made what is around it removes that.
+                if watching.installed and _is_below(watching.scratch, folder) and _is_as_made(folder):
+                    _unused.append(folder)
                 else:
                     _remove(folder)
 
@@ -50,9 +51,13 @@ def _left_empty(scratch: str | None) -> str | None:
     with observer().aside():
         while _unused:
             folder = _unused.pop()
-            if scratch is not None and folder.startswith(f"{scratch}/") and _is_as_made(folder):
+            if _is_below(scratch, folder) and _is_as_made(folder):
                 return folder
     return None
+
+
+def _is_below(scratch: str | None, folder: str) -> bool:
+    return scratch is not None and folder.startswith(f"{scratch}/")
 
 
 def _is_as_made(folder: str) -> bool:

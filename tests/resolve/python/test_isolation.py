@@ -353,3 +353,20 @@ def test_a_file_in_yaml_costs_none_of_this(tmp_path: Path, monkeypatch: pytest.M
     path.write_text("launch: [log: {message: said}]", "utf-8")
     _resolve(path)
     assert "orchestra.resolve.python.remaining" not in sys.modules
+
+
+def test_a_process_that_is_watched_leaves_no_folder_of_one_file_after_the_other(tmp_path: Path) -> None:
+    """Watched for good: this process would go on being so."""
+    path = _write(tmp_path, "import tempfile")
+    elsewhere = tmp_path / "temporary"
+    elsewhere.mkdir()
+    code = (
+        "import os, sys\n"
+        "from orchestra.pipeline import check, inputs_from\n"
+        "from orchestra.witness.observing import observer\n"
+        "observer().install()\n"
+        "for _ in range(3): check(sys.argv[1], inputs_from([], environment=os.environ))"
+    )
+    environment = {**os.environ, "TMPDIR": str(elsewhere)}
+    subprocess.run([sys.executable, "-c", code, str(path)], env=environment, check=True)
+    assert [*elsewhere.iterdir()] == []
