@@ -33,6 +33,7 @@ RESPAWNED = Rules(restart=Restart("always", delay=3.0))
 GUARDED = Rules(guarded=True)
 ABORTED = Rules(guarded=True, aborts=True, awaits_ready=True, ready_timeout=5.0)
 MANAGED = Rules(managed=True)
+PATIENT = Rules(managed=True, quiesce_within=20.0)
 GOOD, BAD = Ending(code=0), Ending(code=3)
 LOST = Ending(code=127, reason="no such file")
 
@@ -130,6 +131,7 @@ TRANSITIONS: list[tuple[Phase, dict[str, object], Rules, Event, Phase, tuple[Eff
     # A managed lifecycle node.
     (U, {"been_ready": True}, MANAGED, life.StopRequested(), O, (life.Quiesce(1.5),)),
     (U, {"been_ready": True}, MANAGED, life.Renew(), O, (life.Quiesce(1.5),)),
+    (U, {"been_ready": True}, PATIENT, life.StopRequested(), O, (life.Quiesce(20.0),)),
     (O, {"rung": QUIESCE}, MANAGED, life.RungExpired(QUIESCE), O, (ASK,)),
     (O, {"rung": QUIESCE}, MANAGED, life.Escalated(TERMINATE), O, (TERM,)),
 ]

@@ -1,13 +1,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import pytest
 
 from orchestra.supervise.process.ending import Ending
 from orchestra.supervise.process.life import Phase, Rules, State
 from orchestra.supervise.process.order import Fate, Life, fate, reached, schedule, stop_levels
+from orchestra.supervise.process.rules import rules_of, stop_of
 from orchestra.values import Stop
 from tests.supervise.plans import after, process
 
@@ -115,3 +116,21 @@ def test_who_asks_for_more_time_gets_it(
     stops: dict[str, Stop], asked: tuple[float, ...], deadline: float
 ) -> None:
     assert schedule({"a": 0, "b": 1, "c": 2}, stops) == (asked, deadline)
+
+
+@pytest.mark.parametrize(
+    ("fields", "stop", "quiesce_within", "whole"),
+    [
+        ({"lifecycle": "active"}, None, 1.5, None),
+        ({"lifecycle": "active"}, Stop(timeout=0.5), 1.5, Stop(timeout=0.5)),
+        ({"lifecycle": "active"}, Stop(timeout=20.0), 20.0, Stop(timeout=40.0)),
+        ({"kind": "container"}, Stop("SIGTERM", 20.0, 3.0), 20.0, Stop("SIGTERM", 40.0, 3.0)),
+        ({"kind": "node"}, Stop(timeout=20.0), 1.5, Stop(timeout=20.0)),
+    ],
+)
+def test_more_time_to_end_is_more_time_to_deactivate_too(
+    fields: dict[str, Any], stop: Stop | None, quiesce_within: float, whole: Stop | None
+) -> None:
+    given = process("a", stop=stop, **fields)
+    assert rules_of(given).quiesce_within == quiesce_within
+    assert stop_of(given) == whole

@@ -30,6 +30,8 @@ LIVE = frozenset({Phase.STARTING, Phase.RUNNING, Phase.READY, Phase.STOPPING})
 
 # The steps by which a process is ended; a managed lifecycle node is deactivated before the first signal.
 QUIESCE, POLITE, TERMINATE, KILL = -1, 0, 1, 2
+# How long a managed lifecycle node may take to deactivate before it is ended, in seconds, unless it is given longer.
+QUIESCE_WITHIN = 1.5
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +39,8 @@ class Rules:
     """What the plan says about the life of a process. `ready_timeout` in seconds, None for ever.
 
     `guarded`: it has to give signs of life once it is ready, and gets SIGABRT first where it hangs and `aborts` says
-    so. `managed`: nodes in it may have been brought to active, and leave that state before it is ended.
+    so. `managed`: nodes in it may have been brought to active, and leave that state before it is ended, within so many
+    seconds (`quiesce_within`).
     """
 
     restart: Restart | None = None
@@ -48,6 +51,7 @@ class Rules:
     guarded: bool = False
     aborts: bool = False
     managed: bool = False
+    quiesce_within: float = QUIESCE_WITHIN
 
 
 @dataclass(frozen=True, slots=True)

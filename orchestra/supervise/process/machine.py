@@ -67,10 +67,6 @@ if TYPE_CHECKING:
 Step: TypeAlias = tuple[State, tuple[Effect, ...]]
 
 
-# How long a managed lifecycle node may take to deactivate before it is ended, in seconds.
-QUIESCE_WITHIN = 1.5
-
-
 def transition(rules: Rules, state: State, event: Event) -> Step:
     """Return the state after an event, and what is to be done."""
     handler = _TABLE.get((state.phase, type(event)))
@@ -194,7 +190,7 @@ def _part(rules: Rules, state: State) -> Step:
     relaxed = _relax(rules, state)
     if rules.managed and state.been_ready:
         quiet = replace(state, phase=Phase.STOPPING, rung=QUIESCE)
-        return quiet, (*relaxed, Quiesce(QUIESCE_WITHIN))
+        return quiet, (*relaxed, Quiesce(rules.quiesce_within))
     stopping, effects = _descend(rules, state, POLITE)
     return stopping, (*relaxed, *effects)
 

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.supervise.process.life import Rules
+from orchestra.fields import replace
+from orchestra.supervise.process.life import QUIESCE_WITHIN, Rules
 from orchestra.values import Stop
 
 if TYPE_CHECKING:
@@ -22,4 +23,23 @@ def rules_of(process: Process) -> Rules:
         guarded=process.alive is not None,
         aborts=process.alive is not None and process.alive.abort,
         managed=process.lifecycle == "active" or process.kind in ("node", "container"),
+        quiesce_within=_quiesce_within(process),
     )
+
+
+def stop_of(process: Process) -> Stop | None:
+    """Return how the description has a process ended, the time to deactivate included; None where it says nothing."""
+    longer = _longer(process)
+    return process.stop if longer is None else replace(longer, timeout=2 * longer.timeout)
+
+
+def _quiesce_within(process: Process) -> float:
+    longer = _longer(process)
+    return QUIESCE_WITHIN if longer is None else longer.timeout
+
+
+def _longer(process: Process) -> Stop | None:
+    """Return the stop of a process that deactivates nodes and is given more time than usual: it is meant for both."""
+    deactivates = process.lifecycle == "active" or process.kind == "container"
+    stop = process.stop
+    return stop if deactivates and stop is not None and stop.timeout > Stop().timeout else None

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from orchestra.supervise.process import life, order
 from orchestra.supervise.process.ending import signal_name
 from orchestra.supervise.process.life import LIVE, Phase
+from orchestra.supervise.process.rules import stop_of
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -80,7 +81,7 @@ class Stopping:
     def _schedule(self) -> order.Schedule:
         """Plan the end; what takes longer than usual is asked of the keeper, who would lose patience."""
         live = [unit for unit in self._units.values() if unit.state.phase in LIVE]
-        stops = {unit.id: unit.process.stop for unit in live if unit.process.stop is not None}
+        stops = {unit.id: stop for unit in live if (stop := stop_of(unit.process)) is not None}
         schedule = order.schedule(self._levels, stops)
         if schedule.deadline > order.DEADLINE and not self._around.more_time(schedule.deadline):
             return order.schedule(self._levels, {})

@@ -26,6 +26,7 @@ launch:
     name: box
     namespace: ns
     restart: on-failure
+    stop: {timeout: 30.0}
     composable_node:
     - {pkg: demo, plugin: "components:Broken", name: broken}
     - pkg: demo
@@ -77,7 +78,7 @@ def test_a_container_of_a_launch_file_is_filled_again_after_it_has_crashed(
 
 _ORDER = """
 launch:
-- lifecycle_node: {script: SCRIPT, args: driver, name: driver, namespace: "", lifecycle: active, ready: {lifecycle: active}}
+- lifecycle_node: {script: SCRIPT, args: driver, name: driver, namespace: "", lifecycle: active, ready: {lifecycle: active}, stop: {timeout: 30.0}}
 - lifecycle_node:
     script: SCRIPT
     args: mapper
@@ -86,7 +87,8 @@ launch:
     lifecycle: active
     ready: {lifecycle: active}
     depends_on: [{node: driver, condition: ready}]
-- lifecycle_node: {script: SCRIPT, args: planner, name: planner, namespace: "", lifecycle: active, depends_on: [{node: mapper, condition: ready}]}
+    stop: {timeout: 30.0}
+- lifecycle_node: {script: SCRIPT, args: planner, name: planner, namespace: "", lifecycle: active, depends_on: [{node: mapper, condition: ready}], stop: {timeout: 30.0}}
 """
 
 

@@ -14,7 +14,7 @@ import pytest
 from orchestra.plan.model import Component, Provenance
 from orchestra.plan.reactions import ChangeStateAction, LoadAction, TriggerEvent
 from orchestra.supervise.options import RunOptions
-from orchestra.values import Restart
+from orchestra.values import Restart, Stop
 from tests.killing import let_nobody_hang
 from tests.supervise.plans import HERE, PROCESSES, finished, launched, plan, process, shutdown, wait_for, when
 
@@ -248,7 +248,8 @@ def test_a_component_may_be_a_lifecycle_node(tmp_path: Path) -> None:
 
 def test_components_that_are_active_are_deactivated_before_their_container_ends(tmp_path: Path) -> None:
     parts = tuple(component(name, plugin="Managed", lifecycle="active") for name in ("one", "two"))
-    with launched(tmp_path, plan(container(), components=parts), environment=DOMAIN) as run:
+    box = container(stop=Stop(timeout=30.0))
+    with launched(tmp_path, plan(box, components=parts), environment=DOMAIN) as run:
         for part in parts:
             run.await_event("transition_done", part.id, count=2)
         run.send(signal.SIGINT)

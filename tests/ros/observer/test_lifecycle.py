@@ -5,13 +5,15 @@ from __future__ import annotations
 import os
 import signal
 import sys
+import time
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
 from orchestra.plan.reactions import ChangeStateAction, TriggerEvent
 from orchestra.supervise.options import RunOptions
-from orchestra.values import Restart
+from orchestra.supervise.process.life import QUIESCE_WITHIN
+from orchestra.values import Restart, Stop
 from tests.ros.observer.conversation import Domain, observing
 from tests.supervise.plans import (
     HERE,
@@ -39,10 +41,14 @@ DOMAIN = {"ROS_DOMAIN_ID": "32", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST"}
 CONFIGURE, ACTIVATE, DEACTIVATE = 1, 3, 4
 
 
+# Time to deactivate, on a machine that has much else to do.
+PATIENT = Stop(timeout=30.0)
+
+
 def node(*words: str, name: str = "managed", **changes: Any) -> Process:
     command = (sys.executable, str(PROCESSES / "lifecycle_node.py"), name, *words)
-    fields = {"kind": "lifecycle_node", "name": name, "namespace": "/", "command": command, **changes}
-    return process(f"/{name}", **fields)
+    fields = {"kind": "lifecycle_node", "name": name, "namespace": "/", "command": command}
+    return process(f"/{name}", **{**fields, "stop": PATIENT, **changes})
 
 
 def change(*transitions: int, target: str = "/managed") -> ChangeStateAction:
@@ -226,14 +232,19 @@ def test_nodes_that_do_not_deactivate_are_ended_all_the_same(tmp_path: Path) -> 
         "die": "it ended before",
         "hang": "it ended before",
     }
-    nodes = [node(f"{manner}=deactivate", name=manner, lifecycle="active") for manner in reasons]
+    stops = {**dict.fromkeys(reasons, PATIENT), "hang": None}
+    nodes = [
+        node(f"{manner}=deactivate", name=manner, lifecycle="active", stop=stop)
+        for manner, stop in stops.items()
+    ]
     with launched(tmp_path, plan(*nodes), environment=DOMAIN) as run:
         for manner in reasons:
             run.await_event("transition_done", f"/{manner}", count=2)
         run.send(signal.SIGINT)
         assert run.wait() == 130
         for manner, reason in reasons.items():
-            assert run.log(manner).splitlines()[-1] == "deactivate"
+            if stops[manner]:  # else, on a busy machine, its time was over before it was asked
+                assert run.log(manner).splitlines()[-1] == "deactivate"
             (event,) = run.of_kind("transition_failed", f"/{manner}")
             assert event.data["transition"] == "deactivate"
             assert event.data["reason"].startswith(reason)
@@ -255,6 +266,20 @@ def test_what_is_lost_on_the_way_is_asked_again(tmp_path: Path, manner: str) -> 
             "active",
             "inactive",
         ]
+
+
+def test_more_time_to_end_is_more_time_to_deactivate(tmp_path: Path) -> None:
+    """Whoever would deactivate it is held up for longer than that may take where nothing is said."""
+    with launched(tmp_path, plan(node(lifecycle="active")), environment=DOMAIN) as run:
+        run.await_event("transition_done", "/managed", count=2)
+        observer = run.own("orc-observer")
+        os.kill(observer, signal.SIGSTOP)
+        run.send(signal.SIGINT)
+        begin = run.await_event("process_stopping", "/managed").monotonic
+        wait_for(lambda: time.monotonic() > begin + QUIESCE_WITHIN + 0.2, "more than the usual time")
+        os.kill(observer, signal.SIGCONT)
+        assert run.wait() == 130
+        assert run.log("managed").splitlines() == ["up", "configure", "activate", "deactivate"]
 
 
 def test_a_node_that_was_deactivated_by_somebody_else_is_left_alone(tmp_path: Path) -> None:
