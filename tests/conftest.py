@@ -16,8 +16,10 @@ from typing import TYPE_CHECKING
 import hypothesis
 import pytest
 
+from tests.restoring import environment_restored
+
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Generator, Iterator
 
 # Inherited by every process that a test starts, directly or through Orchestra.
 _SESSION = "ORCHESTRA_TEST_SESSION"
@@ -49,9 +51,16 @@ def pytest_configure(config: pytest.Config) -> None:
     signal.signal(signal.SIGQUIT, signal.SIG_DFL)
     signal.signal(signal.SIGHUP, signal.SIG_DFL)
     os.environ[_SESSION] = uuid.uuid4().hex
+    # Of pytest: where the folders of tests are, which stay for a while.
+    elsewhere = os.environ.setdefault("PYTEST_DEBUG_TEMPROOT", tempfile.gettempdir())
     # The control sockets of this session's runs, among which no other's are, nor those of the user.
-    os.environ["XDG_RUNTIME_DIR"] = tempfile.mkdtemp(prefix="orchestra-tests-")
-    os.environ["ORCHESTRA_CACHE"] = f"{os.environ['XDG_RUNTIME_DIR']}/cache"
+    session = tempfile.mkdtemp(prefix="orchestra-tests-", dir=elsewhere)
+    os.environ["XDG_RUNTIME_DIR"] = session
+    os.environ["ORCHESTRA_CACHE"] = f"{session}/cache"
+    # Temporary files: those of commands, and ours. Of commands some are killed.
+    os.environ["TMPDIR"], tempfile.tempdir = f"{session}/theirs", f"{session}/ours"
+    for folder in (os.environ["TMPDIR"], tempfile.tempdir):
+        Path(folder).mkdir()
     # Hundreds of commands are started: without bytecode each of them would compile all that it imports.
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     if hasattr(
@@ -81,6 +90,29 @@ def pytest_unconfigure(config: pytest.Config) -> None:
     shutil.rmtree(os.environ["XDG_RUNTIME_DIR"], ignore_errors=True)
 
 
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call() -> Generator[None, object, object]:
+    """Put the environment back after each test; a fixture would take ten times as long."""
+    with environment_restored():
+        return (yield)
+
+
+@pytest.fixture(scope="module", autouse=True)
+def the_process_stays_as_it_is() -> Iterator[None]:
+    """Fail where the tests of a file leave another working directory, umask, or handler of a signal."""
+    before = _state()
+    yield
+    assert _state() == before
+
+
+def _state() -> dict[str, object]:
+    mask = os.umask(0)
+    os.umask(mask)
+    # pytest-timeout has another one of its own for each test.
+    handlers = {number: signal.getsignal(number) for number in signal.valid_signals() - {signal.SIGALRM}}
+    return {"folder": Path.cwd(), "umask": mask, "handlers": handlers}
+
+
 @pytest.fixture(scope="session", autouse=True)
 def nothing_outlives_the_session() -> Iterator[None]:
     """Fail where a process with the mark of a run that this session started is left at its end."""
@@ -89,6 +121,14 @@ def nothing_outlives_the_session() -> Iterator[None]:
     while (left := _survivors()) and time.monotonic() < deadline:
         time.sleep(0.1)
     assert not left, f"left by runs of this session: {left}"
+
+
+@pytest.fixture(scope="session", autouse=True)
+def no_folder_is_left() -> Iterator[None]:
+    """Fail where Orchestra, used in this process, has left a temporary folder."""
+    yield
+    left = [path.name for path in Path(tempfile.gettempdir()).glob("orchestra-*")]
+    assert not left, f"left in {tempfile.gettempdir()}: {left}"
 
 
 def _survivors() -> list[str]:
