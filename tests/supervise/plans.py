@@ -192,7 +192,12 @@ class Launched:
 
     def _await(self, condition: Callable[[], Any], what: str) -> None:
         """Wait for a condition; a run that is over will not fulfil it any more."""
-        wait_for(lambda: condition() or self.popen.poll() is not None, f"{what}; {self.stderr}")
+        over = self.popen.poll
+        try:
+            wait_for(lambda: condition() or over() is not None, what)
+        except AssertionError as error:
+            error.add_note(self.stderr)
+            raise
         assert condition(), f"the run ended before {what}: {self.stderr}"
 
     @property
