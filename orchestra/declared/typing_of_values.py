@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.declared.texts import written
 from orchestra.nearest import nearest
-from orchestra.resolve.rcl.commas import without_comma
+from orchestra.resolve.rcl.commas import without_slip
 
 if TYPE_CHECKING:
     from orchestra.declared.model import Parameter, RosType
@@ -65,8 +65,8 @@ def _scalar(value: ParameterValue, kind: str) -> str | None:
     if kind == "string":
         return written(value) if isinstance(value, str) else f'"{written(value)}"'
     if isinstance(value, str):
-        meant = without_comma(value.strip())
-        return _unquoted(value.strip() if meant is None else meant[1], kind)
+        meant = without_slip(value.strip())
+        return _unquoted(value.strip() if meant is None else meant[1].partition(" #")[0], kind)
     if isinstance(value, bool):
         return written(value) if kind == "bool" else None
     if kind == "double":

@@ -119,6 +119,9 @@ def report_missing_package(
     Where nothing will be started it may be elsewhere: then it is a warning, given once, unless the name is a slip for
     one that is installed.
     """
+    if "/" in package:
+        told = f"{package!r} is no name of a package: a path in one is written behind it"
+        return refuse(written, context, Code.MISSING_PACKAGE, told)
     missing = missing_package(package, context.packages.names(), launching=context.launching)
     if missing.severity is Severity.WARNING:
         if package not in context.elsewhere:

@@ -37,7 +37,7 @@ _WORDS: Final[dict[type, str]] = {bool: "boolean", int: "integer", float: "float
 _NUMBER: Final = pattern(r"-?(?:0|[1-9][0-9]{0,17})(\.[0-9]{1,18})?")
 _WORD: Final = pattern(r"[A-Za-z_/][A-Za-z0-9_/.-]{0,500}")
 _MEANT: Final = frozenset(
-    ["y", "yes", "n", "no", "on", "off", "true", "false", "null", "nan", "inf", "infinity"]
+    ["y", "yes", "n", "no", "on", "off", "true", "false", "null", "nan", "inf", "infinity", *rcl.SLIPS]
 )
 _LONGEST_KEPT: Final = 1_000  # characters: what is longer is hardly ever read twice
 _KINDS: Final[dict[str, type]] = {"str": str, "bool": bool, "int": int, "float": float}

@@ -1,24 +1,33 @@
-"""Plain texts that are numbers but for a comma or the brackets: YAML reads a text, which nobody means."""
+"""Plain texts that are numbers, or booleans, but for a slip: YAML reads a text, which nobody means.
+
+A comma, brackets that lack, a comment without its blank, two letters in each other's place.
+"""
 
 from __future__ import annotations
 
 from typing import Final
 
 from orchestra.patterns import pattern
+from orchestra.resolve.rcl.scalars import SLIPS
 
 _NUMBER: Final = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 _ENDED: Final = pattern(rf"({_NUMBER}|true|True|false|False)[,;]")
 _DECIMAL: Final = pattern(r"[-+]?(?:0,[0-9]+|[0-9]+,(?:[0-9]{1,2}|[0-9]{4,}))")
+_COMMENTED: Final = pattern(rf"({_NUMBER}|true|True|false|False)(?:#+\s?|\s+//\s*)(\S.*)")
 _SEVERAL: Final = pattern(rf"{_NUMBER}(?:\s*,\s*{_NUMBER})+,?")
 
 
-def without_comma(text: str) -> tuple[str, str] | None:
+def without_slip(text: str) -> tuple[str, str] | None:
     """Return what a text lacks or has too much to be what it looks like, and how that is written; None for any other.
 
     Whole numbers with commas between them, as `640,480`, may well be a text that a program takes apart.
     """
     if ended := _ENDED.fullmatch(text):
         return f"the '{text[-1]}' belongs to it, and ends nothing here", ended[1]
+    if commented := _COMMENTED.fullmatch(text):
+        return "a comment begins with a blank and '#'", f"{commented[1]} # {commented[2]}"
+    if meant := SLIPS.get(text.lower()):
+        return f"the boolean is {meant}", meant
     if _DECIMAL.fullmatch(text):
         return "a number is written with a point", text.replace(",", ".")
     if "." in text and _SEVERAL.fullmatch(text):

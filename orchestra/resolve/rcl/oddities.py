@@ -26,6 +26,7 @@ _UNIT: Final = pattern(
     r"([-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)\s?"
     r"(?:deg|degrees?|rad|m|cm|mm|km|s|sec|ms|us|ns|min|k?Hz|M[Hh]z|hz|m/s|rad/s|deg/s|m/s\^?2|kg|g|N|Nm|V|A|W|Ah|%|°)"
 )
+_NUMBERS: Final = pattern(r"[-+]?[0-9]*\.?[0-9]+(?:\s+[-+]?[0-9]*\.?[0-9]+)+")
 _TAG: Final = pattern(r"!\S*")
 _KINDS: Final = {"!!str": str, "!!int": int, "!!float": float, "!!bool": bool, "!!seq": tuple}
 _ITEM: Final = pattern(r"\s*(-\s.*?)\s*")
@@ -42,6 +43,7 @@ def report_oddities(sections: Sequence[Section], lines: Sequence[str], problems:
                 _report_unit(entry, entry.value, sections, problems)
                 _report_items(entry.location, entry.value, lines, problems)
             elif isinstance(entry.value, tuple):
+                _report_blanks(entry, problems)
                 for value, at in zip(entry.value, entry.items, strict=False):
                     if isinstance(value, str):
                         _report_items(at, value, lines, problems)
@@ -91,6 +93,15 @@ def _others(entry: Entry, sections: Sequence[Section]) -> Iterator[Entry]:
 
 def _is_number(value: object) -> bool:
     return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _report_blanks(entry: Entry, problems: Problems) -> None:
+    """Report numbers in brackets without commas, as `[0.5 0.3]`: a list of one text."""
+    text = entry.value[0] if isinstance(entry.value, tuple) and len(entry.items) == 1 else None
+    if isinstance(text, str) and "." in text and _NUMBERS.fullmatch(text):
+        told = f"'{shortened(text)}' is one text: commas stand between the items of a list"
+        at, instead = entry.items[0], ", ".join(text.split())
+        problems.warning(Code.SURPRISING_SCALAR, told, at, suggestion=instead)
 
 
 def _report_items(at: Location, value: str, lines: Sequence[str], problems: Problems) -> None:

@@ -17,6 +17,12 @@ if TYPE_CHECKING:
 
 _TRUE = frozenset(["Y", "y", "yes", "Yes", "YES", "true", "True", "TRUE", "on", "On", "ON"])
 _FALSE = frozenset(["N", "n", "no", "No", "NO", "false", "False", "FALSE", "off", "Off", "OFF"])
+# Slips of `true` and `false`: letters swapped, doubled or left out, as far as that makes no other word.
+SLIPS = {
+    **dict.fromkeys(("ture", "treu", "ttrue", "trrue", "truue", "truee", "tru"), "true"),
+    **dict.fromkeys(("flase", "fasle", "fales", "flse", "fals"), "false"),
+    **dict.fromkeys(("ffalse", "faalse", "fallse", "falsse", "falsee"), "false"),
+}
 _YAML_FLOATS = {
     f"{sign}.{word}": float(f"{sign}{word}") for sign in ("", "+", "-") for word in ("inf", "Inf", "INF")
 } | {f".{word}": float(word) for word in ("nan", "NaN", "NAN")}

@@ -149,12 +149,12 @@ def _of_text(text: str) -> Surprise | None:
 
 
 def of_commas(text: str) -> Surprise | None:
-    """Return what is to be said of a plain text that is a number or several, but for a comma or the brackets."""
+    """Return what is to be said of a plain text that is a number, several or a boolean, but for a slip."""
     if text[:1] not in _NUMERIC:
         return None
-    from orchestra.resolve.rcl.commas import without_comma  # noqa: PLC0415 - few texts begin so
+    from orchestra.resolve.rcl.commas import without_slip  # noqa: PLC0415 - few texts begin so
 
-    found = without_comma(text)
+    found = without_slip(text)
     if found is None:
         return None
     why, instead = found
