@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import os
 import re
-from pathlib import Path
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
 from orchestra.cli.walking import files_of_project
@@ -72,24 +71,28 @@ def _real(path: str, folders: dict[str, str]) -> str:
 
 def _behind(path: str) -> list[Target]:
     if is_file(path):
-        return [Target(path, _kind_of_file(Path(path), named=True) or "launch")]
+        return [Target(path, _kind_of_file(path, named=True) or "launch")]
     if not os.path.isdir(path):  # noqa: PTH112 - pathlib raises for paths that the system refuses
         raise UsageError(f"there is no file or folder {path}")
-    files = map(Path, files_of_project(path, Finder(Problems())))
-    found = [Target(str(file), kind) for file in files if (kind := _kind_of_file(file))]
+    files = files_of_project(path, Finder(Problems()))
+    found = [Target(file, kind) for file in files if (kind := _kind_of_file(file))]
     if not found:
         raise UsageError(f"there is no launch file and no parameter file in {path}")
     return found
 
 
-def _kind_of_file(file: Path, *, named: bool = False) -> Kind | None:
+def _kind_of_file(path: str, *, named: bool = False) -> Kind | None:
     """Return what a file is; one that is named for itself may lack what marks a parameter file."""
-    if file.suffix not in TEXTS or is_launch_name(file.name):
-        return kind_of(file.name, "")
+    name = os.path.basename(path)  # noqa: PTH119 - pathlib is slow, here as below
+    if is_launch_name(name):
+        return "launch"
+    if os.path.splitext(name)[1] not in TEXTS:  # noqa: PTH122
+        return kind_of(name, "")
     try:
-        text = file.read_text("utf-8-sig", errors="replace")
+        with open(path, encoding="utf-8-sig", errors="replace") as file:  # noqa: PTH123
+            text = file.read()
     except OSError:
         text = ""  # whoever checks it by its name will say that it cannot be read
-    kind = kind_of(file.name, text)
-    lacking = named and kind is None and _YAML_NAME.search(file.name) and _NODE_KEY.search(text)
+    kind = kind_of(name, text)
+    lacking = named and kind is None and _YAML_NAME.search(name) and _NODE_KEY.search(text)
     return "parameters" if lacking else kind

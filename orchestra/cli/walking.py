@@ -34,8 +34,9 @@ def files_of_project(folder: str, finder: Finder) -> Iterator[str]:
     """Yield the files to be looked at below a folder, sorted by path; `finder` knows the settings."""
     top = os.path.abspath(folder)
     shown = os.path.normpath(folder)
+    above = os.path.join(top, "")
     for path in _walked(top, _rules_above(top), finder):
-        below = path.removeprefix(os.path.join(top, ""))
+        below = path.removeprefix(above)
         yield below if shown == "." else os.path.join(shown, below)
 
 

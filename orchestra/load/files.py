@@ -15,7 +15,7 @@ from orchestra.load.offsets import source
 from orchestra.load.reader import Reader
 from orchestra.location import Location, Span, displayed, point
 from orchestra.patterns import pattern
-from orchestra.witness.once import once, real
+from orchestra.witness.once import real
 
 if TYPE_CHECKING:
     import io
@@ -53,7 +53,7 @@ def load(
         from orchestra.load import python_file  # noqa: PLC0415
 
         return python_file.read(path, problems, included_from)
-    file = once(("displayed", path, os.getcwd()), lambda: displayed(path, real))  # noqa: PTH109 - pathlib is slow
+    file = displayed(path, real)
     reader = Reader(problems, included_from)
     at = included_from[0] if included_from else point(file)
     location = Location(at, included_from[1:])

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
 _ENDING: Final = ".batch"
 _MOST: Final = 32 * 1024 * 1024  # bytes that all may take together
 _FILES: Final = 12  # above which they become one
+_ENCODER: Final = json.JSONEncoder(check_circular=False)  # nothing that is recorded holds itself
 
 
 @dataclass(slots=True)
@@ -180,19 +181,21 @@ class _Shared:
 
     def __init__(self, writing: _Writing) -> None:
         self._writing = writing
-        self._parts: dict[int, frozenset[int]] = {}
+        self._parts: dict[Record, frozenset[int]] = {}
         self._environments: dict[tuple[Any, ...], int] = {}
 
     def numbers(self, record: Record) -> set[int]:
         """Return the numbers of a result's parts, of theirs, and of the variables that were read."""
-        return {self._environment(record)}.union(*map(self._part, record.parts))
+        found, known = {self._environment(record)}, self._parts
+        for part in record.parts:
+            found |= known[part] if part in known else self._part(part)
+        return found
 
     def _part(self, part: Record) -> frozenset[int]:
-        known = self._parts.get(id(part))
-        if known is None:
+        if part not in self._parts:
             own = self._writing.part(_encoded(part.as_data()))
-            known = self._parts[id(part)] = frozenset({own}.union(*map(self._part, part.parts)))
-        return known
+            self._parts[part] = frozenset({own}.union(*map(self._part, part.parts)))
+        return self._parts[part]
 
     def _environment(self, record: Record) -> int:
         """Return the number of what was read of the environment: most files of a project read the same."""
@@ -208,7 +211,7 @@ def _name(key: str) -> str:
 
 
 def _encoded(data: Any) -> bytes:
-    return json.dumps(data).encode("utf-8", "surrogatepass")
+    return _ENCODER.encode(data).encode("utf-8", "surrogatepass")
 
 
 def _status(path: str) -> os.stat_result | None:

@@ -20,9 +20,9 @@ def once(key: tuple[Any, ...], find: Callable[[], _FoundT]) -> _FoundT:
     It is where this process is not watched, for nobody knows how long that goes on, and after anything of which nobody
     can say what depends on it, for that may have changed what is looked at.
     """
-    watching = _WATCHING
-    if not (watching.installed and watching.certain and watching.active):
+    if not _remembers():
         return find()
+    watching = _WATCHING
     known = watching.kept.get(key)
     if known is not None:
         watching.depend(known[0])
@@ -38,16 +38,49 @@ def once(key: tuple[Any, ...], find: Callable[[], _FoundT]) -> _FoundT:
     return found
 
 
+def _remembers() -> bool:
+    watching = _WATCHING
+    return watching.installed and watching.certain and watching.active
+
+
 def real(path: str) -> str:
     """Return what `os.path.realpath` returns; what is above a file is looked at once for all files of its folder."""
-    if not path.startswith("/"):  # another working folder makes another one of it
+    if not path.startswith("/") or not _remembers():  # another working folder makes another one of it
         return os.path.realpath(path)
-    return once(("real", path), lambda: _real(path))
-
-
-def _real(path: str) -> str:
     folder, name = os.path.split(path)
     if name in ("", ".", "..") or "\0" in path:
-        return os.path.realpath(path)
-    whole = os.path.join(once(("real", folder), lambda: os.path.realpath(folder)), name)
-    return os.path.realpath(whole) if os.path.islink(whole) else whole
+        return once(("real", path), lambda: os.path.realpath(path))
+    return _seen(path) or _in(_real(folder), name, path)
+
+
+def _real(folder: str) -> str:
+    return once(("real", folder), lambda: os.path.realpath(folder))
+
+
+def _seen(path: str) -> str | None:
+    """Return where a path leads that is no link itself, as it was seen before.
+
+    What was seen is recorded as if it were seen again: a part of its own, for each file, would take longer to write.
+    """
+    known = _WATCHING.kept.get(("file", path))
+    record = _WATCHING.record
+    if known is None or record is None:
+        return None
+    _WATCHING.depend(known[0])
+    whole, mode = known[1]
+    record.looks.setdefault("own_mode", {}).setdefault(whole, mode)
+    found: str = whole
+    return found
+
+
+def _in(folder: str, name: str, path: str) -> str:
+    """Return where a path leads whose folder leads to this one."""
+    whole = os.path.join(folder, name)
+    if os.path.islink(whole):
+        return once(("real", whole), lambda: os.path.realpath(whole))
+    record = _WATCHING.record
+    mode = None if record is None else record.looks.get("own_mode", {}).get(whole)
+    above = _WATCHING.kept.get(("real", os.path.dirname(path)))
+    if mode is not None and above is not None:
+        _WATCHING.kept["file", path] = above[0], (whole, mode)
+    return whole

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import json
+import subprocess
+import sys
 from collections.abc import Callable
 from subprocess import CompletedProcess
 from typing import TYPE_CHECKING
@@ -136,3 +138,13 @@ def test_a_missing_package_is_only_a_warning_about_this_host(orchestra: Command,
     found = orchestra("check", ".", "--format", "json")
     assert found.returncode == 0
     assert [problem["severity"] for problem in json.loads(found.stdout)] == ["warning"]
+
+
+def test_what_is_left_at_the_end_is_not_searched_for_garbage(tmp_path: Path) -> None:
+    _write(tmp_path, plain="launch: []")
+    program = (
+        "import gc, sys; from orchestra.__main__ import main; print(main(), gc.get_freeze_count() > 10_000)"
+    )
+    words = [sys.executable, "-c", program, "check", "plain.launch.yaml"]
+    done = subprocess.run(words, cwd=tmp_path, capture_output=True, text=True, check=True)
+    assert done.stdout.splitlines() == ["no problems in 1 file", "0 True"]

@@ -7,7 +7,6 @@ import os
 import signal
 import struct
 import sys
-import traceback
 from time import monotonic
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
@@ -77,6 +76,8 @@ def work(channels: Channels, begin: Callable[[], Work], parent: int) -> NoReturn
         status = 128 + signal.SIGINT
     except BaseException:  # noqa: BLE001 - nothing may get out of this process into code of the other one
         if os.getpid() == own:
+            import traceback  # noqa: PLC0415 - slow, and only a bug needs it
+
             send(channels.answers, {"failed": traceback.format_exc()})
     finally:
         sys.stderr.flush()
