@@ -28,7 +28,7 @@ if TYPE_CHECKING:
 pytest.importorskip("rclpy", reason="needs ROS")
 
 _NODE = Path(__file__).parents[1] / "processes" / "declaring_node.py"
-_REACH = {"ROS_DOMAIN_ID": "47", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "NO_COLOR": "1"}
+_REACH = {"ROS_DOMAIN_ID": "55", "ROS_AUTOMATIC_DISCOVERY_RANGE": "LOCALHOST", "NO_COLOR": "1"}
 _NAME = "/robot1/declaring"
 
 
@@ -227,7 +227,7 @@ def test_a_node_of_a_run_is_reached_as_those_of_the_run(tmp_path: Path) -> None:
     orchestra = [sys.executable, "-m", "orchestra"]
     started = subprocess.run(
         [*orchestra, "launch", str(launch), "--detach", "--name", "captured"],
-        env={**home, "ROS_DOMAIN_ID": "48"},
+        env={**home, "ROS_DOMAIN_ID": "56"},
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,

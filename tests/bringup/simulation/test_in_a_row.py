@@ -23,7 +23,7 @@ from bringup.world.settings import TABLE, settings
 if TYPE_CHECKING:
     from pathlib import Path
 
-DOMAIN = 26
+DOMAIN = 51
 TICKS = 200
 # Robot1 drives into a wall and back.
 DRIVEN = "time,robot,linear,angular\n0,robot1,0.8,0.0\n1.5,robot1,-0.8,0.4\n0,robot2,0.3,-0.5\n"

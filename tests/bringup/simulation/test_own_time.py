@@ -16,7 +16,7 @@ from bringup.world.settings import TABLE, settings
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-DOMAIN = 26
+DOMAIN = 50
 
 
 @pytest.fixture

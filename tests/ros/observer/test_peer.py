@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def node(monkeypatch: pytest.MonkeyPatch) -> Iterator[Node]:
     monkeypatch.setenv("ROS_AUTOMATIC_DISCOVERY_RANGE", "OFF")
     context = Context()
-    rclpy.init(args=[], context=context, domain_id=32)
+    rclpy.init(args=[], context=context, domain_id=54)
     made = rclpy.create_node("ours", context=context, start_parameter_services=False, enable_rosout=False)
     yield made
     made.destroy_node()
