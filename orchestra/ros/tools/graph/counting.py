@@ -12,6 +12,7 @@ import time
 from typing import Any, Final
 
 from orchestra.ros.tools.graph.bare import publishers
+from orchestra.ros.tools.graph.deaf import Deaf
 from orchestra.ros.tools.graph.ports import own_port, ports_here, widen
 from orchestra.ros.tools.graph.rcl import rcl
 from orchestra.ros.tools.graph.rollcall import RollCall
@@ -57,6 +58,7 @@ class Counted:
         self._began = time.monotonic()
         self._met = False
         self._slowness = 1.0
+        self._deaf = Deaf()
         self._call: RollCall | None = None
         self._called = -_CALL_AGAIN
         self._patience = _CALL_AGAIN / 2
@@ -95,6 +97,10 @@ class Counted:
                 self._slowness = max((now - self._began) / _USUAL, 1.0)
         return self._nobody_missing
 
+    def stopped(self) -> frozenset[int]:
+        """Return the processes that have not answered because they are stopped."""
+        return self._deaf.stopped
+
     @staticmethod
     def rest() -> None:
         """Let a moment pass in which something new may come."""
@@ -110,7 +116,8 @@ class Counted:
         if found != self._found:
             self._found = found
             self._news(now)
-        if len({one for one in found if one[:_HOST] == self._own[:_HOST]}) < len(ports):
+        here = len({one for one in found if one[:_HOST] == self._own[:_HOST]})
+        if here < len(ports) and here + len(self._deaf.among(ports)) < len(ports):
             self._call_missing(ports, now)
             return False
         self.close()

@@ -45,6 +45,9 @@ class Attendance(Protocol):
     def silent(self, seconds: float) -> bool:
         """Tell whether nothing new has been seen for this time, though it was looked for."""
 
+    def stopped(self) -> frozenset[int]:
+        """Return the processes that have not answered because they are stopped."""
+
     def rest(self) -> None:
         """Let a moment pass in which something new may come."""
 
@@ -146,9 +149,13 @@ class Graph:
         """Leave the graph, and take back what was said to others to make them known."""
         self._attendance.close()
         self.node.destroy_node()
-        complaint = self._servers.complaint() or (_LATE if self._gave_up else None)
+        complaint = self._servers.complaint() or (_LATE if self._gave_up else self._of_the_stopped())
         if complaint:
             warn(f"warning: {complaint}")
+
+    def _of_the_stopped(self) -> str | None:
+        stopped = ", ".join(map(str, sorted(self._attendance.stopped())))
+        return f"what is stopped has not answered, and is missing: process {stopped}" if stopped else None
 
 
 @contextmanager

@@ -14,6 +14,7 @@ import time
 from contextlib import suppress
 from typing import TYPE_CHECKING, Final
 
+from orchestra.ros.tools.graph.deaf import Deaf
 from orchestra.ros.tools.graph.ports import ROOM, ports_here
 from orchestra.ros.tools.graph.wire import parameters as known
 from orchestra.ros.tools.graph.wire.own import (
@@ -75,7 +76,8 @@ class Member:
         self._called: dict[
             int, tuple[bytes, float, float]
         ] = {}  # the name, when again, and how long after that
-        self._ports: frozenset[int] = frozenset()
+        self._ports: dict[int, str] = {}  # with the inodes of their sockets
+        self.deaf = Deaf()
         self._ports_at = -_PORTS_AGAIN
         self._renew_at = time.monotonic() + _RENEW
         self.peers: dict[bytes, Peer] = {}
@@ -83,9 +85,10 @@ class Member:
         self.changes = 0  # of what is known
 
     def met(self) -> bool:
-        """Tell whether all participants have answered."""
+        """Tell whether all participants have answered that can."""
         self._look(time.monotonic())
-        return self._ports <= {peer.port for peer in self.peers.values()}
+        missing = self._missing()
+        return len(self.deaf.among(missing)) == len(missing)
 
     def hear(self, seconds: float) -> None:
         """Hear what comes, and wait for it at most so long; say what is due."""
@@ -183,16 +186,15 @@ class Member:
         if now - self._ports_at < _PORTS_AGAIN:
             return
         self._ports_at = now
-        self._ports = frozenset(ports_here(self._domain))
+        self._ports = ports_here(self._domain)
         for gone in [source for source, peer in self.peers.items() if peer.port not in self._ports]:
             del self.peers[gone]
             self._changed(now)
 
     def _call(self, now: float) -> None:
         """Announce ourselves to those who have not answered."""
-        known_ports = {peer.port for peer in self.peers.values()}
         fresh: bytes | None = None
-        for port in self._ports - known_ports:
+        for port in self._missing():
             name, at, patience = self._called.get(port, (None, now, _CALL_AGAIN))
             if now < at:
                 continue
@@ -204,6 +206,11 @@ class Member:
             self._renew_at = now + _RENEW
             for port, (name, *_) in self._called.items():
                 self._announce(name, port)
+
+    def _missing(self) -> dict[int, str]:
+        """Return the ports of those who have not answered."""
+        known_ports = {peer.port for peer in self.peers.values()}
+        return {port: inode for port, inode in self._ports.items() if port not in known_ports}
 
     def _new_name(self) -> bytes:
         name = VENDOR + os.urandom(_PREFIX_REST)

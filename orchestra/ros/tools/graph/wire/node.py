@@ -121,6 +121,10 @@ class WireNode:
             seconds *= _MET  # they are there, and only slow
         return self._looks >= _LOOKS * seconds and time.monotonic() - self._looks_from > seconds
 
+    def stopped(self) -> frozenset[int]:
+        """Return the processes that have not answered because they are stopped."""
+        return frozenset[int]().union(*(one.member.deaf.stopped for one in self._asked))
+
     def rest(self) -> None:
         """Let a moment pass in which something may come."""
         self.hear(_STEP)
