@@ -127,8 +127,19 @@ def _report_unknown(
         Code.UNKNOWN_DEPENDENCY,
         f"there is no {what} '{name}' to wait for",
         written.name.location,
-        suggestion=_as_written(nearest(name, known), written, process),
+        suggestion=_as_written(nearest(name, known) or _of_program(name, targets), written, process),
     )
+
+
+def _of_program(name: str, targets: Targets) -> str | None:
+    """Return the one node whose executable is called so: it is waited for by its own name."""
+    program = name.rpartition("/")[2]
+    found = [
+        node
+        for node, owners in targets.nodes.items()
+        if any(targets.process[owner].executable == program for owner in owners if owner in targets.process)
+    ]
+    return found[0] if len(found) == 1 else None
 
 
 def _as_written(meant: str | None, written: ResolvedDependency, process: ResolvedProcess) -> str | None:

@@ -26,6 +26,7 @@ from orchestra.resolve.scalars import (
     unified,
     upstream_value,
 )
+from orchestra.resolve.worded import look_at_paths
 from orchestra.resolve.wrong_lists import odd_in_text, odd_place, wrong_as_a_whole
 from orchestra.resolve.yaml_scalars import QUOTE
 
@@ -102,6 +103,8 @@ def _text(
     name: str, value: Template, evaluated: Value, type_word: str | None, run: Resolution, *, quotes: bool
 ) -> ParameterValue | Poison:
     constant = value.constant
+    if constant is None and evaluated.text[:1] == "/":
+        look_at_paths((evaluated,), run)
     try:
         if type_word not in (None, "yaml"):
             return coerced(evaluated.text, str(type_word))

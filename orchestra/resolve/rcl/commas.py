@@ -11,7 +11,7 @@ from orchestra.patterns import pattern
 from orchestra.resolve.rcl.scalars import SLIPS
 
 _NUMBER: Final = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
-_ENDED: Final = pattern(rf"({_NUMBER}|true|True|false|False)[,;]")
+_ENDED: Final = pattern(rf"({_NUMBER}|true|True|false|False)[,;]|(true|True|false|False)\.")
 _DECIMAL: Final = pattern(r"[-+]?(?:0,[0-9]+|[0-9]+,(?:[0-9]{1,2}|[0-9]{4,}))")
 _COMMENTED: Final = pattern(rf"({_NUMBER}|true|True|false|False)(?:#+\s?|\s+//\s*)(\S.*)")
 _SEVERAL: Final = pattern(rf"{_NUMBER}(?:\s*,\s*{_NUMBER})+,?")
@@ -23,7 +23,7 @@ def without_slip(text: str) -> tuple[str, str] | None:
     Whole numbers with commas between them, as `640,480`, may well be a text that a program takes apart.
     """
     if ended := _ENDED.fullmatch(text):
-        return f"the '{text[-1]}' belongs to it, and ends nothing here", ended[1]
+        return f"the '{text[-1]}' belongs to it, and ends nothing here", ended[1] or ended[2]
     if commented := _COMMENTED.fullmatch(text):
         return "a comment begins with a blank and '#'", f"{commented[1]} # {commented[2]}"
     if meant := SLIPS.get(text.lower()):

@@ -26,6 +26,7 @@ SECTION_KEY: Final = "ros__parameters"
 _NODE_DEPTH: Final = 2  # inside the file's mapping, inside that of a key of it
 _UNPREFIXED: Final = ("parameter", "parameters", "params")
 _COLON: Final = pattern(r"([^\s:\[\]{}]+):\s*(\S+)")
+_EQUALS: Final = pattern(r"([\w.]+)\s*:?=\s*(\S+)")
 _MISSPELT: Final = pattern(
     r"_*(?:ro?s|rso|ors|os|ro|ross|roos|rros)[_. -]*p?[a-z]{1,4}m[a-z]{0,6}", re.IGNORECASE
 )
@@ -122,9 +123,14 @@ class Strays:
 
     def no_mapping(self, event: yaml.Event, at: Location) -> None:
         """Report what stands below `ros__parameters` and is no mapping: a colon may lack the blank behind it."""
-        found = None
+        found = equals = None
         if isinstance(event, yaml.ScalarEvent) and not event.style:
-            found = _COLON.match(event.value)
+            found, equals = _COLON.match(event.value), _EQUALS.fullmatch(event.value)
+        if equals is not None and found is None:
+            message = f"a colon and a blank stand between '{equals[1]}' and its value, not '='"
+            instead = f"{equals[1]}: {equals[2]}"
+            self.problems.error(Code.PARAMETER_SYNTAX, message, at, suggestion=instead)
+            return
         if found is None:
             message = f"'{SECTION_KEY}' must hold a mapping from names to values"
             self.problems.error(Code.PARAMETER_SYNTAX, message, at)
@@ -142,10 +148,15 @@ class Strays:
         if self.empty is not None:
             self._tell(self.empty)
             self.empty = None
-        if depth <= _NODE_DEPTH:
-            for stray in self.held.values():
-                self._tell_stray(stray)
-            self.held.clear()
+        if depth > _NODE_DEPTH or (depth and not self.sections):
+            return
+        if (
+            not self.sections and "" in self.held
+        ):  # nothing but parameters, as files of ROS 1 have: that is one mistake
+            self.held = {"": self.held[""]}
+        for stray in self.held.values():
+            self._tell_stray(stray)
+        self.held.clear()
 
     def _tell_stray(self, stray: _Stray) -> None:
         key, keys, above = stray.key, stray.keys, stray.above
