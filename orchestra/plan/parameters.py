@@ -13,6 +13,7 @@ from orchestra.plan import candidates
 from orchestra.plan.absent import is_mistake
 from orchestra.plan.ids import node_name
 from orchestra.plan.model import Candidate, ParameterFile
+from orchestra.plan.parameter_file import rendered
 from orchestra.plan.passed_on import EVERY_NODE, Sections
 from orchestra.resolve.model import InlineParameter
 from orchestra.resolve.rcl.effective import effective
@@ -54,7 +55,7 @@ def parameters_of(
         return Parameters()
     full = node_name(process)
     own = full if full is not None and process.namespace is not None else EVERY_NODE
-    plain = None if sections.given else _plain(process, own)
+    plain = None if sections.given else _plain(process, own, whole=whole)
     if plain is not None:
         return plain
     settings = settings_of(sections.for_node(process, own, full), full)
@@ -69,12 +70,13 @@ def parameters_of(
     )
 
 
-def _plain(process: ResolvedProcess, own: str) -> Parameters | None:
-    """Return the parameters of a node where each is written once, for it alone; None where it takes a closer look.
+def _plain(process: ResolvedProcess, own: str, *, whole: bool) -> Parameters | None:
+    """Return the parameters of a node where each is written once, at the node; None where it takes a closer look.
 
-    In Python several may have one place, so that what was read for one is taken for what was read for all.
+    In Python several may have one place, so that what was read for one is taken for what was read for all. Where the
+    full name is not known, other nodes in the process may read them too.
     """
-    if own == EVERY_NODE or (is_python(process.location) and not _are_apart(process.parameters)):
+    if is_python(process.location) and not _are_apart(process.parameters):
         return None
     values: dict[str, ParameterValue] = {}
     written: dict[str, tuple[Candidate, ...]] = {}
@@ -85,7 +87,8 @@ def _plain(process: ResolvedProcess, own: str) -> Parameters | None:
         values[source.name] = source.value
         through = candidates.passage(source.through)
         written[source.name] = (candidates.new_candidate(source.value, source.location, True, rule, through),)
-    return Parameters(values, written)
+    shared = own == EVERY_NODE and whole and values
+    return Parameters(values, written, (ParameterFile("", rendered(own, values)),) if shared else ())
 
 
 def _are_apart(sources: Sequence[ParameterSource]) -> bool:
