@@ -5,7 +5,6 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING
 
-from orchestra.compat import faults
 from orchestra.compat.refusing import collecting
 from orchestra.location import Location
 from orchestra.resolve.python.environ import environment_now, put_environment
@@ -30,6 +29,8 @@ def user_code(run: Resolution, span: Span) -> Iterator[None]:
     except BaseException as error:  # the boundary of user code
         if isinstance(error, RecursionError) and run.is_deep:
             raise
+        from orchestra.compat import faults  # noqa: PLC0415 - few raise anything
+
         faults.report(error, run.problems, run.context.included_from, span)
         run.scope.ledger.incomplete = True
     finally:

@@ -14,7 +14,6 @@ from orchestra.dataclass import dataclass
 from orchestra.description.source import shortened
 from orchestra.errors import Code
 from orchestra.patterns import pattern
-from orchestra.resolve.rcl.oddities import report_oddities
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -53,6 +52,8 @@ class Surprise:
 
 def report_surprises(sections: Sequence[Section], text: str, problems: Problems) -> None:
     """Report what is surprising about the values in the text of a file; in a list the first."""
+    from orchestra.resolve.rcl.oddities import report_oddities  # noqa: PLC0415 - only files have them
+
     lines = _BREAK.split(text)
     report_oddities(sections, lines, problems)
     for section in sections:
