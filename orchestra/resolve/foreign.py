@@ -35,11 +35,15 @@ def warn_of_foreign(description: Description, run: Resolution) -> None:
     entities = [item for item in entities_in(description.actions) if not _is_for_shell(item)]
     declared = {item.name.constant for item in entities if isinstance(item, Arg | Let)}
     known = declared | set(run.scope.variables)
-    told = [problem.span for problem in run.problems if problem.span is not None]
+    told: dict[int, list[Span]] = {}
+    for problem in run.problems:
+        if problem.span is not None:
+            told.setdefault(problem.span.line, []).append(problem.span)
     for entity in entities:
         for template in templates_of(entity):
             for name, span, written in _found(template):
-                if name in known and not any(is_within(span, at) or is_within(at, span) for at in told):
+                beside = told.get(span.line, ())
+                if name in known and not any(is_within(span, at) or is_within(at, span) for at in beside):
                     message = f"{written} stays a text: a variable is written $(var {name})"
                     at = run.at(span)
                     run.problems.warning(Code.SUBSTITUTION_SYNTAX, message, at, suggestion=f"$(var {name})")

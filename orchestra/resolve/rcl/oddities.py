@@ -15,7 +15,8 @@ from orchestra.fields import replace
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Sequence
+    import re
+    from collections.abc import Sequence
 
     from orchestra.errors import Problems
     from orchestra.location import Location
@@ -34,13 +35,16 @@ _ITEM: Final = pattern(r"\s*(-\s.*?)\s*")
 
 def report_oddities(sections: Sequence[Section], lines: Sequence[str], problems: Problems) -> None:
     """Report such names and values in the lines of a file."""
+    numbers: set[str] | None = None
     for section in sections:
         for entry in section.entries:
             if entry.value is not None:
                 _report_name(entry, lines, problems)
                 _report_tag(entry, lines, problems)
             if isinstance(entry.value, str):
-                _report_unit(entry, entry.value, sections, problems)
+                if (found := _unit(entry.value)) is not None:
+                    numbers = _numbers(sections) if numbers is None else numbers
+                    _report_unit(entry, found, numbers, problems)
                 _report_items(entry.location, entry.value, lines, problems)
             elif isinstance(entry.value, tuple):
                 _report_blanks(entry, problems)
@@ -77,22 +81,24 @@ def _report_tag(entry: Entry, lines: Sequence[str], problems: Problems) -> None:
     problems.warning(Code.SURPRISING_SCALAR, told, replace(entry.location, span=place))
 
 
-def _report_unit(entry: Entry, text: str, sections: Sequence[Section], problems: Problems) -> None:
-    found = _UNIT.fullmatch(text) if text[:1] in "+-.0123456789" else None
-    if found is None or not any(_is_number(other.value) for other in _others(entry, sections)):
-        return
-    told = f"'{text}' is a text: a number has no unit"
-    problems.warning(Code.SURPRISING_SCALAR, told, entry.location, suggestion=found[1])
+def _unit(text: str) -> re.Match[str] | None:
+    return _UNIT.fullmatch(text) if text[:1] in "+-.0123456789" else None
 
 
-def _others(entry: Entry, sections: Sequence[Section]) -> Iterator[Entry]:
-    """Yield what is set for the same parameter of others."""
-    for section in sections:
-        yield from (other for other in section.entries if other.name == entry.name)
+def _numbers(sections: Sequence[Section]) -> set[str]:
+    """Return the names of parameters that are a number somewhere."""
+    return {
+        entry.name
+        for section in sections
+        for entry in section.entries
+        if isinstance(entry.value, int | float) and not isinstance(entry.value, bool)
+    }
 
 
-def _is_number(value: object) -> bool:
-    return isinstance(value, int | float) and not isinstance(value, bool)
+def _report_unit(entry: Entry, found: re.Match[str], numbers: set[str], problems: Problems) -> None:
+    if entry.name in numbers:
+        told = f"'{found[0]}' is a text: a number has no unit"
+        problems.warning(Code.SURPRISING_SCALAR, told, entry.location, suggestion=found[1])
 
 
 def _report_blanks(entry: Entry, problems: Problems) -> None:
