@@ -8,11 +8,12 @@ from typing import TYPE_CHECKING
 from bringup.control.clearance import nearest, retreat
 from bringup.control.command import STANDSTILL, Command, Pose, wrapped
 from bringup.control.guard import guarded
-from bringup.control.journey import Journey, close_by, travelled
+from bringup.control.journey import Journey
 from bringup.control.modes import Mode
 from bringup.control.outcome import Outcome, Result
 from bringup.control.ramp import braked, ramped
 from bringup.control.sight import Sight, moved
+from bringup.control.travelling import close_by, travelled
 from bringup.control.wander import Memory, wandered
 
 if TYPE_CHECKING:

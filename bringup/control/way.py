@@ -34,8 +34,13 @@ def remaining(way: Way, pose: Pose) -> float:
 
 def is_free(way: Way, pose: Pose) -> bool:
     """Whether nothing is in the way by its costs."""
+    return dearest(way, pose) < CLOSED
+
+
+def dearest(way: Way, pose: Pose) -> int:
+    """What the dearest cell on the way costs."""
     points = _points(way, pose)
-    return all(way.costs.between(start, end) < CLOSED for start, end in itertools.pairwise(points))
+    return max(way.costs.between(start, end) for start, end in itertools.pairwise(points))
 
 
 def advanced(way: Way, pose: Pose) -> Way:

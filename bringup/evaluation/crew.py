@@ -16,7 +16,7 @@ import numpy as np
 from bringup.control.command import Pose as ControlPose
 from bringup.control.controller import Odometry as Location
 from bringup.control.controller import Sight, State, ticked
-from bringup.control.sight import obstacle_points
+from bringup.control.sight import clear_points, obstacle_points
 from bringup.filter.localization import Estimate, Localization
 from bringup.filter.parameters import read_settings
 from bringup.filter.readings import Heard
@@ -109,12 +109,12 @@ class Member:
 
     def _look(self, ranges: NDArray[np.float64]) -> None:
         lidar = self._sensors.settings.lidar
-        angles, limits = (ANGLE_MIN, ANGLE_INCREMENT), (lidar.range_min, lidar.range_max)
-        points = obstacle_points(ranges, angles, limits, self._control.lidar_x)
+        geometry = (ANGLE_MIN, ANGLE_INCREMENT), (lidar.range_min, lidar.range_max), self._control.lidar_x
+        points = obstacle_points(ranges, *geometry)
         if points is not None:
-            self._sight = Sight(
-                self._simulation.time, points, self._location.pose if self._location else None
-            )
+            pose = self._location.pose if self._location else None
+            clear = clear_points(ranges, *geometry)
+            self._sight = Sight(self._simulation.time, points, pose, clear)
 
 
 def said_by_wheels(robot: str, stamp: int, estimate: Reckoned) -> Heard:
