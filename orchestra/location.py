@@ -222,7 +222,8 @@ def displayed(path: str, real: Callable[[str], str] = os.path.realpath) -> str:
         absolute = real(path)
     except ValueError:  # no file can have such a name, as one with NUL
         return path
-    prefix = os.path.join(real(os.getcwd()), "")  # noqa: PTH118, PTH109 - pathlib is slow to import
+    # The working directory is told as it is really called (getcwd(3)).
+    prefix = os.path.join(os.getcwd(), "")  # noqa: PTH118, PTH109 - pathlib is slow to import
     return absolute.removeprefix(prefix)
 
 

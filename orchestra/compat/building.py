@@ -22,13 +22,13 @@ if TYPE_CHECKING:
 
 def model_of(entity: LaunchDescriptionEntity) -> Model:
     """Return the model of a Python entity, its condition included; an opaque one where only its code knows more."""
-    from orchestra.description.actions.opaque import OpaqueAction  # noqa: PLC0415 - pydantic, only where files are read
-
     if isinstance(entity, ModelledAction) and entity._is_as_described():
         model = entity._to_model(conditioned(entity))
         if entity._refused:
             model.mark_faulty()
         return model
+    from orchestra.description.actions.opaque import OpaqueAction  # noqa: PLC0415 - pydantic, only where files are read
+
     place: Place | None = getattr(entity, "_place", None)
     if isinstance(entity, Action) and type(entity).visit is Action.visit:
         if place is None:
