@@ -9,6 +9,8 @@ from orchestra.compat.joined_texts import joined
 from orchestra.compat.place import Place
 from orchestra.compat.refusing import collector
 from orchestra.compat.remarks import remark
+from orchestra.compat.rewritten import Rewritten
+from orchestra.compat.source_text import text_at
 from orchestra.compat.syntax_trees import called_by, node_span, tree_of
 from orchestra.errors import Code, Problem, Severity
 from orchestra.fields import replace
@@ -24,6 +26,7 @@ if TYPE_CHECKING:
 _EARLY: Final = "is no text before the launch file is visited"
 AS_WRITTEN: Final = "what is written here is '"
 _HAS_TEXT: Final = "a function that OpaqueFunction calls has the text: {}(...).perform(context)"
+_CONDITIONS: Final = {"IfCondition", "UnlessCondition"}
 # Functions whose texts people read: there is nothing wrong with a substitution among them.
 _SHOWING: Final = frozenset(
     {"critical", "debug", "error", "exception", "info", "log", "pprint", "print", "repr", "warn", "warning"}
@@ -38,7 +41,8 @@ def tell_unequal(compared: object, text: str, frame: FrameType) -> None:
         _HAS_TEXT.format(name),
     )
     message = f"{name} {_EARLY}: it is never equal to {text!r}"
-    _tell(Code.IMPOSSIBLE_CONDITION, message, Place(frame.f_code, frame.f_lasti), notes)
+    place = Place(frame.f_code, frame.f_lasti)
+    _tell(Code.IMPOSSIBLE_CONDITION, message, place, notes, meant=_judged(place))
 
 
 def tell_true(tested: object, frame: FrameType) -> None:
@@ -77,12 +81,16 @@ def without_echoes(problems: Iterable[Problem]) -> Callable[[Problem], Problem |
     """
     told = {_mark(problem) for problem in problems} - {None}
     echoes = {id(problem): _echoed(problem, told) for problem in problems if told}
+    places = {problem.span: problem for problem in problems if _EARLY in problem.message}
+    grave = {problem.span for problem in problems if problem.severity is Severity.ERROR}
     stops = {echoes.get(id(problem)) for problem in problems if problem.severity is Severity.ERROR} - {None}
 
     def kept(problem: Problem) -> Problem | None:
-        if echoes.get(id(problem)) is not None:
+        early = places.get(problem.span)
+        if echoes.get(id(problem)) is not None or (early is not None and early is not problem):
             return None
-        return replace(problem, severity=Severity.ERROR) if _mark(problem) in stops else problem
+        is_grave = _mark(problem) in stops or (early is not None and problem.span in grave)
+        return replace(problem, severity=Severity.ERROR) if is_grave else problem
 
     return kept
 
@@ -98,6 +106,23 @@ def _echoed(problem: Problem, told: set[str | None]) -> str | None:
     if _mark(problem) is not None or problem.span is None or not is_python(problem.span):
         return None
     return next((mark for mark in told if mark is not None and mark in problem.message), None)
+
+
+def _judged(place: Place) -> Rewritten | None:
+    """Return the substitution that compares, where a condition is given a comparison of code."""
+    tree = tree_of(place.file)
+    node = None if tree is None else tree.expression(place.file, place.span)
+    match node:
+        case ast.Compare(left=left, ops=[ast.Eq() | ast.NotEq() as sign], comparators=[right]):
+            kind = "EqualsSubstitution" if isinstance(sign, ast.Eq) else "NotEqualsSubstitution"
+            sides = (text_at(place.file, node_span(place.file, side, quotes=True)) for side in (left, right))
+            around = () if tree is None else (called_by(item) for item in tree.nodes if _is_given(item, node))
+            return Rewritten(f"{kind}({', '.join(sides)})") if set(around) & _CONDITIONS else None
+    return None
+
+
+def _is_given(call: ast.AST, node: ast.expr) -> bool:
+    return isinstance(call, ast.Call) and any(item is node for item in call.args)
 
 
 def _tree(place: Place) -> Tree | None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING
 
@@ -87,8 +88,10 @@ def _explained(error: BaseException, call: TracebackType | None) -> Explanation:
 
         message = in_their_words(" ".join(str(error).split()))
         span, meant = None if error.at is None else whole(error.at), error.suggestion
-        if meant is None and isinstance(error.at, Argument) and span is not None:
-            meant = rewritten(error.at.place.file, span, error.value, message)
+        if meant is None and error.at is not None and span is not None:
+            at = error.at
+            file = at.place.file if isinstance(at, Argument) else str(Path(span.file).absolute())
+            meant = rewritten(file, span, error.value, message)
         return Explanation(message, error.code, span, meant)
     code = Code.SYNTAX if isinstance(error, SyntaxError) else Code.USER_CODE
     return Explanation(_message(error), code)

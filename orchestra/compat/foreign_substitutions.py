@@ -61,9 +61,7 @@ def tell_foreign(path: str, problems: Problems, chain: tuple[Span, ...]) -> None
                 f"{AS_WRITTEN}{found[0]}'"
             )
             span = node_span(path, node, quotes=True)
-            problems.warning(
-                Code.SUBSTITUTION_SYNTAX, told, Location(span, chain), suggestion=_meant(text)
-            )
+            problems.warning(Code.SUBSTITUTION_SYNTAX, told, Location(span, chain), suggestion=_meant(text))
 
 
 def _texts(tree: Tree) -> Iterator[ast.Constant]:

@@ -9,8 +9,17 @@ if TYPE_CHECKING:
     from collections.abc import Callable
 
 _Form: TypeAlias = "Callable[[str, Any], str | None]"
+_TWO: Final = 2
 _PLAIN: Final = re.compile(r"[\w./:=@%+, -]+")
 _CALLED: Final = re.compile(r"([\w.]+)\(.*\)")
+
+# What takes objects that are no actions, by the names of their classes.
+_TAKING: Final = {
+    "BaseEventHandler": "RegisterEventHandler(",
+    "Event": "EmitEvent(event=",
+    "LaunchDescriptionSource": "IncludeLaunchDescription(",
+    "function": "OpaqueFunction(function=",
+}
 
 
 def form_meant(source: str, value: Any, message: str) -> str | None:
@@ -57,8 +66,11 @@ def _remappings(source: str, value: Any) -> str | None:
     return repr(list(value.items())) if is_plain else f"list({source}.items())"
 
 
-def _pair(source: str, value: str) -> str:  # noqa: ARG001 - as the others
-    """Return a remapping of the command line as that of a launch file."""
+def _pair(source: str, value: Any) -> str | None:
+    """Return a remapping of the command line, or a list of two names, as that of a launch file."""
+    if not isinstance(value, str):
+        is_list = isinstance(value, list) and len(value) == _TWO and source[:1] + source[-1:] == "[]"
+        return f"({source[1:-1]})" if is_list else None
     name, _, target = value.partition(":=")
     return f"({name!r}, {target!r})"
 
@@ -76,6 +88,16 @@ def _parameters(source: str, value: Any) -> str | None:
 def _actions(source: str, value: Any) -> str | None:
     """Return a list of one action."""
     return f"[{source}]" if callable(getattr(value, "visit", None)) else None
+
+
+def _misplaced(source: str, value: Any) -> str | None:
+    """Return the action that takes what stands in place of one."""
+    if isinstance(value, list | tuple):
+        is_literal = source[:1] + source[-1:] in ("[]", "()")
+        return (source[1:-1].strip() or None) if is_literal else f"*{source}"
+    kinds = (_TAKING.get(kind.__name__) for kind in type(value).__mro__)
+    taking = next((kind for kind in kinds if kind is not None), None)
+    return None if taking is None else f"{taking}{source})"
 
 
 def _uncalled(source: str, value: Any) -> str | None:
@@ -108,6 +130,9 @@ _FORMS: Final[dict[str, _Form]] = {
     "parameters are a list of dictionaries and files, not ": _parameters,
     "'parameters' of a Node is a list, not ": _parameters,
     "is a list, this is": _actions,
+    "are a list, this is": _actions,
+    "returns a list of actions or None": _actions,
+    "an action is expected here": _misplaced,
     "a list of actions is expected": _actions,
     "is not called": _uncalled,
     "of an OpaqueFunction cannot be called": _handed_over,

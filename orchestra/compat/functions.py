@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import ast
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.literals import Literal
 from orchestra.compat.place import span_in
+from orchestra.compat.rewritten import Rewritten
+from orchestra.compat.source_text import text_at
 from orchestra.compat.syntax_trees import node_span, tree_of
 
 if TYPE_CHECKING:
@@ -15,6 +17,8 @@ if TYPE_CHECKING:
 
     from orchestra.compat.syntax_trees import Function
     from orchestra.location import Span
+
+_MOST: Final = 100  # characters: what is longer is read better in the message alone
 
 
 def name_of(function: Any) -> Span | None:
@@ -44,6 +48,16 @@ def returned_by(function: Any, made: Any) -> Literal | None:
         return Literal(file, None, node_span(file, empty[0]) if len(empty) == 1 else around, tree)
     values = [item.value for item in returns if item.value is not None and not _is_none(item.value)]
     return Literal(file, values[0] if len(values) == 1 else None, around, tree)
+
+
+def described_by(returned: Literal, made: Any) -> Rewritten | None:
+    """Return the launch description of actions that are returned without one."""
+    source = "" if returned.node is None else text_at(returned.file, returned.whole)
+    if not source or "\n" in source or len(source) > _MOST:
+        return None
+    if isinstance(made, list | tuple):
+        return Rewritten(f"LaunchDescription({source})")
+    return Rewritten(f"LaunchDescription([{source}])") if callable(getattr(made, "execute", None)) else None
 
 
 def _found(function: Any) -> tuple[CodeType, Function] | None:

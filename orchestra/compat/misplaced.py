@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.explanation import told
+from orchestra.errors import Code, Problem, Severity
+
+if TYPE_CHECKING:
+    from orchestra.compat.place import Place
 
 # By the name of a class, its own or one that it derives from: whoever has such an object has imported it.
 _USES: Final = {
@@ -18,6 +22,20 @@ _USES: Final = {
     "tuple": "a * before it makes its items part of the list around it",
     "type": "brackets after the class make an object of it",
 }
+
+
+def refuse_entity(value: Any, place: Place) -> None:
+    """Report what a call adds to a launch description in place of an action."""
+    # Here, because only mistakes need them, and what they import.
+    from orchestra.compat.literals import argument  # noqa: PLC0415
+    from orchestra.compat.remarks import report  # noqa: PLC0415
+    from orchestra.compat.rewritten import rewritten  # noqa: PLC0415
+
+    message, notes = misplaced(value)
+    written = argument(place, ("*0",))
+    is_one = isinstance(value, list | tuple) or written.node is None
+    meant = None if is_one else rewritten(place.file, written.whole, value, message)
+    report(Problem(Code.WRONG_TYPE, Severity.ERROR, message, written.whole, (), meant, notes))
 
 
 def misplaced(value: Any) -> tuple[str, tuple[str, ...]]:

@@ -6,10 +6,12 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.refusing import collector
 from orchestra.errors import Code
+from orchestra.fields import replace
 from orchestra.location import Location
 
 if TYPE_CHECKING:
     from orchestra.compat.place import Place
+    from orchestra.errors import Problem
     from orchestra.location import Span
 
 
@@ -24,6 +26,14 @@ def remark_of_value(message: str, value: Any, place: Place, argument: str) -> No
     span = keyword(place, argument).whole
     meant = None if span == place.span else rewritten(place.file, span, value, message)
     remark(Code.WRONG_TYPE, message, span, suggestion=meant)
+
+
+def report(problem: Problem) -> None:
+    """Report a problem with the includes on the way to the code that runs."""
+    collecting = collector()
+    if collecting is not None:
+        problems, chain = collecting
+        problems.report(replace(problem, included_from=chain))
 
 
 def remark(

@@ -43,7 +43,8 @@ def rewritten(file: str, span: Span, value: Any, message: str) -> Rewritten | No
     source = _short(file, span)
     if source is None:
         return None
-    if "a remapping is a tuple" in message and not (isinstance(value, str) and ":=" in value):
+    is_pair = isinstance(value, list) or (isinstance(value, str) and ":=" in value)
+    if "a remapping is a tuple" in message and not is_pair:
         return _apart(file, span, source)
     meant = form_meant(source, value, message)
     is_given = source in _arguments_around(file, span)  # then the mistake may be where the function is called

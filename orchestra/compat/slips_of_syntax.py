@@ -7,7 +7,7 @@ further with the word as it was meant.
 from __future__ import annotations
 
 import re
-from itertools import islice
+from itertools import chain, islice
 from keyword import kwlist
 from typing import TYPE_CHECKING, Final
 
@@ -22,6 +22,8 @@ _HALF_QUOTED: Final = re.compile(
     r"""(?<![\w'"./-])(?:(["'])([\w./-]+)(?=[,)\]}:]|$)|([\w./-]+)(["'])(?=[,)\]}:]))"""
 )
 _TWO_QUOTES: Final = re.compile(r"""(?<![\w'"./-])(?:'([\w./-]+)"|"([\w./-]+)')(?=[,)\]}:])""")
+_PRINT: Final = re.compile(r"\bprint\s+(?![(=])(.+?)[ \t]*$")
+_SIGN: Final = re.compile(r"(?<![=!<>:+*/-])[=:](?!=)")
 _MOST: Final = 12  # words that are tried
 _SHORT: Final = 2  # letters that make any two words alike
 
@@ -34,8 +36,12 @@ def slip_in(error: SyntaxError, lines: Sequence[str]) -> _Slip | None:
     ways: Iterator[_Slip] = iter(())
     if "unterminated string" in message:
         ways = _half_quoted(lines[line - 1])
+    elif "call to 'print'" in message:
+        ways = _printing(lines[line - 1])
+    elif message.startswith("cannot assign to"):
+        ways = _other_signs(lines[line - 1])
     elif message.startswith(("invalid syntax", "expected")):
-        ways = _misspelt(lines[line - 1])
+        ways = chain(_misspelt(lines[line - 1]), _other_signs(lines[line - 1]))
     for begin, end, meant in islice(ways, _MOST):
         text = lines[line - 1]
         whole = [*lines[: line - 1], f"{text[:begin]}{meant}{text[end:]}", *lines[line:]]
@@ -51,6 +57,18 @@ def _misspelt(text: str) -> Iterator[_Slip]:
         if word not in kwlist and len(word) >= _SHORT:
             meant = (known for known in kwlist if is_slip(word, known))
             yield from ((*found.span(), known) for known in sorted(meant, key=_unlike(word)))
+
+
+def _printing(text: str) -> Iterator[_Slip]:
+    """Yield a statement of Python 2 as a call."""
+    for found in _PRINT.finditer(text):
+        yield (*found.span(), f"print({found[1]})")
+
+
+def _other_signs(text: str) -> Iterator[_Slip]:
+    """Yield the signs of a line that may stand for others: a dictionary has `:`, a call has `=`."""
+    for found in _SIGN.finditer(text):
+        yield (*found.span(), ":" if found[0] == "=" else "=")
 
 
 def _unlike(word: str) -> Callable[[str], tuple[bool, int]]:

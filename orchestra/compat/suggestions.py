@@ -123,7 +123,8 @@ def _wrong(found: Literal, meant: str, message: str, *, is_name: bool) -> tuple[
     """
     if found.node is None:  # a name, or the part of something
         written = text_at(found.file, found.span)
-        if written.replace(".", "").isidentifier() and (is_name or _stands(written, message)):
+        is_sign = len(written) == 1 and not written.isspace() and not is_name
+        if is_sign or (written.replace(".", "").isidentifier() and (is_name or _stands(written, message))):
             return found.span, meant
         return next(_replaced(_told(quoted_in(found.file, found.span), message), meant), None)
     if isinstance(found.node, ast.Constant):

@@ -111,7 +111,7 @@ def _look_for_slips(
 def _undescribed_at(module: ModuleType, made: object, at: Span) -> tuple[Span, str | None]:
     """Return where it stands that nothing is described, and what should stand there."""
     # Here, because only mistakes need it, and what it imports.
-    from orchestra.compat.functions import name_of, returned_by  # noqa: PLC0415
+    from orchestra.compat.functions import described_by, name_of, returned_by  # noqa: PLC0415
 
     if made is module:
         meant = _meant(module)
@@ -121,7 +121,7 @@ def _undescribed_at(module: ModuleType, made: object, at: Span) -> tuple[Span, s
     if isinstance(made, CoroutineType):
         return name_of(generate) or at, None
     returned = returned_by(generate, made)
-    return (at if returned is None else returned.whole), None
+    return (at, None) if returned is None else (returned.whole, described_by(returned, made))
 
 
 def _meant(module: ModuleType) -> FunctionType | None:

@@ -167,12 +167,14 @@ _FUNCTION = {
         "return [Node(**TALKER)]",
         "generate_launch_description() returns a LaunchDescription, not a list",
         Code.NO_DESCRIPTION,
+        suggestion="LaunchDescription([Node(**TALKER)])",
         note="put it into LaunchDescription([...])",
     ),
     "an action": Mistake(
         "return Node(**TALKER)",
         "generate_launch_description() returns a LaunchDescription, not a Node",
         Code.NO_DESCRIPTION,
+        suggestion="LaunchDescription([Node(**TALKER)])",
     ),
     "an argument": Mistake(
         "def «generate_launch_description»(context):\n    return LaunchDescription([])",
@@ -193,24 +195,28 @@ _ENTITIES = {
         "[LogInfo(msg='a'), «[Node(**TALKER)]»]",
         "an action is expected here, this is a list",
         Code.WRONG_TYPE,
+        suggestion="Node(**TALKER)",
         note="a * before it makes its items part of the list around it",
     ),
     "a class": Mistake(
         "[«Shutdown»]",
         "an action is expected here, this is the class Shutdown",
         Code.WRONG_TYPE,
+        suggestion="Shutdown()",
         note="brackets after the class make an object of it",
     ),
     "an event handler": Mistake(
         "[«OnShutdown(on_shutdown=[])»]",
         "an action is expected here, this is an OnShutdown",
         Code.WRONG_TYPE,
+        suggestion="RegisterEventHandler(OnShutdown(on_shutdown=[]))",
         note="RegisterEventHandler(...) takes it",
     ),
     "a source": Mistake(
         "[«PythonLaunchDescriptionSource('b.launch.py')»]",
         "an action is expected here, this is a PythonLaunchDescriptionSource",
         Code.WRONG_TYPE,
+        suggestion="IncludeLaunchDescription(PythonLaunchDescriptionSource('b.launch.py'))",
         note="IncludeLaunchDescription(...) takes it",
     ),
     "a component": Mistake(
@@ -220,7 +226,7 @@ _ENTITIES = {
         note="ComposableNodeContainer(...) and LoadComposableNodes(...) load it",
     ),
     "nothing, added later": Mistake(
-        "ld = «LaunchDescription()»\nld.add_action(None)\nreturn ld",
+        "ld = LaunchDescription()\nld.add_action(«None»)\nreturn ld",
         "an action is expected here, this is None",
         Code.WRONG_TYPE,
     ),
@@ -233,6 +239,7 @@ _ENTITIES = {
         "def f(context):\n    return «Node(**TALKER)»\nreturn LaunchDescription([OpaqueFunction(function=f)])",
         "f returns a list of actions or None, this is a Node",
         Code.WRONG_TYPE,
+        suggestion="[Node(**TALKER)]",
     ),
     "an action instead of a group's list": Mistake(
         "[GroupAction(«Node(**TALKER)»)]",
@@ -275,6 +282,7 @@ _VALUES = {
         "[Node(**TALKER, remappings=[«['a', 'b']»])]",
         "a remapping is a tuple of two names, not ['a', 'b']",
         Code.WRONG_TYPE,
+        suggestion="('a', 'b')",
     ),
     "parameters that are no list": Mistake(
         "[Node(**TALKER, parameters=«{'a': 1}»)]",

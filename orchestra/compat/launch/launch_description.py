@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.compat.explanation import told
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.compat.place import here
+from orchestra.compat.refusing import collector
 from orchestra.compat.wrong import WrongType
 
 if TYPE_CHECKING:
@@ -48,10 +49,19 @@ class LaunchDescription(LaunchDescriptionEntity):
 
     def add_action(self, action: LaunchDescriptionEntity) -> None:
         """Append an action."""
-        self.__entities.append(action)
+        self._append(action)
 
     def add_entity(self, entity: LaunchDescriptionEntity) -> None:
         """Append an entity."""
+        self._append(entity)
+
+    def _append(self, entity: LaunchDescriptionEntity) -> None:
+        """Append an entity; what is none is reported where it is added, so that the visit has not to do so."""
+        if not isinstance(entity, LaunchDescriptionEntity) and collector() is not None:
+            from orchestra.compat.misplaced import refuse_entity  # noqa: PLC0415 - only mistakes need it
+
+            refuse_entity(entity, here())
+            return
         self.__entities.append(entity)
 
     def visit(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:  # noqa: ARG002 - for subclasses

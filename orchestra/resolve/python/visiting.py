@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat import faults
@@ -39,7 +40,7 @@ def visit_entities(entities: Iterable[Any], run: Resolution, place: Place | None
         else:
             count = len(entities) if isinstance(entities, list | tuple) else 0
             span = _span(entity, run) if place is None else item_span(place, index, count)
-            _refuse_other(entity, span, run)
+            _refuse_other(entity, span, run, is_written=place is None or span != place.span)
 
 
 def visit_entity(entity: Any, run: Resolution, place: Place | None = None) -> None:
@@ -130,7 +131,7 @@ def _carry_out(entity: Any, span: Span, run: Resolution) -> None:
             raise WrongType(told_so, at=at) from None
         if made is not None and (isinstance(made, str | Mapping) or not isinstance(made, Iterable)):
             told_so = f"{_name(entity)} returns a list of actions or None, this is {told(made)}"
-            raise WrongType(told_so, at=_returned(entity, made))
+            raise WrongType(told_so, made, at=_returned(entity, made))
         following = made
     if following is not None:
         _visit_returned(entity, following, run)
@@ -151,7 +152,8 @@ def _visit_returned(entity: Any, following: Iterable[Any], run: Resolution) -> N
         if returned is not None:
             for index, item in enumerate(following):
                 if not _is_entity(item):
-                    _refuse_other(item, returned.item(index, len(following)).whole, run)
+                    written = returned.item(index, len(following))
+                    _refuse_other(item, written.whole, run, is_written=written.node is not None)
             following = [item for item in following if _is_entity(item)]
     visit_entities(following, run, getattr(entity, "_place", None))
 
@@ -165,10 +167,14 @@ def _is_entity(value: Any) -> bool:
     return isinstance(value, LaunchDescriptionEntity)
 
 
-def _refuse_other(value: Any, span: Span, run: Resolution) -> None:
-    """Report something that is no entity."""
+def _refuse_other(value: Any, span: Span, run: Resolution, *, is_written: bool = False) -> None:
+    """Report something that is no entity; `is_written`: it is just that which is written at the place."""
+    # Here, because only mistakes need it, and what it imports.
+    from orchestra.compat.rewritten import rewritten  # noqa: PLC0415
+
     message, notes = misplaced(value)
-    run.problems.error(Code.WRONG_TYPE, message, run.at(span), notes=notes)
+    meant = rewritten(str(Path(span.file).absolute()), span, value, message) if is_written else None
+    run.problems.error(Code.WRONG_TYPE, message, run.at(span), suggestion=meant, notes=notes)
 
 
 def _refuse(entity: Any, error: ValidationError, run: Resolution) -> None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.building import models_of
 from orchestra.compat.launch.event_handler import BaseEventHandler, entities_of, is_of_ours
+from orchestra.compat.wrong import WrongType
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -14,12 +16,17 @@ if TYPE_CHECKING:
     from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 
+_GIVEN = 2
+_ANY_NUMBER = 4  # `inspect.CO_VARARGS`, which is slow to import
+
 
 class ReactingEventHandler(BaseEventHandler):
     """Visit entities, or call `reaction(event, context)` and visit what it returns. Raises `TypeError` for others."""
 
     def __init__(self, *, matcher: Callable[[Any], bool], reaction: Any, **kwargs: Any) -> None:
         super().__init__(matcher=matcher, **kwargs)
+        if type(reaction) is FunctionType:
+            _check_arguments(reaction)
         self.__function = reaction if callable(reaction) else None
         self.__entities = [] if callable(reaction) else entities_of(reaction)
 
@@ -42,3 +49,15 @@ class ReactingEventHandler(BaseEventHandler):
         if self.__function is not None or not is_of_ours(self, "handle"):
             return {"callback": self.handle}
         return {"children": models_of(self.__entities, self._place)}
+
+
+def _check_arguments(function: FunctionType) -> None:
+    """Raise `WrongType` for a function that cannot be called with an event and the context."""
+    code = function.__code__
+    needed = code.co_argcount - len(function.__defaults__ or ())
+    if needed > _GIVEN or (code.co_argcount < _GIVEN and not code.co_flags & _ANY_NUMBER):
+        count = code.co_argcount
+        told = (
+            f"{function.__name__} is called with the event and the context, it takes {count or 'no'} argument"
+        )
+        raise WrongType(told + "s" * (count != 1), function)
