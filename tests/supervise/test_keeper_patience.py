@@ -88,4 +88,4 @@ def test_without_a_keeper_nobody_gets_more_time_than_usual(tmp_path: Path, *, st
             run.send(signal.SIGINT)
             run.await_event("signal_sent", "a")
         run.send(signal.SIGKILL)
-        run.assert_gone(6.5)
+        run.assert_gone(9.0)

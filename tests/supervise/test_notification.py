@@ -64,8 +64,8 @@ def test_a_process_may_ask_for_more_time(tmp_path: Path) -> None:
     """It is ready only when we say so, which is long after its timeout."""
     go = tmp_path / "go"
     words = ("tell=EXTEND_TIMEOUT_USEC=60000000", f"await={go}", "tell=READY=1", "linger")
-    server = notifier("server", *words, ready=ready(notify=True, timeout=1.0))
-    with launched(tmp_path, plan(server, process("waits", command=("sleep", "1.3")), client())) as run:
+    server = notifier("server", *words, ready=ready(notify=True, timeout=2.5))
+    with launched(tmp_path, plan(server, process("waits", command=("sleep", "2.8")), client())) as run:
         run.await_event("process_exited", "waits")
         go.touch()
         assert run.wait() == 0

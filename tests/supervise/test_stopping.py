@@ -234,4 +234,4 @@ def test_without_a_keeper_nobody_gets_more_time(tmp_path: Path) -> None:
     with launched(tmp_path, plan(stubborn)) as run:
         run.await_line("a", "up")
         run.send(signal.SIGKILL)
-        run.assert_gone(7.0)
+        run.assert_gone(9.0)
