@@ -26,7 +26,7 @@ _VERBS: Final = {
     "type": Verb("show the type of an action", "actions:action_type", (graph, word("action", "its name"))),
     "send_goal": Verb(
         "send a goal to an action",
-        "actions:send_goal",
+        "goals:send_goal",
         (
             graph,
             word("action", "its name"),

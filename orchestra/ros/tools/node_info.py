@@ -4,19 +4,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from rclpy.action.graph import (
-    get_action_client_names_and_types_by_node,
-    get_action_server_names_and_types_by_node,
-)
-
-from orchestra.ros.tools.graph.joining import joined
+from orchestra.ros.tools.graph.action_names import clients, servers
+from orchestra.ros.tools.graph.closely import looking_closely
 from orchestra.ros.tools.graph.names import Names, absolute, listed, nodes, split, unknown
 from orchestra.ros.tools.telling import tell, warn
 
 if TYPE_CHECKING:
     from argparse import Namespace
 
-    from orchestra.ros.tools.graph.joining import Graph
+    from orchestra.ros.tools.graph.seeing import Graph
 
 _GROUPS: Final = (
     ("subscribers", "Subscribers"),
@@ -31,7 +27,7 @@ _GROUPS: Final = (
 def info(options: Namespace) -> int:
     """Write what a node has: topics, services, actions, with types."""
     full = absolute(options.node)
-    with joined(options) as graph:
+    with looking_closely(options) as graph:
         seen = graph.whole(lambda: _endpoints(graph, full, every=options.include_hidden))
         if seen is None:
             raise unknown("Unable to find node", full, nodes(graph))
@@ -62,6 +58,6 @@ def _endpoints(graph: Graph, full: str, *, every: bool) -> dict[str, Any] | None
         "publishers": listed(node.get_publisher_names_and_types_by_node(*who), every=every),
         "service_servers": listed(node.get_service_names_and_types_by_node(*who), every=every),
         "service_clients": listed(node.get_client_names_and_types_by_node(*who), every=every),
-        "action_servers": listed(get_action_server_names_and_types_by_node(node, *who), every=every),
-        "action_clients": listed(get_action_client_names_and_types_by_node(node, *who), every=every),
+        "action_servers": listed(servers(graph, *who), every=every),
+        "action_clients": listed(clients(graph, *who), every=every),
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from orchestra.ros.tools.graph.closely import looking_closely
 from orchestra.ros.tools.graph.names import NO_TOPIC, absolute, topics, unknown
 from orchestra.ros.tools.graph.seeing import looking
 from orchestra.ros.tools.telling import lines, tell
@@ -39,10 +40,8 @@ def list_topics(options: Namespace) -> int:
 
 def info(options: Namespace) -> int:
     """Write type and endpoints of a topic."""
-    from orchestra.ros.tools.graph.joining import joined  # noqa: PLC0415 - as in `_endpoint`
-
     topic = absolute(options.topic)
-    with joined(options) as graph:
+    with looking_closely(options) as graph:
         graph.whole(lambda: tuple(_identities(endpoints) for endpoints in _endpoints(graph, topic)))
         publishers, subscriptions = _endpoints(graph, topic)
         types = dict(topics(graph)).get(topic, [])
@@ -138,12 +137,18 @@ def _identities(endpoints: list[Any]) -> list[tuple[bytes, str]]:
 
 
 def _endpoint(endpoint: Any) -> dict[str, Any]:  # noqa: ANN401 - as above
-    from orchestra.ros.tools.graph.qos import data_of  # noqa: PLC0415 - most of rclpy, and only this needs it
-
     return {
         "node": f"{endpoint.node_namespace.rstrip('/')}/{endpoint.node_name}",
         "type": endpoint.topic_type,
         "type_hash": str(endpoint.topic_type_hash),
         "gid": ".".join(f"{byte:02x}" for byte in endpoint.endpoint_gid),
-        "qos": data_of(endpoint.qos_profile),
+        "qos": _qos(endpoint),
     }
+
+
+def _qos(endpoint: Any) -> dict[str, Any]:  # noqa: ANN401 - as above
+    if hasattr(endpoint, "qos"):
+        return dict(endpoint.qos)  # as it was on the wire
+    from orchestra.ros.tools.graph.qos import data_of  # noqa: PLC0415 - most of rclpy, and only this needs it
+
+    return data_of(endpoint.qos_profile)

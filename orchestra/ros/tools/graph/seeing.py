@@ -171,18 +171,6 @@ def looking(options: Namespace) -> Iterator[Graph]:
             raise told(error) from None
 
 
-@contextmanager
-def looking_with_node(options: Namespace) -> Iterator[Graph]:
-    """Look at the graph with a hidden bare node, for those who ask rcl themselves."""
-    with Ending() as ending, ExitStack() as stack:
-        graph = _with_node(options, ending, stack)
-        stack.callback(graph.close)
-        try:
-            yield graph
-        except ValueError as error:
-            raise told(error) from None
-
-
 def _on_wire(options: Namespace, ending: Ending, domain: int) -> Graph:
     from orchestra.ros.tools.graph.wire.node import WireNode  # noqa: PLC0415 - only one of both ways is taken
 

@@ -15,10 +15,12 @@ from orchestra.ros.tools.graph.wire.own import PUBLICATIONS, SUBSCRIPTIONS
 from orchestra.ros.tools.graph.wire.parameters import described, read_text
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Container, Iterator
 
     from orchestra.ros.tools.graph.wire.peer import Peer
     from orchestra.ros.tools.graph.wire.submessages import Data
+
+    Listed = list[tuple[str, list[str]]]
 
 _TOPIC, _REQUEST, _REPLY = "rt/", "rq/", "rr/"
 _ENDS: Final = {_REQUEST: "Request", _REPLY: "Reply"}
@@ -30,9 +32,12 @@ _HALVES: Final = ("_Request_", "_Response_")
 class Described:
     """An endpoint, as it is described."""
 
+    guid: bytes
     topic: str
     kind: str
     writes: bool
+    fields: dict[int, bytes]
+    order: str
 
 
 class Endpoints:
@@ -50,21 +55,32 @@ class Endpoints:
             received.whole for peer in self.member.peers.values() for received in peer.received.values()
         )
 
-    def topics(self) -> list[tuple[str, list[str]]]:
-        """Return the topics of ROS with their types."""
+    def topics(self, of: Container[bytes] | None = None, *, writing: bool | None = None) -> Listed:
+        """Return the topics of ROS with their types: all, or those of these endpoints that write, or do not."""
         return _gathered(
             (one.topic.removeprefix("rt"), type_of(one.kind))
             for one in self._all()
             if one.topic.startswith(_TOPIC)
+            and (of is None or one.guid in of)
+            and writing in (None, one.writes)
         )
 
-    def services(self) -> list[tuple[str, list[str]]]:
-        """Return the services with their types."""
+    def services(self, of: Container[bytes] | None = None, *, serving: bool | None = None) -> Listed:
+        """Return the services with their types: all, or those that these endpoints serve, or ask."""
+        begin = {None: "r", True: _REQUEST, False: _REPLY}[serving]
         return _gathered(
             (name, kind)
             for one in self._all()
-            if (name := service(one.topic)) and (kind := service_type(one.kind))
+            if one.topic.startswith(begin)
+            and (of is None or (one.guid in of and not one.writes))
+            and (name := service(one.topic))
+            and (kind := service_type(one.kind))
         )
+
+    def ends(self, topic: str, *, writing: bool) -> list[Described]:
+        """Return the endpoints of a topic, by its name on the wire, in the order of their identities."""
+        found = [one for one in self._all() if (one.topic, one.writes) == (topic, writing)]
+        return sorted(found, key=lambda one: one.guid)
 
     def count(self, topic: str, *, writing: bool) -> int:
         """Return how many endpoints a topic has, by its name on the wire."""
@@ -87,12 +103,12 @@ class Endpoints:
             fields, order = described(sample.payload)
             guid = fields[known.ENDPOINT_GUID]
             topic, kind = (read_text(fields[which], order) for which in (known.TOPIC, known.TYPE))
-            one = Described(topic, kind, sample.writer == PUBLICATIONS)
+            one = Described(guid, topic, kind, sample.writer == PUBLICATIONS, fields, order)
         if there.get(guid, (0,))[0] < sample.number:
             there[guid] = (sample.number, one)
 
 
-def _gathered(found: Iterator[tuple[str, str]]) -> list[tuple[str, list[str]]]:
+def _gathered(found: Iterator[tuple[str, str]]) -> Listed:
     types: dict[str, set[str]] = {}
     for name, kind in found:
         types.setdefault(name, set()).add(kind)

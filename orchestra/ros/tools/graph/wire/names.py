@@ -1,4 +1,4 @@
-"""The nodes of all participants: each publishes on one topic which it has (`ParticipantEntitiesInfo`)."""
+"""The nodes of all participants: each publishes on one topic which it has, and whose its endpoints are."""
 
 from __future__ import annotations
 
@@ -6,6 +6,7 @@ import struct
 import time
 from typing import TYPE_CHECKING, Final
 
+from orchestra.dataclass import dataclass
 from orchestra.ros.tools.graph.wire.member import Member
 from orchestra.ros.tools.graph.wire.own import READER, SUBSCRIPTIONS, endpoint
 
@@ -20,7 +21,16 @@ _TYPE: Final = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_"
 _WRITER: Final = b"\0\0\1\3"  # its first one; should it be another, that one is heard of all the same
 _NAMELESS: Final = 2.0  # s, after which one that has said nothing is taken to have no nodes
 _GID: Final = 16
-_GIDS_OF: Final = 2  # readers, writers
+
+
+@dataclass(frozen=True, slots=True)
+class Named:
+    """A node, with the identities of its readers and writers."""
+
+    name: str
+    space: str
+    readers: frozenset[bytes]
+    writers: frozenset[bytes]
 
 
 class Names:
@@ -28,15 +38,16 @@ class Names:
 
     def __init__(self, domain: int) -> None:
         self.member = Member(domain, self._hear, said={SUBSCRIPTIONS: _subscription}, awaited=(_WRITER,))
-        self._found: dict[Peer, tuple[int, list[tuple[str, str]]]] = {}
+        self._found: dict[Peer, tuple[int, list[Named]]] = {}
 
     def complete(self) -> bool:
         """Tell whether those of all are known."""
         return self.member.met() and all(self._is_known(peer) for peer in self.member.peers.values())
 
-    def nodes(self) -> list[tuple[str, str]]:
-        """Return name and namespace of each node."""
-        return [node for peer in self.member.peers.values() for node in self._found.get(peer, (0, []))[1]]
+    def nodes(self) -> list[Named]:
+        """Return the nodes, those of one participant after those of another."""
+        peers = [peer for _, peer in sorted(self.member.peers.items())]
+        return [node for peer in peers for node in self._found.get(peer, (0, []))[1]]
 
     def _is_known(self, peer: Peer) -> bool:
         if not peer.is_of_ros:
@@ -57,16 +68,23 @@ def _subscription(prefix: bytes, port: int) -> bytes:
     return endpoint(prefix + READER, _TOPIC, _TYPE, port, lasting=True)
 
 
-def _nodes(body: bytes, order: str) -> Iterator[tuple[str, str]]:
-    """Yield name and namespace of each node in such a message."""
+def _nodes(body: bytes, order: str) -> Iterator[Named]:
+    """Yield the nodes in such a message."""
     count, at = _count(body, _GID, order)
     for _ in range(count):
         space, at = _text(body, at, order)
         name, at = _text(body, at, order)
-        for _ in range(_GIDS_OF):
-            gids, at = _count(body, at, order)
-            at += gids * _GID
-        yield name, space
+        readers, at = _gids(body, at, order)
+        writers, at = _gids(body, at, order)
+        yield Named(name, space, readers, writers)
+
+
+def _gids(body: bytes, at: int, order: str) -> tuple[frozenset[bytes], int]:
+    count, at = _count(body, at, order)
+    end = at + count * _GID
+    if end > len(body):
+        raise struct.error("identities that are not there")
+    return frozenset(body[one : one + _GID] for one in range(at, end, _GID)), end
 
 
 def _count(body: bytes, at: int, order: str) -> tuple[int, int]:

@@ -12,6 +12,7 @@ from orchestra.ros.tools.graph.wire.names import Names
 
 if TYPE_CHECKING:
     from orchestra.ros.tools.graph.wire.client import Client
+    from orchestra.ros.tools.graph.wire.ends import WireEnd
 
     Listed = list[tuple[str, list[str]]]
 
@@ -48,7 +49,7 @@ class WireNode:
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
         """Return the nodes."""
-        return self._names.nodes()
+        return [(node.name, node.space) for node in self._names.nodes()]
 
     def get_topic_names_and_types(self) -> Listed:
         """Return the topics."""
@@ -74,11 +75,43 @@ class WireNode:
         """Return how many clients a service has."""
         return self._endpoints.count(f"rr{_checked(service, service=True)}Reply", writing=False)
 
-    def get_publishers_info_by_topic(self, _topic: str) -> list[Any]:
-        """Return none: what is asked for so is which of them are ours."""
-        return []
+    def get_publishers_info_by_topic(self, topic: str) -> list[WireEnd]:
+        """Return the publishers of a topic."""
+        return self._ends(topic, writing=True)
 
-    get_subscriptions_info_by_topic = get_publishers_info_by_topic
+    def get_subscriptions_info_by_topic(self, topic: str) -> list[WireEnd]:
+        """Return the subscriptions of a topic."""
+        return self._ends(topic, writing=False)
+
+    def get_publisher_names_and_types_by_node(self, name: str, space: str) -> Listed:
+        """Return the topics on which a node publishes."""
+        return self._endpoints.topics(self._of(name, space), writing=True)
+
+    def get_subscriber_names_and_types_by_node(self, name: str, space: str) -> Listed:
+        """Return the topics that a node hears."""
+        return self._endpoints.topics(self._of(name, space), writing=False)
+
+    def get_service_names_and_types_by_node(self, name: str, space: str) -> Listed:
+        """Return the services that a node has."""
+        return self._endpoints.services(self._of(name, space), serving=True)
+
+    def get_client_names_and_types_by_node(self, name: str, space: str) -> Listed:
+        """Return the services of which a node has clients."""
+        return self._endpoints.services(self._of(name, space), serving=False)
+
+    def _of(self, name: str, space: str) -> frozenset[bytes]:
+        """Return the identities of the endpoints of a node; where several have the name, of the first of them."""
+        found = [node for node in self._names.nodes() if (node.name, node.space) == (name, space)]
+        return found[0].readers | found[0].writers if found else frozenset()
+
+    def _ends(self, topic: str, *, writing: bool) -> list[WireEnd]:
+        from orchestra.ros.tools.graph.wire.ends import end_of  # noqa: PLC0415 - most commands do without
+
+        nodes = {
+            gid: node for node in self._names.nodes() for gid in (node.writers if writing else node.readers)
+        }
+        found = self._endpoints.ends(f"rt{_checked(topic)}", writing=writing)
+        return [end_of(one, nodes.get(one.guid)) for one in found]
 
     def create_client(self, kind: Any, name: str) -> Client:  # noqa: ANN401 - a class of an untyped package
         """Return a client of a service."""
