@@ -137,6 +137,10 @@ def wanted(action: Conditional, word: str, run: Resolution) -> bool:
     holds = boolean(value.text) if isinstance(value, Value) else None
     if isinstance(value, Value):
         check_comparisons(template, run)
+        if "equals " in template.raw and not is_python(action.span):
+            from orchestra.resolve.impossible.bare_names import check_bare_names  # noqa: PLC0415 - few conditions compare
+
+            check_bare_names(template, run)
     if holds == (action.if_ is not None):
         return True
     part = hidden(action, run.context, run.scope.variables)
