@@ -114,16 +114,17 @@ def opened(
     packages: InstalledPackages | None = None,
     whole: bool = True,
     isolating: Isolating = isolated,
+    postponed: list[Callable[[], None]] | None = None,
 ) -> Iterator[Launch | None]:
     """Resolve and plan a launch file, whose code can be called as long as the context lasts.
 
     What is wrong is in `problems`. `load` reads the files. None where the file itself cannot be read as a launch file.
     `whole`: the plan is wanted, and not only what is wrong with it. `isolating` keeps from this process what code of
-    the files does.
+    the files does. What is kept for other plans is written at the end, or `postponed`: it waits there for a call.
     """
     packages = packages or InstalledPackages(inputs.environment)
     keeping = whole and inputs.keeping  # of what is only checked the findings are kept
-    with _loading(path, inputs, load, packages, problems, isolating, keeping=keeping) as isolation:
+    with _loading(path, inputs, load, packages, problems, isolating, keeping, postponed) as isolation:
         with _collector_paused():
             run = begin(inputs, problems, load=load, packages=packages, run_command=run_command)
             description = load(path, problems, ())
@@ -263,8 +264,8 @@ def _loading(
     packages: InstalledPackages,
     problems: Problems,
     isolating: Isolating = isolated,
-    *,
     keeping: bool = False,
+    postponed: list[Callable[[], None]] | None = None,
 ) -> Iterator[Isolation]:
     """Let launch files in Python be loaded, and leave this process as it was. `keeping`: their code is kept."""
 
@@ -288,6 +289,7 @@ def _loading(
                 debug=inputs.debug,
                 launching=inputs.launching,
                 codes=codes,
+                postponed=postponed,
             )
         ),
     ):

@@ -15,7 +15,7 @@ from orchestra.witness.variables import ObservedEnvironment
 
 if TYPE_CHECKING:
     from argparse import ArgumentParser, Namespace
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
     from contextlib import ExitStack
 
     from orchestra.errors import Problem
@@ -91,16 +91,17 @@ def plan_from(options: Namespace, *, launching: bool) -> Plan:
     return plan
 
 
-def launch_from(options: Namespace, lasting: ExitStack) -> Launch:
+def launch_from(options: Namespace, lasting: ExitStack, postponed: list[Callable[[], None]]) -> Launch:
     """Make the plan that is to be run; code of its launch files can be called until `lasting` closes.
 
+    What is kept of them for other plans waits in `postponed` from then on.
     Raises `UsageError` and `DescriptionError`, as `plan_from`.
     """
     from orchestra import pipeline  # noqa: PLC0415 - heavy, and `--help` does not need it
 
     file, given = file_and_inputs(options)
     problems = Problems()
-    launch = lasting.enter_context(pipeline.opened(file, given, problems))
+    launch = lasting.enter_context(pipeline.opened(file, given, problems, postponed=postponed))
     if launch is None or problems.errors:
         raise DescriptionError(problems.ordered)
     if options.strict and launch.plan.problems:

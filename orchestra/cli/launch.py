@@ -15,7 +15,7 @@ from orchestra.cli.remembered import NO_CACHE
 
 if TYPE_CHECKING:
     from argparse import Namespace
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
     from typing import BinaryIO
 
     from orchestra.cli.parser import CommandParser
@@ -103,9 +103,10 @@ def prepare(options: Namespace, stream: BinaryIO, words: Sequence[str] = ()) -> 
     from orchestra.supervise.resolver.serving import Settled  # noqa: PLC0415
 
     kept = memory(words) if words else None
+    postponed: list[Callable[[], None]] = []
     with ExitStack() as lasting:
         with kept.watching() if kept else nullcontext():
-            launch = inputs.launch_from(options, lasting)
+            launch = inputs.launch_from(options, lasting, postponed)
             told = warnings_of(launch.plan, options)
             name = Path(launch.plan.file).name.partition(".")[0]
             files = launch.files.keep(more=launch.deferred)
@@ -117,7 +118,14 @@ def prepare(options: Namespace, stream: BinaryIO, words: Sequence[str] = ()) -> 
         # Whether limits can be granted is another question each time, and files are another folder.
         lasts = files is None and all(process.limits is None for process in launch.plan.processes)
         keep = kept.keep(document, told) if kept and lasts else None
-    return Settled(keep) if keep else boundary.OK
+    if keep:
+        postponed.append(keep)
+    return Settled(partial(_carry_out, postponed)) if postponed else boundary.OK
+
+
+def _carry_out(postponed: Sequence[Callable[[], None]]) -> None:
+    for call in postponed:
+        call()
 
 
 def _answer(lasting: ExitStack, launch: Launch, question: dict[str, Any]) -> dict[str, Any]:

@@ -59,9 +59,14 @@ class Codes:
             self._compiled += len(source)
         return code
 
+    @property
+    def are_to_be_kept(self) -> bool:
+        """Whether so much was compiled that it is worth a file."""
+        return self._store is not None and self._compiled >= _WORTH
+
     def keep(self) -> None:
-        """Keep what was compiled, if it is worth that, beside what was kept. Where that cannot be, it is not."""
-        if self._store is None or self._compiled < _WORTH:
+        """Keep what was compiled beside what was kept, if there is a place for it."""
+        if self._store is None:
             return
         new = {path: (digest, marshal.dumps(code)) for path, (digest, code) in self._new.items()}
         with observer().aside():

@@ -27,6 +27,7 @@ class LoadingConnection:
     What comes up in such a state and stops nobody is reported to `problems`. `prepare` gets ready for their code; with
     `debug` what that raises is told with all calls, without `launching` a package that is not here is a fault of this
     host. Compiled code is kept for later plans: `codes` are a folder, None for nowhere, and the file at the top.
+    That waits in `postponed` for a call, where it is given.
     """
 
     def __init__(
@@ -39,6 +40,7 @@ class LoadingConnection:
         debug: bool = False,
         launching: bool = True,
         codes: tuple[str | None, str] = (None, ""),
+        postponed: list[Callable[[], None]] | None = None,
     ) -> None:
         self.debug = debug
         self.prepare = prepare
@@ -46,6 +48,7 @@ class LoadingConnection:
         self._begin = begin
         self._launching = launching
         self._place = codes
+        self._postponed = postponed
         self._problems = Problems() if problems is None else problems
 
     @cached_property
@@ -70,8 +73,8 @@ class LoadingConnection:
 
     def close(self) -> None:
         """Keep compiled code, and let what has been added to the languages be imported anew by the next resolution."""
-        if "_codes" in vars(self):
-            self._codes.keep()
+        if "_codes" in vars(self) and self._codes.are_to_be_kept:
+            (self._codes.keep() if self._postponed is None else self._postponed.append(self._codes.keep))
         if "front_end" in vars(self):
             self.front_end.close()
 

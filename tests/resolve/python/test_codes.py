@@ -256,5 +256,6 @@ def test_codes_are_nowhere_without_a_folder(tmp_path: Path) -> None:
     codes = Codes(None, str(tmp_path / "a.launch.py"))
     space: dict[str, Any] = {}
     exec(codes.code("a.launch.py", b"answer = 42\n" + b"#" * 100_000), space)  # noqa: S102 - code of ours
-    codes.keep()
     assert space["answer"] == 42
+    assert not codes.are_to_be_kept
+    codes.keep()
