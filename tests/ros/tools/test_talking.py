@@ -120,11 +120,13 @@ def test_a_service_that_is_not_there_is_waited_for_no_longer_than_said(graph: Gr
             ("topic", "hz", "/robot1/scn", "--format", "json"),
             "WARNING: topic [/robot1/scn] does not appear to be published yet; did you mean /robot1/scan?\n",
         ),
+        (
+            ("param", "set", "/robot1/actr", "speed", "2.0", "--timeout", "600"),
+            "warning: there is no node /robot1/actr so far; did you mean /robot1/actor?\n",
+        ),
     ],
 )
-def test_who_waits_without_end_is_told_what_may_be_meant(
-    graph: Graph, words: tuple[str, ...], told: str
-) -> None:
+def test_who_waits_is_told_what_may_be_meant(graph: Graph, words: tuple[str, ...], told: str) -> None:
     with graph.asking(*words) as process:
         assert process.stderr is not None
         assert process.stderr.readline() == told

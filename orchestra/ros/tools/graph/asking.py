@@ -99,12 +99,20 @@ def wait_for_server(
 
 
 def node_there(graph: Graph, name: str, deadline: Deadline, *, every: bool = True) -> str:
-    """Return the full name of a node that is there, waiting for it. Raises `RunError`."""
+    """Return the full name of a node that is there, waiting for it: it may be starting. Raises `RunError`.
+
+    Who waits is told of the one that is probably meant as soon as all of the graph has been seen.
+    """
     full = absolute(name)
 
     def seen() -> bool:
         return full in nodes(graph, every=every)
 
-    if not graph.found(seen) and not graph.wait(seen, deadline.left):
+    if graph.found(seen):
+        return full
+    near = nearest(full, nodes(graph))
+    if deadline.left and near is not None:
+        warn(f"warning: there is no node {full} so far; did you mean {near}?")
+    if not graph.wait(seen, deadline.left):
         raise unknown(NO_NODE, full, nodes(graph))
     return full
