@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-import difflib
 from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from rcl_interfaces.msg import FloatingPointRange, IntegerRange, ParameterDescriptor, SetParametersResult
 from rclpy.node import Node
 
+from bringup.beginning import tell_unknown
 from bringup.control.settings import Setting, Settings, objection, table
 
 if TYPE_CHECKING:
@@ -30,7 +30,7 @@ class Parameters:
     def __init__(self, node: Node) -> None:
         for each in table():
             node.declare_parameter(each.name, each.default, descriptor(each))
-        _tell_unknown(node)
+        tell_unknown(node, [each.name for each in table()])
         self.settings = Settings(**{each.name: node.get_parameter(each.name).value for each in table()})
         reason = objection(self.settings)
         if reason is not None:
@@ -61,17 +61,6 @@ def declared(node: Node) -> Parameters:
     except Exception:
         Node.destroy_node(node)  # not what a component does besides: it is not whole yet
         raise
-
-
-def _tell_unknown(node: Node) -> None:
-    """Warn of values given at the start that no parameter takes: rclpy drops them without a word."""
-    known = [each.name for each in table()]
-    for name in sorted(node._parameter_overrides):  # noqa: SLF001 - rclpy tells it nowhere else
-        if node.has_parameter(name) or name.startswith("qos_overrides."):
-            continue
-        near = difflib.get_close_matches(name, known, n=1)
-        hint = f"; did you mean {near[0]}?" if near else ""
-        node.get_logger().warning(f"parameter {name} is unknown and has no effect{hint}")
 
 
 def descriptor(setting: Setting) -> ParameterDescriptor:

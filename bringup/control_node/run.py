@@ -5,11 +5,9 @@ from __future__ import annotations
 from threading import Event, Thread
 from typing import TYPE_CHECKING, Protocol
 
-import rclpy
-from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
 from rclpy.logging import get_logger
-from rclpy.signals import SignalHandlerOptions
 
+from bringup.beginning import REFUSED_VALUES, begun
 from bringup.control_node.parameters import UnusableSettingsError
 from bringup.control_node.taking import TAKEN_WHEN_NEEDED
 from bringup.ending import wait_for_the_end
@@ -21,7 +19,9 @@ if TYPE_CHECKING:
     from collections.abc import Callable
     from typing import Any
 
-REFUSALS = (InvalidParameterTypeException, InvalidParameterValueException, UnusableSettingsError)
+    from rclpy.node import Node
+
+REFUSALS = (*REFUSED_VALUES, UnusableSettingsError)
 FREQUENCY = 10.0
 # Turns of the executor at the end, in which clients of goals are told.
 LAST_TURNS = 5
@@ -43,23 +43,23 @@ def run(make: Callable[[], Any], name: str, frequency: float = FREQUENCY) -> int
     Both signals must be blocked by the caller. They are waited for in a thread instead of being handled: rclpy's
     own handler shuts the context down at once, and then the last order to stand still could not be sent any more.
     """
-    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    return begun(name, lambda: _run(make, name, frequency))
+
+
+def _run(make: Callable[[], Any], name: str, frequency: float) -> int:
     try:
-        try:
-            node = make()
-        except REFUSALS as error:
-            get_logger(name).fatal(str(error))
-            return 1
-        try:
-            _spin(node, node, frequency)
-        finally:
-            node.destroy_node()
+        node = make()
+    except REFUSALS as error:
+        get_logger(name).fatal(str(error))
+        return 1
+    try:
+        _spin(node, node, frequency)
     finally:
-        rclpy.shutdown()
+        node.destroy_node()
     return 0
 
 
-def _spin(node: rclpy.node.Node, driving: Driving, frequency: float) -> None:
+def _spin(node: Node, driving: Driving, frequency: float) -> None:
     told_to_end = Event()
     ticks = Ticks(node, frequency)
     with Waiting(node, TAKEN_WHEN_NEEDED) as waiting:

@@ -17,6 +17,7 @@ from rclpy.parameter import Parameter, parameter_value_to_python
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 from std_msgs.msg import UInt32
 
+from bringup.beginning import tell_unknown
 from bringup.evaluation.ground import facts
 from bringup.evaluation.recording import CONTACTS, FILTERED, TRUTH, WHEELS, Writer
 from bringup.world import robots_file
@@ -53,6 +54,7 @@ class Recorder:
         given = node.declare_parameter("robots", Parameter.Type.STRING_ARRAY).value or ()
         self._given = [robot.strip("/") for robot in given if robot]
         simulation = str(node.declare_parameter("simulation", "/simulation").value)
+        tell_unknown(node, ("file", "robots", "simulation"))
         self._robots: list[str] = []
         self._newest: dict[tuple[int, int], int] = {}
         self._writer = Writer(path)

@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 import rclpy
-from rclpy.signals import SignalHandlerOptions
 
+from bringup.beginning import begun
 from bringup.ending import spin_until_told
 from bringup.evaluation.listening import Recorder
 
 
 def run() -> int:
     """Run until SIGINT or SIGTERM, both of which the caller must have blocked; 1 if the file cannot be written."""
-    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    return begun("recorder", _run)
+
+
+def _run() -> int:
     node = rclpy.create_node("recorder")
     try:
         recorder = Recorder(node)
@@ -22,5 +25,4 @@ def run() -> int:
         return 1
     finally:
         node.destroy_node()
-        rclpy.shutdown()
     return 0

@@ -1,17 +1,16 @@
 """Runs the filter's node until it is told to end."""
 
 import gc
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
 from threading import Event, Thread
 from time import monotonic, sleep
 
 import rclpy
-from rclpy.impl.implementation_singleton import rclpy_implementation
+from rclpy.logging import get_logger
 from rclpy.node import Node
-from rclpy.signals import SignalHandlerOptions
 
+from bringup.beginning import begun
 from bringup.ending import wait_for_the_end
 from bringup.filter.parameter_reader import ParameterError
 from bringup.filter_node.node import FilterNode
@@ -27,23 +26,16 @@ def run() -> int:
     Both signals must be blocked by the caller: they are waited for in a thread of their own, so that nothing is
     ever interrupted half-way and the node leaves the graph at once.
     """
-    try:
-        rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
-    except rclpy_implementation.RCLError as error:
-        return _refuse(error)
+    return begun("ekf", _run)
+
+
+def _run() -> int:
     try:
         with _node() as node:
             return _spin(node)
     except ParameterError as error:
-        return _refuse(error)
-    finally:
-        rclpy.shutdown()
-
-
-def _refuse(error: Exception) -> int:
-    """Say why the node cannot start where it has no logger yet, as with a parameter file that ROS cannot read."""
-    sys.stderr.write(f"ekf: {error}\n")
-    return 1
+        get_logger("ekf").fatal(str(error))
+        return 1
 
 
 @contextmanager

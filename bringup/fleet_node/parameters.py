@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
 
+from bringup.beginning import tell_unknown
 from bringup.fleet.settings import Setting, Settings, table
 
 if TYPE_CHECKING:
@@ -26,6 +27,7 @@ class Parameters:
         for each in table():
             node.declare_parameter(each.name, each.default, _descriptor(each))
         self.settings = Settings(**{each.name: node.get_parameter(each.name).value for each in table()})
+        tell_unknown(node, [each.name for each in table()])
         self._changed = changed
         node.add_post_set_parameters_callback(self._take)
 

@@ -2,14 +2,11 @@
 
 from __future__ import annotations
 
-import rclpy
-from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
-from rclpy.signals import SignalHandlerOptions
+from rclpy.logging import get_logger
 
+from bringup.beginning import REFUSED_VALUES, begun
 from bringup.ending import spin_until_told
 from bringup.fleet_node.node import FleetMonitor
-
-REFUSALS = (InvalidParameterTypeException, InvalidParameterValueException)
 
 
 def run() -> int:
@@ -18,15 +15,15 @@ def run() -> int:
     Both signals must be blocked by the caller: they are waited for in a thread of their own, so that nothing is
     ever interrupted half-way and the node leaves the graph at once.
     """
-    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)
+    return begun("fleet_monitor", _run)
+
+
+def _run() -> int:
     try:
-        try:
-            node = FleetMonitor()
-        except REFUSALS as error:
-            rclpy.logging.get_logger("fleet_monitor").fatal(str(error))
-            return 1
-        spin_until_told(node)
-        node.destroy_node()
-    finally:
-        rclpy.shutdown()
+        node = FleetMonitor()
+    except REFUSED_VALUES as error:
+        get_logger("fleet_monitor").fatal(str(error))
+        return 1
+    spin_until_told(node)
+    node.destroy_node()
     return 0

@@ -12,13 +12,12 @@ import time
 from contextlib import closing, contextmanager
 from typing import TYPE_CHECKING, Protocol
 
-import rclpy
-from rclpy.exceptions import InvalidParameterTypeException, InvalidParameterValueException
 from rclpy.executors import SingleThreadedExecutor
+from rclpy.logging import get_logger
 from rclpy.node import Node
-from rclpy.signals import SignalHandlerOptions
 from rclpy.task import Future
 
+from bringup.beginning import REFUSED_VALUES, begun
 from bringup.world import pace
 from bringup.world.course import Course
 from bringup.world.layout import LayoutError
@@ -39,8 +38,7 @@ if TYPE_CHECKING:
     from bringup.world.stop import Stop
 
 REFUSALS = (
-    InvalidParameterTypeException,
-    InvalidParameterValueException,
+    *REFUSED_VALUES,
     LayoutError,
     NoRenderingError,
     NoWindowError,
@@ -171,10 +169,20 @@ def served(node: Node) -> Iterator[None]:
 
 def serve(args: list[str] | None, stop: Stop) -> int:
     """Make the node and run it; 0 after a whole or a stopped run, 1 and a line of log if it cannot be as asked."""
-    rclpy.init(args=args, signal_handler_options=SignalHandlerOptions.NO)
-    node = Node(
-        "simulation", allow_undeclared_parameters=True, automatically_declare_parameters_from_overrides=True
-    )
+    return begun("simulation", lambda: _serve(stop), args)
+
+
+def _serve(stop: Stop) -> int:
+    try:
+        node = Node(
+            "simulation",
+            allow_undeclared_parameters=True,
+            automatically_declare_parameters_from_overrides=True,
+        )
+    except ValueError as error:
+        text = f"a parameter has no type, such as an empty list; leave it out ({error})"
+        get_logger("simulation").fatal(text)
+        return 1
     try:
         run = Run(node, stop)
         # What stands now stands to the end: going through it for garbage took a twentieth of the time.
@@ -189,5 +197,4 @@ def serve(args: list[str] | None, stop: Stop) -> int:
         gc.unfreeze()
         # Without this the other participants would see the node for 20 s more.
         node.destroy_node()
-        rclpy.shutdown()
     return 0
