@@ -30,6 +30,9 @@ _FOREIGN: Final = pattern(
 )
 
 
+_SHELL: Final = pattern(r"(?:^|[\s/'\"])(?:ba|da|z|k)?sh(?:$|\s)")
+
+
 def warn_of_foreign(description: Description, run: Resolution) -> None:
     """Tell of variables in a file, which has been visited, that are none for the way in which they are written."""
     entities = [item for item in entities_in(description.actions) if not _is_for_shell(item)]
@@ -50,7 +53,11 @@ def warn_of_foreign(description: Description, run: Resolution) -> None:
 
 
 def _is_for_shell(entity: object) -> bool:
-    return isinstance(entity, Executable) and entity.shell is not None
+    """Return whether a program is run by a shell, which has variables of its own."""
+    if not isinstance(entity, Executable):
+        return False
+    words = entity.cmd if isinstance(entity.cmd, tuple) else (entity.cmd,)
+    return entity.shell is not None or any(_SHELL.search(word.raw) for word in words)
 
 
 def _found(template: Template) -> Iterator[tuple[str, Span, str]]:
@@ -61,7 +68,8 @@ def _found(template: Template) -> Iterator[tuple[str, Span, str]]:
                 yield from _found(argument)
         elif isinstance(part, Words):
             for found in _FOREIGN.finditer(part.text):
-                yield found[1] or found[2] or found[3], _place(part, *found.span()), found[0]
+                if f"\\{found[0]}" not in template.raw:  # else it is meant as it stands
+                    yield found[1] or found[2] or found[3], _place(part, *found.span()), found[0]
 
 
 def _place(words: Words, begin: int, end: int) -> Span:

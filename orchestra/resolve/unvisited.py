@@ -168,7 +168,7 @@ class _Look:
         self, code: Code, told: str, written: Template, meant: str | None, notes: tuple[str, ...] = ()
     ) -> None:
         at: Location = self.run.at(written.span)
-        if self.known:
+        if self.known or (code is Code.UNREAD_ARGUMENT and meant is None):
             notes = (*notes, "a condition leaves this out here")
             self.found.warning(code, told, at, suggestion=meant, notes=notes)
         else:
