@@ -100,6 +100,11 @@ def _misplaced(source: str, value: Any) -> str | None:
     return None if taking is None else f"{taking}{source})"
 
 
+def _name_and_value(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the others
+    """Return the pair of a dictionary of one."""
+    return repr(next(iter(value.items()))) if isinstance(value, dict) and len(value) == 1 else None
+
+
 def _uncalled(source: str, value: Any) -> str | None:
     return f"{source}()" if callable(value) else None
 
@@ -129,6 +134,7 @@ _FORMS: Final[dict[str, _Form]] = {
     "this is one of them: ": _one_of_many,
     "parameters are a list of dictionaries and files, not ": _parameters,
     "'parameters' of a Node is a list, not ": _parameters,
+    "a name and its value are expected": _name_and_value,
     "is a list, this is": _actions,
     "are a list, this is": _actions,
     "returns a list of actions or None": _actions,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.forms_meant import form_meant
 from orchestra.compat.source_text import text_at
-from orchestra.compat.syntax_trees import tree_of
+from orchestra.compat.syntax_trees import node_span, tree_of
 from orchestra.fields import replace
 
 if TYPE_CHECKING:
@@ -62,6 +62,22 @@ def named(file: str, span: Span, name: str) -> Rewritten | None:
     """Return an argument with the name that it lacks."""
     source = _short(file, span)
     return None if source is None else Rewritten(f"{name}={source}")
+
+
+def last_comma(file: str, span: Span) -> Span | None:
+    """Return where the comma stands that alone makes a tuple of what is assigned to the name at a place."""
+    # Here, because only mistakes need it.
+    import ast  # noqa: PLC0415
+
+    tree = tree_of(file)
+    node = None if tree is None else tree.expression(file, span)
+    known = None if tree is None or node is None else tree.meaning(node)
+    if not isinstance(known, ast.Tuple) or len(known.elts) != 1:
+        return None
+    whole, inner = node_span(file, known), node_span(file, known.elts[0], quotes=True)
+    comma = replace(whole, line=inner.end_line, column=inner.end_column)
+    is_bare = (whole.line, whole.column) == (inner.line, inner.column)
+    return comma if is_bare and text_at(file, comma).strip() == "," else None
 
 
 def in_quotes(place: Place, name: str) -> Rewritten | None:

@@ -111,6 +111,15 @@ def _seen(path: str, environment: Mapping[str, str]) -> tuple[str, Fault | None]
 def _check_name(name: str, location: Location, run: Resolution) -> None:
     """Report a program that the search path lacks where it has a near one: any other may be there when it starts."""
     environment = run.scope.environment
+    first, blank, _ = name.partition(" ")
+    if (
+        blank
+        and program_on_path(name, environment) is None
+        and program_on_path(first, environment) is not None
+    ):
+        message = f"there is no program '{name}': its words are to stand apart from one another"
+        run.problems.warning(Code.MISSING_EXECUTABLE, message, location)
+        return
     if len(name) < SHORTEST or "PATH" in run.scope.changes or program_on_path(name, environment) is not None:
         return
     meant = sorted(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.explanation import told
@@ -24,7 +24,8 @@ class LaunchDescription(LaunchDescriptionEntity):
         *,
         deprecated_reason: str | None = None,
     ) -> None:
-        if initial_entities is not None and not isinstance(initial_entities, Iterable):
+        is_list = isinstance(initial_entities, Iterable) and not isinstance(initial_entities, str | Mapping)
+        if initial_entities is not None and not is_list:
             told_so = f"a list of actions is expected here, this is {told(initial_entities)}"
             raise WrongType(told_so, path=("initial_entities",))
         self.__entities = list(initial_entities) if initial_entities is not None else []
@@ -61,6 +62,8 @@ class LaunchDescription(LaunchDescriptionEntity):
             from orchestra.compat.misplaced import refuse_entity  # noqa: PLC0415 - only mistakes need it
 
             refuse_entity(entity, here())
+            if isinstance(entity, list | tuple):  # what is in it is not to be missed as well
+                self.__entities.extend(item for item in entity if isinstance(item, LaunchDescriptionEntity))
             return
         self.__entities.append(entity)
 

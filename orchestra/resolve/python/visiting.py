@@ -170,11 +170,17 @@ def _is_entity(value: Any) -> bool:
 def _refuse_other(value: Any, span: Span, run: Resolution, *, is_written: bool = False) -> None:
     """Report something that is no entity; `is_written`: it is just that which is written at the place."""
     # Here, because only mistakes need it, and what it imports.
-    from orchestra.compat.rewritten import rewritten  # noqa: PLC0415
+    from orchestra.compat.rewritten import last_comma, rewritten  # noqa: PLC0415
 
     message, notes = misplaced(value)
-    meant = rewritten(str(Path(span.file).absolute()), span, value, message) if is_written else None
+    file = str(Path(span.file).absolute())
+    meant = rewritten(file, span, value, message) if is_written else None
+    comma = last_comma(file, span) if isinstance(value, tuple) and len(value) == 1 and is_written else None
+    if comma is not None:
+        span, meant, notes = comma, None, ("the comma at its end makes a tuple of it",)
     run.problems.error(Code.WRONG_TYPE, message, run.at(span), suggestion=meant, notes=notes)
+    if isinstance(value, list | tuple):  # what is in it is not to be missed as well
+        visit_entities([item for item in value if _is_entity(item)], run)
 
 
 def _refuse(entity: Any, error: ValidationError, run: Resolution) -> None:
