@@ -14,15 +14,14 @@ from bringup.filter_node.configuration import configure
 from bringup.filter_node.debugging import traced
 from bringup.filter_node.diagnostics import Diagnostics
 from bringup.filter_node.inputs import Inputs
+from bringup.filter_node.lateness import Lateness
 from bringup.filter_node.outputs import Outputs
 from bringup.filter_node.pace import Pace
 from bringup.filter_node.services import Services
-from bringup.filter_node.throttle import Throttle
 from bringup.filter_node.ticks import Ticks
 
 # Seconds of real time, so that a clock that jumps about cannot flood the log.
 _HOUSEKEEPING = 1.0
-_SECONDS_BETWEEN_COMPLAINTS = 5.0
 # Nanoseconds of real time.
 _VISIT_PERIOD = NANOSECONDS // 50
 _LONGEST_WAIT = NANOSECONDS
@@ -43,7 +42,7 @@ class FilterNode:
         self._period = round(NANOSECONDS / settings.timing.frequency)
         self._kept_house: float | None = None
         self._is_settled = False
-        self._late = Throttle(_SECONDS_BETWEEN_COMPLAINTS)
+        self._lateness = Lateness(self._period / NANOSECONDS)
         self._told: frozenset[str] = frozenset()
         self._debug_file = settings.publication.debug_file
         for _, _, text in doubts(settings):
@@ -104,14 +103,16 @@ class FilterNode:
             self._kept_house = began
             self._keep_house(now)
             self._is_settled = True
-        self._watch_rate(perf_counter() - began)
+        # The first updates also pay for what is loaded at first use.
+        if self._is_settled:
+            self._watch_rate(began, perf_counter())
 
-    def _watch_rate(self, took: float) -> None:
-        """Complain of an update that took too long; the first ones also pay for what is loaded at first use."""
-        period = self._period / NANOSECONDS
-        if took > period and self._is_settled and self._late.passes():
-            text = f"failed to meet update rate: an update took {took:.4f} s of {period:.4f} s"
-            self._logger.error(text)
+    def _watch_rate(self, began: float, ended: float) -> None:
+        """Tell when updates begin to take too long, and when that is over."""
+        if (complaint := self._lateness.begins(ended - began, ended)) is not None:
+            self._logger.error(complaint)
+        if (relief := self._lateness.ends(ended)) is not None:
+            self._logger.info(relief)
 
     def _keep_house(self, now: int) -> None:
         self._inputs.follow_moving_transforms()
