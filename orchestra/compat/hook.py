@@ -19,6 +19,7 @@ from typing import TYPE_CHECKING, Final
 from orchestra.compat import pristine
 from orchestra.compat.borrowed import borrowing
 from orchestra.compat.place import is_own
+from orchestra.witness.observing import observer
 from orchestra.witness.origins import INSTALLED, PYTHON
 
 if TYPE_CHECKING:
@@ -30,6 +31,7 @@ else:  # nobody asks for what they add, and they import some thirty modules
 _INSTALLED: Final = (*PYTHON, *INSTALLED)
 SERVED: Final = frozenset(entry.name for entry in Path(__file__).parent.iterdir() if entry.is_dir())
 _ROOM: Final = __name__.rpartition(".")[0]
+_served: dict[str, ModuleType] = {}  # by the names under which they have been imported in this process
 
 
 class _Alias(Loader):
@@ -39,12 +41,13 @@ class _Alias(Loader):
         self._name = name
         self._spec: ModuleSpec | None = None
 
-    def create_module(self, spec: ModuleSpec) -> ModuleType:  # noqa: ARG002 - the protocol
+    def create_module(self, spec: ModuleSpec) -> ModuleType:
         module = importlib.import_module(self._name)
         if not hasattr(module, "__path__"):
             vars(module).setdefault("__getattr__", borrowing(self._name))
         self._spec = module.__spec__
         pristine.keep_module(module)
+        _served[spec.name] = module
         return module
 
     def exec_module(self, module: ModuleType) -> None:
@@ -85,6 +88,10 @@ def served(untouched: Callable[[], bool] = lambda: False) -> Iterator[None]:
         for name in [name for name in before if name.partition(".")[0] in SERVED]:
             del sys.modules[name]
     sys.meta_path.insert(0, finder)
+    watching = observer()
+    watching.ours |= SERVED
+    if watching.installed:  # many files import the same, and nobody looks whether they are there before
+        sys.modules.update(_served)
     try:
         yield
     finally:

@@ -5,14 +5,14 @@ The classes are as they are when they are handed out for the first time in this 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
-
-if TYPE_CHECKING:
-    from types import ModuleType
+from operator import is_
+from types import ModuleType
+from typing import Any
 
 _ROOM = __name__.rpartition(".")[0] + "."
 _classes: dict[type[Any], dict[str, Any]] = {}
 _modules: dict[ModuleType, dict[str, Any]] = {}
+_sizes: dict[ModuleType, int] = {}  # of modules in which nothing is new
 
 
 def keep_module(module: ModuleType) -> None:
@@ -39,9 +39,22 @@ def restore() -> None:
         if vars(kind) != content:
             _restore_class(kind, content)
     for module, content in _modules.items():
-        for name, value in content.items():
-            if vars(module).get(name) is not value:
-                setattr(module, name, value)
+        table = vars(module)
+        if not all(map(is_, map(table.get, content), content.values())):
+            for name, value in content.items():
+                if table.get(name) is not value:
+                    setattr(module, name, value)
+        if len(table) != _sizes.get(module):
+            _drop_new(module, content)
+
+
+def _drop_new(module: ModuleType, content: dict[str, Any]) -> None:
+    """Remove what code has put into a module, but for modules, which the import system puts there."""
+    table = vars(module)
+    for name in [name for name in table if name not in content and not _is_private(name)]:
+        if not isinstance(table[name], ModuleType):
+            delattr(module, name)
+    _sizes[module] = len(table)
 
 
 def _restore_class(kind: type[Any], content: dict[str, Any]) -> None:

@@ -123,8 +123,8 @@ class Folders:
         """Return what `listing` returns."""
         try:
             now = _signature_of(_stat(path))
-        except (OSError, ValueError):
-            return listing(path)
+        except (OSError, ValueError) as error:
+            return reason(error)
         known = self._known.get(path)
         if known is not None and known[0] == now:
             return known[1]

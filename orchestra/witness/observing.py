@@ -30,7 +30,8 @@ class Observer:
     """Records what this process looks at. There is one per process, `observer()`.
 
     `foreign` are modules in other languages, `code` is what is read of ours, `ran_code` tells whether users' has run
-    since the record was begun. Unless it `asks`, no question is recorded.
+    since the record was begun. Unless it `asks`, no question is recorded. No folder is searched for packages that are
+    `ours`.
     """
 
     def __init__(self) -> None:
@@ -52,6 +53,7 @@ class Observer:
         self._outside = origins.Outside(lambda: self.scratch)
         self._whole = self._outside.whole
         self.installed, self.asks = False, True
+        self.ours: frozenset[str] = frozenset({"orchestra"})
         self.kept: dict[tuple[Any, ...], tuple[Record, Any]] = {}
 
     @property
@@ -258,7 +260,7 @@ class Observer:
         top = module.partition(".")[0]
         if file is not None and not is_python(file):
             self.foreign.add(module)
-        if top == "orchestra" or top in sys.stdlib_module_names or not isinstance(path, list):
+        if top in self.ours or top in sys.stdlib_module_names or not isinstance(path, list):
             return
         if tuple(path) in self._paths:
             return

@@ -228,6 +228,45 @@ def test_nothing_is_kept_that_goes_by_what_nobody_can_record(
     assert checker.ask(folder, environment, cache=True)["known"] == 0
 
 
+_SERVED = """\
+import launch.actions
+from launch import LaunchDescription
+
+def generate_launch_description():
+    return LaunchDescription([launch.actions.LogInfo(msg="hello")])
+"""
+_HIDING = """\
+import sys
+sys.modules["launch"] = sys.modules["launch.actions"] = sys
+sys.modules.pop("launch.substitutions", None)
+launch.LogInfo = launch.actions.LogInfo = None
+"""
+
+
+def test_modules_that_appear_matter_only_to_whoever_imports_such(checker: _Checker, tmp_path: Path) -> None:
+    folder = tmp_path / "work"
+    for name in "abcdef":  # each of two processes imports more of its own for the first that it looks at
+        _write(folder, f"{name}.launch.py", _SERVED)
+    _write(folder, "prefix/lib/python3.11/site-packages/old.py", "")
+    environment = _environment(folder)
+    first = checker.ask(folder, environment, cache=True)
+    _write(folder, "prefix/lib/python3.11/site-packages/launch/__init__.py", "raise ValueError")
+    again = checker.ask(folder, environment, cache=True)
+    assert (first["problems"], again["problems"]) == ([], [])
+    assert again["known"] >= 4
+
+
+def test_what_one_file_does_to_served_modules_the_next_does_not_see(
+    checker: _Checker, tmp_path: Path
+) -> None:
+    folder = tmp_path / "work"
+    for name in "abcd":  # two for each of two processes, one after the other
+        _write(folder, f"{name}.launch.py", _SERVED + (_HIDING if name in "ac" else ""))
+    problems = checker.ask(folder, _environment(folder), cache=False)["problems"]
+    assert not [problem for problem in problems if problem[3][0] in ("b.launch.py", "d.launch.py")]
+    assert {problem[3][0] for problem in problems} == {"a.launch.py", "c.launch.py"}
+
+
 def test_the_output_of_a_command_is_never_kept(checker: _Checker, tmp_path: Path) -> None:
     folder = tmp_path / "work"
     _write(folder, "a.launch.yaml", "launch: [log: {message: $(command 'echo x')}]\n")

@@ -78,6 +78,8 @@ class Looker:
         watching.begin(self._environment)
         found = self._launch_file(target.path) if target.kind == "launch" else self._parameters(target.path)
         record = watching.end()
+        if _has_comments(target.path):  # it has just been read
+            found = replace(found, comments=True)
         self._count += 1
         if not gc.isenabled() and self._count % _COLLECTING == 0:
             gc.collect()
@@ -106,7 +108,6 @@ class Looker:
             frozenset(visit.included),
             frozenset(named),
             frozenset(problems.silencing),
-            _has_comments(absolute),
         )
 
     def _names(self, description: Description) -> set[str]:
@@ -125,7 +126,7 @@ class Looker:
             check_common(read_parameter_file(text, file, problems, ()), problems)
         settle(problems, str(Path(path).absolute()), self._inputs.severity)
         silencing = frozenset(problems.silencing)
-        return Finding(real(path), problems.ordered, silencing=silencing, comments=_has_comments(path))
+        return Finding(real(path), problems.ordered, silencing=silencing)
 
 
 class _Visit:
@@ -155,6 +156,6 @@ def _of_this_host(problem: Problem) -> Problem:
 
 def _has_comments(path: str) -> bool:
     try:
-        return MARK.encode() in read_lately(path)
+        return MARK.encode() in read_lately(os.path.abspath(path))  # noqa: PTH100 - pathlib is slow
     except OSError:
         return False

@@ -16,6 +16,7 @@ from _locale import LC_ALL, setlocale
 # What `signal` has makes a member of an enumeration of each number first, which takes twenty times as long.
 from _signal import getsignal  # type: ignore[import-not-found] # it is there wherever `signal` is
 from contextlib import contextmanager, suppress
+from operator import is_
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
@@ -61,6 +62,8 @@ def kept_as_it_is() -> Iterator[None]:
 
 def put_back(table: MutableMapping[str, Any], content: MutableMapping[str, Any]) -> None:
     """Make a table what it was."""
+    if table.keys() == content.keys() and all(map(is_, map(table.get, content), content.values())):
+        return
     for name in [name for name in table if name not in content]:
         del table[name]
     for name, value in content.items():
