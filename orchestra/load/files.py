@@ -37,7 +37,7 @@ ONE_BY_ONE: dict[str, str] = {"xml_file": "xml_items", "yaml_file": "yaml_items"
 _LARGEST = 64 * 1024 * 1024
 _PIECE = 64 * 1024  # of a file that does not say how long it is
 _LONG = 1_000  # characters
-_FOREIGN = pattern(r"\$\{?\s*[A-Za-z_]|\{\{")  # what may be a variable as other languages write it
+_OF_SHELLS = pattern(r"\$[A-Za-z_{]")
 
 
 def load(
@@ -64,13 +64,19 @@ def load(
     text = _text(path, file, problems, location)
     if text is None:
         return None
-    foreign = _FOREIGN.search(text) is not None
+    foreign = _may_be_foreign(text)
     actions = _one_by_one(text, file, module, reader) if len(text) >= _LONG else None
     if actions is not None:
         return Description(path, file, actions, foreign=foreign)
     tree = import_module(f"orchestra.load.{module}").read(text, file, reader)
     description = None if tree is None else describe(tree, path, file, reader)
     return description if description is None or not foreign else replace(description, foreign=True)
+
+
+def _may_be_foreign(text: str) -> bool:
+    """Return whether there may be a variable in a text as other languages write them; counting is the fastest way."""
+    dollars = text.count("$") > text.count("$(") and _OF_SHELLS.search(text) is not None
+    return dollars or "{{" in text
 
 
 def _one_by_one(text: str, file: str, module: str, reader: Reader) -> tuple[Action, ...] | None:

@@ -36,10 +36,12 @@ _ITEM: Final = pattern(r"\s*(-\s.*?)\s*")
 def report_oddities(sections: Sequence[Section], lines: Sequence[str], problems: Problems) -> None:
     """Report such names and values in the lines of a file."""
     numbers: set[str] | None = None
+    tagged = any("!" in line for line in lines)
     for section in sections:
         for entry in section.entries:
-            if entry.value is not None:
+            if entry.value is not None and (entry.name[:1] == "/" or " " in entry.name):
                 _report_name(entry, lines, problems)
+            if tagged and entry.value is not None:
                 _report_tag(entry, lines, problems)
             if isinstance(entry.value, str):
                 if (found := _unit(entry.value)) is not None:
@@ -55,10 +57,7 @@ def report_oddities(sections: Sequence[Section], lines: Sequence[str], problems:
 
 def _report_name(entry: Entry, lines: Sequence[str], problems: Problems) -> None:
     """Report a name that begins with a slash, as those of topics do, and one with blanks in it."""
-    name = entry.name
-    if name[:1] != "/" and " " not in name and "\t" not in name:
-        return
-    key = _text_at(entry.key, lines).strip("\"'")
+    name, key = entry.name, _text_at(entry.key, lines).strip("\"'")
     if key == name and name.startswith("/"):
         told, instead = "names of parameters begin with no '/'", name.lstrip("/")
     elif " " in key and _BLANKS.fullmatch(key):
