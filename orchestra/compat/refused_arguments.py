@@ -24,6 +24,11 @@ if TYPE_CHECKING:
 _PYTHON: Final = sysconfig.get_path("stdlib")
 _MOST: Final = 20  # wrong values of one call that are told
 _MOST_CALLS: Final = 8
+_SETTING: Final = (
+    "AppendEnvironmentVariable",
+    "DeclareLaunchArgument",
+    "Set",
+)  # what sets something by its name
 _DEPTH: Final = 4
 
 
@@ -58,6 +63,9 @@ def settled(
         made._refused = True
     else:
         vars(made)["_lost"] = tuple(_entities(list(call.given)))
+        vars(made)["_lost_name"] = (
+            call.named.get("name") if type(made).__name__.startswith(_SETTING) else None
+        )
     way = dict.fromkeys(f"called at {place.span}" for place in places)
     notes = tuple(way)[1 : _MOST_CALLS + 1]
     for problem in call.found:

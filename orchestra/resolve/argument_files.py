@@ -18,6 +18,7 @@ from orchestra.patterns import pattern
 from orchestra.resolve.misspelt import misspelt
 from orchestra.resolve.near_paths import near_names, near_path
 from orchestra.resolve.paths import settled_path
+from orchestra.resolve.refusals import set_by_code
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -76,6 +77,9 @@ def _lack(word: Value, run: Resolution) -> _Lack | None:
     place = None if is_python(word.location) else misspelt(word, raw, changes)
     if place is not None:
         return _Lack(missing, place.at, place.instead)
+    origin = set_by_code(word)
+    if origin is not None:  # it comes through a variable
+        return _Lack(missing, origin, near_path(missing, word.text))
     near = near_path(missing, raw)
     return _Lack(missing, word.location, near if near != raw else None)
 

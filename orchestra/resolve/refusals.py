@@ -63,7 +63,7 @@ def refuse_value(
     A value that came through variables is hardly anything but a slip where something near it was meant: then the place
     is that where it was written; else that where it is used, with a note where it was set.
     """
-    origin = value.location if value.verbatim else _origin(value) or _set_by_code(value)
+    origin = value.location if value.verbatim else _origin(value) or set_by_code(value)
     if meant is not None and origin is not None:
         used = () if value.verbatim else (f"it is used at {value.location}",)
         forget_surprise(origin.span, problems)
@@ -95,7 +95,7 @@ def forget_surprise(at: Span, problems: Problems) -> None:
         )
 
 
-def _set_by_code(value: Value) -> Location | None:
+def set_by_code(value: Value) -> Location | None:
     """Return where code in Python sets the one variable that a value is; what is wrong is found in that code."""
     reads, found = value.through, None
     while len(reads) == 1 and reads[0].kind == "variable" and reads[0].value == value.text:

@@ -32,6 +32,7 @@ _ALIKE: Final = pattern(r"-{0,2}ros[-_]?args?:?")
 _PARAMETERS: Final = ("-p", "--param")
 _RULE: Final = pattern(r"[\w/~.]+:=.*")
 _OF_ROS_1: Final = pattern(r"_(_params|_log_level|[A-Za-z]\w*):=(.+)")
+_SEVERAL: Final = pattern(r"""--?[A-Za-z][\w-]*\s[^"'{]*|(?:-?\d[\d.]*\s+){3}[^"'{]*""")
 _OPTIONS: Final = {"_params": "--params-file", "_log_level": "--log-level"}
 
 
@@ -39,6 +40,7 @@ def check_rules(words: Sequence[Value], problems: Problems, *, for_ros: bool) ->
     """Report rules without a `:=` where they stand; `for_ros` tells that all words are for rcl."""
     if not for_ros:
         _check_in_vain(words, problems)
+        _check_joined(words, problems)
     for option, word in _rules(words, for_ros=for_ros):
         if ":=" in word.text:
             continue
@@ -50,6 +52,8 @@ def check_rules(words: Sequence[Value], problems: Problems, *, for_ros: bool) ->
 
 def _check_in_vain(words: Sequence[Value], problems: Problems) -> None:
     """Report what is meant for rcl, which does not see it: the first of that, for what is behind it follows."""
+    if not any(":=" in word.text or "ros" in word.text for word in words):
+        return
     for index, word in enumerate(words):
         if word.text in (_FOR_ROS, "--"):
             return
@@ -64,6 +68,18 @@ def _check_in_vain(words: Sequence[Value], problems: Problems) -> None:
             whole = _is_written(word) and not is_python(word.location)
             problems.warning(Code.BAD_VALUE, told, word.location, suggestion=instead if whole else None)
             return
+
+
+def _check_joined(words: Sequence[Value], problems: Problems) -> None:
+    """Report options and what belongs to them in one word of a list, which nothing takes apart: `['-d a.rviz']`."""
+    for word in words:
+        if is_python(word.location) and _SEVERAL.fullmatch(word.text):
+            # Here, because only mistakes need it.
+            from orchestra.compat.rewritten import Rewritten  # noqa: PLC0415
+
+            told = f"'{word.text}' is one word for the program: a list has each word apart"
+            apart = Rewritten(", ".join(map(repr, word.text.split()))) if word.verbatim else None
+            problems.warning(Code.BAD_VALUE, told, word.location, suggestion=apart)
 
 
 def _for_ros(text: str, following: str) -> str | None:

@@ -47,6 +47,9 @@ def visit_entity(entity: Any, run: Resolution, place: Place | None = None) -> No
     """Visit an entity, by its model where it has one; `place` is that of what holds it."""
     if is_lost(entity):
         run.scope.ledger.incomplete = True
+        name = vars(entity).get("_lost_name")
+        if isinstance(name, str):  # what reads it is not to be told of it
+            run.found.lost.add(name)
         visit_entities(entity._lost, run)
         return
     try:
