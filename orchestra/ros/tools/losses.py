@@ -34,10 +34,12 @@ class Losses:
             return
         if number - 1 in self._lasts:
             self._lasts.remove(number - 1)
-        elif self._lasts and number > min(self._lasts) and not self._is_of_another():
-            last = max(one for one in self._lasts if one < number)
-            self._lasts.remove(last)
-            self._missing += number - last - 1
+        else:
+            self._known.update(self._publishers())
+            if len(self._lasts) >= len(self._known) and number > min(self._lasts, default=number):
+                last = max(one for one in self._lasts if one < number)
+                self._lasts.remove(last)
+                self._missing += number - last - 1
         self._lasts.add(number)
         self._told_of(self._missing)
 
@@ -45,11 +47,6 @@ class Losses:
         """Take how many more the middleware could not deliver: some of those that the numbers lack."""
         self._unheard += count
         self._told_of(self._unheard)
-
-    def _is_of_another(self) -> bool:
-        """Tell whether there is a publisher that has not been heard."""
-        self._known.update(self._publishers())
-        return len(self._lasts) < len(self._known)
 
     def _told_of(self, total: int) -> None:
         if self._tell is not None and total > self._told:

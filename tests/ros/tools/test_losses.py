@@ -52,6 +52,19 @@ def test_numbers_say_what_has_not_come(
     assert _told(numbers, publishers) == told
 
 
+def test_one_who_comes_in_place_of_another_may_begin_anywhere() -> None:
+    told: list[tuple[int, int]] = []
+    there = [b"a"]
+    losses = Losses(lambda: there, lambda more, total: told.append((more, total)))
+    losses.number(1)
+    there[:] = [b"b"]
+    for number in (4, 5):
+        losses.number(number)
+    assert told == []  # it is another's 4
+    losses.number(7)
+    assert told == [(1, 1)]
+
+
 def test_what_the_middleware_tells_of_is_told_once() -> None:
     assert _told([7, 10, 11], [b"a"], unheard=2) == [(2, 2)]
     assert _told([7, 11, 12], [b"a"], unheard=2) == [(2, 2), (1, 3)]

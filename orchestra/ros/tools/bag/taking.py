@@ -12,6 +12,7 @@ from rclpy.event_handler import SubscriptionEventCallbacks, UnsupportedEventType
 from rclpy.qos import DurabilityPolicy, ReliabilityPolicy, qos_profile_sensor_data
 
 from orchestra.ros.tools.graph.qos import matched
+from orchestra.ros.tools.losses import Losses
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -35,8 +36,9 @@ class _Outside(CallbackGroup):
 class Tap:
     """A subscription with the QoS that all publishers of its topic offer, or with a profile that is given.
 
-    `notes` are what is to be said about that, `lost` hears how many messages the middleware could not deliver. Those
-    that somebody who has just begun to publish sent before we had met are among them there, and not here.
+    `notes` are what is to be said about that, `lost` hears how many messages are missing: by their numbers, or because
+    the middleware could not deliver them. Those that somebody who has just begun to publish sent before we had met are
+    among the latter, and not here.
     """
 
     def __init__(
@@ -52,6 +54,7 @@ class Tap:
         self._topic = topic
         self._kind = kind
         self._lost = lost
+        self._losses = self._counted()
         # Who was there at the latest look, and at the one before.
         self._there, self._before = _identities(publishers), frozenset[bytes]()
         self._meeting = True
@@ -68,10 +71,10 @@ class Tap:
         with handle:
             while taken := handle.take_message(self._kind, True):
                 data, about = taken
-                number = (about["publication_sequence_number"] or 0) & _NUMBERS
-                found.append(
-                    (self._topic, about["received_timestamp"], about["source_timestamp"], number, data)
-                )
+                number = about["publication_sequence_number"]
+                self._losses.number(number)
+                times = (about["received_timestamp"], about["source_timestamp"])
+                found.append((self._topic, *times, (number or 0) & _NUMBERS, data))
         return found
 
     def meet(self, publishers: Sequence[Any]) -> None:
@@ -88,6 +91,7 @@ class Tap:
         self._profile, self.notes = wanted, notes
         rest = self.take()
         self.close()
+        self._losses = self._counted()  # what comes between both is heard by neither
         self._subscribe()
         return rest
 
@@ -124,7 +128,11 @@ class Tap:
 
     def _lose(self, count: int) -> None:
         if not self._meeting:
-            self._lost(count)
+            self._losses.unheard(count)
+
+    def _counted(self) -> Losses:
+        look = self._node.get_publishers_info_by_topic
+        return Losses(lambda: _identities(look(self._topic)), lambda more, _: self._lost(more))
 
 
 def _identities(publishers: Sequence[Any]) -> frozenset[bytes]:
