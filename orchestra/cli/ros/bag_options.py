@@ -117,6 +117,11 @@ def telling(parser: CommandParser) -> None:
     parser.add_argument(
         "-v", "--verbose", action="store_true", help="requests and responses of services by themselves"
     )
+    storage(parser)
+
+
+def storage(parser: CommandParser) -> None:
+    """Add how a bag is stored."""
     parser.add_argument("-s", "--storage", choices=["mcap"], default="mcap", help="there is no other")
 
 

@@ -54,6 +54,11 @@ def compressed(data: bytes) -> bytes:
 
 def whole(data: bytes) -> bytes:
     """Return a message as the middleware carries it, whether it was compressed or not."""
-    if data[:4] != _MAGIC:
+    if not is_compressed(data):
         return data
     return zstandard.ZstdDecompressor().stream_reader(io.BytesIO(data)).read()
+
+
+def is_compressed(data: bytes) -> bool:
+    """Tell whether a message is compressed."""
+    return data[:4] == _MAGIC

@@ -56,6 +56,8 @@ def play(options: Namespace) -> int:
         bag = stack.enter_context(Bag(Path(options.bag)))
         for file in bag.broken:
             warn(f"warning: {file} has no end: what can be read of it is played")
+        for name, hint in chosen.missing(topic.name for topic in bag.summary().topics):
+            warn(f"warning: there is no {name} in {bag.path}{hint}")
         graph = stack.enter_context(joined(options))
         player = _Player(graph, options)
         for topic in bag.summary().topics:

@@ -21,7 +21,8 @@ from orchestra.dataclass import dataclass
 from orchestra.errors import RunError
 from orchestra.fields import replace
 from orchestra.ros.tools.bag import summary
-from orchestra.ros.tools.bag.compressed import SUFFIX, opened, whole
+from orchestra.ros.tools.bag.compressed import SUFFIX, is_compressed, opened, whole
+from orchestra.ros.tools.bag.files import files_of, mcap_files
 from orchestra.ros.tools.bag.summary import Part, Summary, Topic
 
 if TYPE_CHECKING:
@@ -31,7 +32,6 @@ if TYPE_CHECKING:
 
     from mcap.summary import Summary as Index
 
-_SUFFIXES: Final = (".mcap", f".mcap{SUFFIX}")
 # Messages of a broken file are put in order among so many: those that were heard at one time stand together in it.
 _AMONG: Final = 10_000
 _BROKEN: Final = (McapError, ValueError, struct.error)
@@ -50,16 +50,16 @@ class Recorded:
 class Bag:
     """An open bag. `broken` are the files that have no end."""
 
-    def __init__(self, path: Path) -> None:
-        """Open it. Raises `RunError` where there is no bag, or one that cannot be read."""
+    def __init__(self, path: Path, *, anew: bool = False) -> None:
+        """Open it; `anew` looks for its files whatever its metadata say. Raises `RunError` where it cannot be read."""
         self.path = path
-        self.files, self._distribution = _files(path)
+        self.files, self._distribution = (mcap_files(path), summary.UNKNOWN) if anew else files_of(path)
         self.broken: list[Path] = []
         self._streams: list[BinaryIO] = []
         self._open = ExitStack()
         try:
             self._topics: dict[str, Topic] = {}
-            self._spans: list[tuple[int, int]] = []
+            self._parts: list[Part] = []
             for file in self.files:
                 stream = self._open.enter_context(opened(file))
                 self._streams.append(stream)
@@ -82,10 +82,17 @@ class Bag:
     def summary(self) -> Summary:
         """Return what is in it."""
         topics = tuple(topic for _, topic in sorted(self._topics.items()))
-        start = min((span[0] for span in self._spans), default=0)
-        end = max((span[1] for span in self._spans), default=0)
-        parts = tuple(Part(file.name) for file in self.files)
-        return Summary(parts, topics, start, end, self._distribution)
+        filled = [part for part in self._parts if part.count]
+        start = min((part.start for part in filled), default=0)
+        end = max((part.end for part in filled), default=0)
+        return Summary(tuple(self._parts), topics, start, end, self._distribution)
+
+    def mode(self) -> str:
+        """Return how its messages are compressed, FILE, MESSAGE, or not at all."""
+        if any(file.suffix == SUFFIX for file in self.files):
+            return "FILE"
+        firsts = (next(_raw(stream), None) for stream in self._streams)
+        return "MESSAGE" if any(first is not None and is_compressed(first) for first in firsts) else ""
 
     def messages(
         self, wanted: Callable[[str], bool], since: int = 0, until: int | None = None
@@ -119,8 +126,8 @@ class Bag:
         for number, channel in index.channels.items():
             schema = index.schemas.get(channel.schema_id)
             self._add(channel, schema, statistics.channel_message_counts.get(number, 0))
-        if statistics.message_count:
-            self._spans.append((statistics.message_start_time, statistics.message_end_time))
+        span = (statistics.message_start_time, statistics.message_end_time)
+        self._parts.append(Part(file.name, *span, statistics.message_count))
 
     def _learn_by_reading(self, file: Path, stream: BinaryIO) -> None:
         """Learn what is in a file that has no end."""
@@ -141,8 +148,7 @@ class Bag:
                 span = (min(first, record.log_time), max(last, record.log_time))
         for number, channel in channels.items():
             self._add(channel, schemas.get(channel.schema_id), counts.get(number, 0))
-        if span is not None:
-            self._spans.append(span)
+        self._parts.append(Part(file.name, *(span or (0, 0)), sum(counts.values())))
 
     def _add(self, channel: Channel, schema: Schema | None, messages: int) -> None:
         known = self._topics.get(channel.topic)
@@ -153,35 +159,6 @@ class Bag:
             summary.read_profiles(channel.metadata.get("offered_qos_profiles", "")),
         )
         self._topics[channel.topic] = replace(made, count=made.count + messages)
-
-
-def _files(path: Path) -> tuple[list[Path], str]:
-    """Return the storage files of a bag, and of which ROS it is. Raises `RunError`."""
-    if path.is_file():
-        return [path], summary.UNKNOWN
-    if not path.is_dir():
-        raise RunError(f"there is no bag {path}")
-    about = path / summary.FILE
-    if about.is_file():
-        try:
-            names, distribution = summary.storage_files(about.read_text("utf-8"))
-        except ValueError:
-            raise RunError(f"{about} is not what rosbag2 writes") from None
-        named = [path / name for name in names]
-        other = next((file for file in named if not file.name.endswith(_SUFFIXES)), None)
-        if other is not None:
-            raise RunError(f"{other} is no MCAP file, and no other storage can be read")
-        return named, distribution
-    found = sorted((file for suffix in _SUFFIXES for file in path.glob(f"*{suffix}")), key=_number)
-    if not found:
-        raise RunError(f"there is no MCAP file in {path}")
-    return found, summary.UNKNOWN
-
-
-def _number(file: Path) -> tuple[int, str]:
-    """Return what files of a bag that was split are in order by: the number at the end of their names."""
-    number = file.with_name(file.name.removesuffix(SUFFIX)).stem.rpartition("_")[2]
-    return (int(number) if number.isdecimal() else 0, file.name)
 
 
 def _index(file: Path, stream: BinaryIO) -> Index | None:
@@ -205,6 +182,12 @@ def _records(stream: BinaryIO) -> Iterator[Header | Schema | Channel | Message]:
                 yield record
     except _BROKEN:
         return
+
+
+def _raw(stream: BinaryIO) -> Iterator[bytes]:
+    """Yield the messages of a file as they stand there."""
+    stream.seek(0)
+    yield from (record.data for record in _records(stream) if isinstance(record, Message))
 
 
 def _scanned(stream: BinaryIO) -> Iterator[Recorded]:

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
 
 # How often, in seconds, messages are taken, and known topics are looked at for new publishers.
 _TAKE, _FOLLOW = 0.005, 1.0
+_SOON: Final = 2.0  # s, after which names that nobody publishes are taken for mistakes
 _MILLISECONDS: Final = 1000
 
 
@@ -59,12 +60,14 @@ class Recorder:
         self._taps: dict[str, Tap] = {}
         self._known: dict[str, Topic] = {}
         self._refused: set[str] = set()
+        self._seen: set[str] = set()
+        self._hinted = False
         self._interfaces = Interfaces(os.environ)
         self._clock = simulated_time(graph.node) if options.clock_time else None
 
-    def has(self, name: str) -> bool:
-        """Tell whether a topic has been recorded."""
-        return name in self._taps
+    def missing(self) -> list[tuple[str, str]]:
+        """Return the names that are wanted and of which nothing was recorded, and what is to be said of each."""
+        return self._chosen.missing(self._taps, self._seen)
 
     @property
     def timeless(self) -> bool:
@@ -74,12 +77,15 @@ class Recorder:
     def record(self, until: float | None, keys: Keyboard | None) -> None:
         """Take and look around until the time has come; signals end it too."""
         look = follow = 0.0
+        soon = time.monotonic() + _SOON
         self._say(f"recording to {self._writer.folder}; {'space pauses, ' if keys else ''}Ctrl-C ends it\n")
         while until is None or time.monotonic() < until:
             now = time.monotonic()
             if now >= look and (not self._taps or not self._options.no_discovery):
                 look = now + self._options.polling_interval / _MILLISECONDS
                 self._look()
+            if now >= soon and not self._hinted:
+                self._hint()
             if now >= follow:
                 follow = now + _FOLLOW
                 self._follow()
@@ -115,9 +121,17 @@ class Recorder:
         self.paused = not self.paused
         self._say("paused\n" if self.paused else "recording again\n")
 
+    def _hint(self) -> None:
+        """Tell of names that nobody publishes, where another is probably meant: they are waited for all the same."""
+        self._hinted = True
+        for name, hint in self.missing():
+            if hint:
+                warn(f"warning: nobody publishes {name} so far{hint}")
+
     def _look(self) -> None:
         """Subscribe to topics that somebody publishes now."""
         for name, types in topics(self._graph):
+            self._seen.add(name)
             if name in self._taps or name in self._refused or not self._chosen.takes(name, types[0]):
                 continue
             publishers = self._publishers(name)

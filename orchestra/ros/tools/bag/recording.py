@@ -52,8 +52,8 @@ def record(options: Namespace) -> int:
             recorder.take()
         finally:
             told = recorder.close()
-    for name in sorted(name for name in chosen.names if not recorder.has(name)):
-        warn(f"warning: nothing was recorded of {name}: nobody published it")
+    for name, hint in recorder.missing():
+        warn(f"warning: nothing was recorded of {name}: nobody published it{hint}")
     if recorder.timeless:
         warn("warning: nothing was recorded: nobody has published /clock")
     if recorder.lost:

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
 from orchestra.errors import UsageError
+from orchestra.nearest import nearest
 from orchestra.ros.tools.graph.names import absolute, hidden
 
 if TYPE_CHECKING:
@@ -49,6 +50,14 @@ class Selection:
         if hidden(topic) and not self.hidden:
             return False
         return self.topics or kind in self.types or self._matches(topic)
+
+    def missing(self, topics: Iterable[str], others: Iterable[str] = ()) -> list[tuple[str, str]]:
+        """Return each name that is none of these topics, and what is to be said of one that is probably meant."""
+        there = {_told(topic) for topic in topics}
+        wanted = sorted({_told(name) for name in self.names} - there)
+        known = there.union(others)
+        near = {name: None if name in known else nearest(name, known) for name in wanted}
+        return [(name, f"; did you mean {near[name]}?" if near[name] else "") for name in wanted]
 
     def _matches(self, topic: str) -> bool:
         return self.pattern is not None and self.pattern.search(_told(topic)) is not None

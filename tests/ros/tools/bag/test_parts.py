@@ -21,7 +21,7 @@ from orchestra.ros.tools.bag.definitions import definition
 from orchestra.ros.tools.bag.offering import offer
 from orchestra.ros.tools.bag.pace import Pace, with_ticks
 from orchestra.ros.tools.bag.reading import Recorded
-from orchestra.ros.tools.bag.selection import selection
+from orchestra.ros.tools.bag.selection import Selection, selection
 from orchestra.ros.tools.bag.summary import Part, Summary, Topic
 from orchestra.ros.tools.keyboard import keys_of
 
@@ -111,6 +111,11 @@ def test_the_metadata_name_the_files_without_references() -> None:
     ],
 )
 def test_topics_are_chosen(options: dict[str, Any], taken: set[str], left: set[str]) -> None:
+    chosen = _chosen(options)
+    assert {topic for topic in taken | left if chosen.takes(topic)} == taken
+
+
+def _chosen(options: dict[str, Any]) -> Selection:
     given_options: dict[str, Any] = {
         "names": [],
         "topics": [],
@@ -127,8 +132,16 @@ def test_topics_are_chosen(options: dict[str, Any], taken: set[str], left: set[s
         "exclude_topic_types": [],
         **options,
     }
-    chosen = selection(Namespace(**given_options))
-    assert {topic for topic in taken | left if chosen.takes(topic)} == taken
+    return selection(Namespace(**given_options))
+
+
+def test_names_that_are_not_there_are_told_with_those_that_are_meant() -> None:
+    chosen = _chosen({"names": ["/robot1/scn", "map", "odd"], "services": ["swich"]})
+    assert chosen.missing(["/robot1/scan", "/map"], ["/switch"]) == [
+        ("/odd", ""),
+        ("/robot1/scn", "; did you mean /robot1/scan?"),
+        ("/swich", "; did you mean /switch?"),
+    ]
 
 
 def test_topics_are_chosen_by_type() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+from argparse import Namespace
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -13,6 +15,7 @@ pytest.importorskip("mcap", reason="needs the extra `ros`")
 from orchestra.errors import RunError, UsageError
 from orchestra.ros.tools.bag.overrides import overrides
 from orchestra.ros.tools.bag.reading import Bag
+from orchestra.ros.tools.bag.reindexing import reindex
 from orchestra.ros.tools.bag.settings import PRESETS, Settings, settings
 from orchestra.ros.tools.bag.simulated import SimulatedTime, time_of
 from orchestra.ros.tools.bag.summary import Topic
@@ -75,6 +78,32 @@ def test_what_is_written_is_read_by_us_and_by_others(
     highlevel = pytest.importorskip("rosbags.highlevel")
     with highlevel.AnyReader([folder]) as reader:
         assert [bytes(data) for _, _, data in reader.messages()] == made
+
+
+@pytest.mark.parametrize("mode", ["none", "file", "message"])
+def test_metadata_are_made_anew_of_the_files(tmp_path: Path, mode: str) -> None:
+    folder = tmp_path / "bag"
+    _written(folder, Layout(most_bytes=5000, mode=mode))
+    about = folder / "metadata.yaml"
+    key = "rosbag2_bagfile_information"
+    before = yaml.safe_load(about.read_text("utf-8"))[key]
+    about.write_text("no metadata", "utf-8")
+    assert reindex(Namespace(bag=str(folder), format="text")) == 0
+    after = yaml.safe_load(about.read_text("utf-8"))[key]
+    assert after == {**before, "ros_distro": "unknown"}
+
+
+def test_bags_and_files_that_are_not_there_are_told(tmp_path: Path) -> None:
+    _written(tmp_path / "drive", Layout())
+    for path, told in (
+        (tmp_path / "driv", f"there is no bag {tmp_path}/driv; did you mean {tmp_path}/drive?"),
+        (tmp_path / "a" / "b", f"there is no bag {tmp_path}/a/b"),
+    ):
+        with pytest.raises(RunError, match=f"^{re.escape(told)}$"):
+            Bag(path)
+    (tmp_path / "drive" / "drive_0.mcap").rename(tmp_path / "drive" / "first.mcap")
+    with pytest.raises(RunError, match=r"drive_0.mcap is not there, .*: `orchestra bag reindex"):
+        Bag(tmp_path / "drive")
 
 
 def test_a_file_that_is_not_what_its_name_says_is_told(tmp_path: Path) -> None:
