@@ -12,6 +12,7 @@ import sys
 from contextlib import contextmanager
 from importlib.machinery import ModuleSpec
 from importlib.util import find_spec
+from itertools import filterfalse
 from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Final
@@ -84,7 +85,7 @@ def served(untouched: Callable[[], bool] = lambda: False) -> Iterator[None]:
     finder = _Finder()
     before = dict(sys.modules)
     bytecode, sys.dont_write_bytecode = sys.dont_write_bytecode, True
-    if not SERVED.isdisjoint(before):
+    if any(map(before.__contains__, SERVED)):
         for name in [name for name in before if name.partition(".")[0] in SERVED]:
             del sys.modules[name]
     sys.meta_path.insert(0, finder)
@@ -97,15 +98,14 @@ def served(untouched: Callable[[], bool] = lambda: False) -> Iterator[None]:
     finally:
         sys.meta_path.remove(finder)
         sys.dont_write_bytecode = bytecode
-        if sys.modules != before:
-            _forget_new(before)
+        _forget_new(before)
         if not untouched():
             pristine.restore()
 
 
 def _forget_new(before: dict[str, ModuleType]) -> None:
     """Make the modules of this process what they were, but for installed ones that have been added."""
-    added = sys.modules.keys() - before.keys()
+    added = list(filterfalse(before.__contains__, list(sys.modules)))
     # All are judged before the first goes: where a package without a file is, it learns from the one around it.
     for name in [
         name for name in added if name.partition(".")[0] in SERVED or _is_of_users(name, sys.modules[name])

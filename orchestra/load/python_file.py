@@ -102,7 +102,7 @@ def _look_for_slips(
         from orchestra.compat.unadded import tell_unadded  # noqa: PLC0415
 
         tell_unadded(path, problems, included_from)
-    if b"$(" in source:
+    if b"$(" in source or b"'LaunchConfiguration(" in source or b'"LaunchConfiguration(' in source:
         from orchestra.compat.foreign_substitutions import tell_foreign  # noqa: PLC0415
 
         tell_foreign(path, problems, included_from)
@@ -134,7 +134,7 @@ def _meant(module: ModuleType) -> FunctionType | None:
 
 def _source(path: str) -> bytes:
     """Return what is in a file."""
-    with open(path, "rb") as stream:  # noqa: PTH123 - no object is wanted
+    with open(path, "rb", buffering=0) as stream:  # noqa: PTH123 - no object is wanted
         return stream.read()
 
 
