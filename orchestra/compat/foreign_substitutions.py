@@ -1,4 +1,4 @@
-"""Substitutions of launch files in YAML and XML, written in texts of Python: `$(var x)` is plain text there."""
+"""Substitutions that are plain texts: those of YAML and XML, as `$(var x)`, and those of Python in quotes."""
 
 from __future__ import annotations
 
@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 _CALL: Final = re.compile(r"\$\((var|env|find-pkg-share|find-pkg-prefix|dirname)(?: +([^\s()$]+))?\)")
+_CODE: Final = re.compile(r"(?:LaunchConfiguration|EnvironmentVariable|FindPackageShare)\(.+\)")
 _CLASSES: Final = {
     "var": "LaunchConfiguration",
     "env": "EnvironmentVariable",
@@ -54,6 +55,10 @@ def tell_foreign(path: str, problems: Problems, chain: tuple[Span, ...]) -> None
     tree = tree_of(path)
     for node in () if tree is None else _texts(tree):
         text = str(node.value)
+        if _CODE.fullmatch(text):
+            told = f"the quotes make a text of {text}: {AS_WRITTEN}{text}'"
+            at = Location(node_span(path, node, quotes=True), chain)
+            problems.warning(Code.SUBSTITUTION_SYNTAX, told, at, suggestion=Rewritten(text))
         found = _CALL.search(text)
         if found is not None and (found[1] == "dirname") == (found[2] is None):
             told = (

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
 from orchestra.fields import replace
+from orchestra.location import is_python
 from orchestra.nearest import nearest
 
 if TYPE_CHECKING:
@@ -29,14 +30,15 @@ def check_levels(words: Sequence[Value], problems: Problems, *, for_ros: bool) -
         if level.lower() in _LEVELS:
             continue
         near, place = nearest(level.lower(), _LEVELS), _end_of(word, len(level))
-        hint = "" if place else f"; did you mean '{near}'?"
+        is_placed = place is not None or is_python(word.location)  # in Python the text is found later
+        hint = "" if is_placed else f"; did you mean '{near}'?"
         if near is None:
             hint = f": it is one of {', '.join(_LEVELS[:-1])}"
         problems.error(
             Code.MIDDLEWARE_SETTING,
             f"'{level}' is no level of logging{hint}",
             place or word.location,
-            suggestion=near if place is not None else None,
+            suggestion=near if is_placed else None,
         )
 
 
