@@ -61,6 +61,9 @@ def pytest_configure(config: pytest.Config) -> None:
     os.environ["TMPDIR"], tempfile.tempdir = f"{session}/theirs", f"{session}/ours"
     for folder in (os.environ["TMPDIR"], tempfile.tempdir):
         Path(folder).mkdir()
+    # Hypothesis makes it when it is first used, in the folder that code is imported from: a plan that depends on what is
+    # there would be made again.
+    (config.rootpath / ".hypothesis").mkdir(exist_ok=True)
     # Hundreds of commands are started: without bytecode each of them would compile all that it imports.
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     if hasattr(
