@@ -30,6 +30,7 @@ _UNIT: Final = pattern(
 _NUMBERS: Final = pattern(r"[-+]?[0-9]*\.?[0-9]+(?:\s+[-+]?[0-9]*\.?[0-9]+)+")
 _TAG: Final = pattern(r"!\S*")
 _KINDS: Final = {"!!str": str, "!!int": int, "!!float": float, "!!bool": bool, "!!seq": tuple}
+_DASHED: Final = pattern(r"-[A-Za-z_/]")
 _ITEM: Final = pattern(r"\s*(-\s.*?)\s*")
 
 
@@ -113,6 +114,13 @@ def _report_items(at: Location, value: str, lines: Sequence[str], problems: Prob
     """Report a line of a plain text that is an item of a list but for its indentation."""
     span = at.span
     if span.line == span.end_line or " - " not in value or _text_at(at, lines)[:1] in ("'", '"', "|", ">"):
+        return
+    first = _text_at(at, lines)
+    if _DASHED.match(first):
+        place = replace(span, end_line=span.line, end_column=span.column + len(first.rstrip()))
+        told = f"a blank is missing behind the '-' of '{shortened(first.rstrip())}'"
+        instead = f"- {first[1:].rstrip()}"
+        problems.warning(Code.SURPRISING_SCALAR, told, replace(at, span=place), suggestion=instead)
         return
     for number in range(span.line + 1, span.end_line + 1):
         line = lines[number - 1]

@@ -26,6 +26,7 @@ SECTION_KEY: Final = "ros__parameters"
 _NODE_DEPTH: Final = 2  # inside the file's mapping, inside that of a key of it
 _UNPREFIXED: Final = ("parameter", "parameters", "params")
 _COLON: Final = pattern(r"([^\s:\[\]{}]+):\s*(\S+)")
+_PAIR: Final = pattern(r"[\w.]+: +[^\s:#\"']+")
 _EQUALS: Final = pattern(r"([\w.]+)\s*:?=\s*(\S+)")
 _MISSPELT: Final = pattern(
     r"_*(?:ro?s|rso|ors|os|ro|ross|roos|rros)[_. -]*p?[a-z]{1,4}m[a-z]{0,6}", re.IGNORECASE
@@ -126,6 +127,10 @@ class Strays:
         found = equals = None
         if isinstance(event, yaml.ScalarEvent) and not event.style:
             found, equals = _COLON.match(event.value), _EQUALS.fullmatch(event.value)
+        elif isinstance(event, yaml.ScalarEvent) and _PAIR.fullmatch(event.value):
+            message = f"quotes around '{event.value}' make one text of a name and its value"
+            self.problems.error(Code.PARAMETER_SYNTAX, message, at, suggestion=event.value)
+            return
         if equals is not None and found is None:
             message = f"a colon and a blank stand between '{equals[1]}' and its value, not '='"
             instead = f"{equals[1]}: {equals[2]}"
