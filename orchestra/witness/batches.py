@@ -69,6 +69,11 @@ class Batches:
         self._numbers = count()
         self._found = {name: batch for batch in self._batches() for name in batch.entries}
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether there was none when this began."""
+        return not self._found
+
     def read(self, key: str) -> tuple[Record, Any] | None:
         """Return what a result depends on, and the result; None where there is none that can be read."""
         name = _name(key)
@@ -99,10 +104,11 @@ class Batches:
 
     def tidy(self) -> None:
         """Make one file of many, and forget what was kept first where there is too much."""
-        batches = list(self._batches())
-        size = sum(status.st_size for batch in batches if (status := _status(batch.path)))
-        if len(batches) <= _FILES and size <= self._most:
+        paths = self._paths()
+        size = sum(status.st_size for path in paths if (status := _status(path)))
+        if len(paths) <= _FILES and size <= self._most:
             return
+        batches = list(self._batches())
         latest = {name: batch for batch in batches for name in batch.entries}
         writing = _Writing()
         for name, batch in reversed(latest.items()):
@@ -114,23 +120,25 @@ class Batches:
                 parts = [writing.part(batch.line(batch.parts[number])) for number in place[2]]
                 writing.entry(name, line, parts)
         self._write(writing)
-        for batch in batches:
+        for path in paths:  # those that cannot be read as well
             with suppress(OSError):  # as above
-                os.unlink(batch.path)
+                os.unlink(path)
 
     def _write(self, writing: _Writing) -> None:
         if writing.entries:
             name = f"{time.time_ns():020}-{os.getpid()}-{next(self._numbers)}{_ENDING}"
             replaced(os.path.join(self._folder, name), writing.content())
 
-    def _batches(self) -> Iterator[_Batch]:
-        """Yield those that can be read, the latest last."""
+    def _paths(self) -> list[str]:
         try:
             names = sorted(name for name in os.listdir(self._folder) if name.endswith(_ENDING))
         except OSError:
-            return
-        for name in names:
-            path = os.path.join(self._folder, name)
+            return []
+        return [os.path.join(self._folder, name) for name in names]
+
+    def _batches(self) -> Iterator[_Batch]:
+        """Yield those that can be read, the latest last."""
+        for path in self._paths():
             try:
                 with open(path, "rb") as file:
                     if status_of_ours(file) is None:

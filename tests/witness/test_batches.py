@@ -100,3 +100,15 @@ def test_nothing_is_kept_that_depends_on_what_nobody_knows(tmp_path: Path) -> No
     record.depend(part)
     Batches(str(tmp_path)).write([("key", record, 1)])
     assert not list(tmp_path.iterdir())
+
+
+def test_files_that_cannot_be_read_go_with_the_others(tmp_path: Path) -> None:
+    batches = Batches(str(tmp_path))
+    batches.write([("key", Record(), 5)])
+    for number in range(20):
+        (tmp_path / f"{number:020}-1-0.batch").write_bytes(b"damaged")
+    batches.tidy()
+    assert len(list(tmp_path.iterdir())) == 1
+    found = Batches(str(tmp_path)).read("key")
+    assert found is not None
+    assert found[1] == 5

@@ -48,7 +48,7 @@ class Kept:
 
     def finding(self, target: Target) -> Finding | None:
         """Return what was found in a file if nothing has changed that it depends on."""
-        if self._store is None:
+        if self._store is None or self._store.is_empty:
             return None
         found = self._store.read(self._key(target))
         if found is None or not self._world.holds(found[0]):
