@@ -176,9 +176,9 @@ def _point_into_code(problems: Problems) -> None:
     """Let problems of Python files stand at the text that is wrong."""
     if any(problem.span is not None and is_python(problem.span) for problem in problems):
         # It takes time to import, and only problems of such files need it.
-        from orchestra.compat.suggestions import in_place  # noqa: PLC0415
+        from orchestra.compat.suggestions import point_into_code  # noqa: PLC0415
 
-        problems.amend(in_place)
+        point_into_code(problems)
 
 
 def _warn_of_remaining(path: str, isolation: Isolation, problems: Problems) -> None:
