@@ -58,14 +58,17 @@ def instead(keys: Sequence[str]) -> str | None:
     return mended(key, pattern_fault)
 
 
-def _with_whole_wildcards(key: str) -> str:
-    """Return a pattern with a wildcard for each namespace that has one in it, for all nodes where the name has one."""
+def _with_whole_wildcards(key: str) -> str | None:
+    """Return a pattern with a wildcard for each namespace that has one in it, for all nodes where the name has one.
+
+    None where more than that is wrong.
+    """
     *namespaces, name = key.split("/")
     if "*" in name or not name:
         return "/**"
     wild = "/".join(("**" if "**" in part else "*") if "*" in part else part for part in namespaces)
     instead = f"{wild}/{name}"
-    return "/**" if pattern_fault(instead) is not None else instead
+    return None if pattern_fault(instead) is not None else instead
 
 
 @cache
