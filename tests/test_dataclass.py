@@ -140,6 +140,12 @@ def _told(call: Callable[[], object]) -> str:
         return str(error)
 
 
+@pytest.fixture(autouse=True)
+def _guarded(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Whatever tests in this process have begun to watch it: then nothing is refused any more."""
+    monkeypatch.setattr("orchestra.dataclass._unguarded", False)
+
+
 @pytest.mark.parametrize(("cls", "words", "named"), _CALLS)
 def test_they_are_made_shown_and_refused_in_the_same_words(
     cls: type[Any], words: tuple[Any, ...], named: dict[str, Any]
