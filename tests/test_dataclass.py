@@ -21,12 +21,6 @@ _ROOT = Path(__file__).parents[1]
 _OF_THEIR_OWN = {"orchestra/dataclass.py"}
 
 
-@pytest.fixture(autouse=True)
-def _guarded(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Methods are made when they are needed: other tests of this process may have let it be watched by then."""
-    monkeypatch.setattr("orchestra.dataclass._unguarded", False)
-
-
 @dataclass(frozen=True, slots=True)
 class Frozen:
     """A record."""
