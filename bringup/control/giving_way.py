@@ -71,6 +71,7 @@ class Courtesy:
 
 def told_apart(courtesy: Courtesy, movers: tuple[Mover, ...]) -> tuple[tuple[Mover, ...], tuple[Mover, ...]]:
     """What moves, and of that what has turned out to be parked."""
+    movers = tuple(each for each in movers if each.moves)
     parked = tuple(
         each for each in movers if any(math.hypot(each.x - x, each.y - y) < STILL for x, y in courtesy.parked)
     )

@@ -1,7 +1,8 @@
 """What has come to where nothing was a moment ago: other robots, and people.
 
 A scan alone does not tell a robot from a post. The grid of a journey does: where a beam has passed and now something
-stands, something has come there. It is followed from scan to scan, also while it stands.
+stands, something has come there. Things are followed from scan to scan, so that one that creeps is noticed as well,
+and one that stands again is not forgotten.
 """
 
 from __future__ import annotations
@@ -21,8 +22,8 @@ if TYPE_CHECKING:
 
 # How far (m) things that move are looked for.
 WATCHED = 4.0
-# Evidence of cells that were seen free for sure, and how far (m) they are from all that was seen in them.
-FREE, ALONE = -4, 0.2
+# Evidence of cells that were seen free for sure, and at all, and how far (m) they are from all that was seen in them.
+FREE, SEEN_FREE, ALONE = -4, -1, 0.2
 # A thing has so many points at least, and this share of those of one that has come is where nothing was.
 FEWEST, MOST = 2, 0.5
 # Neighbours in a scan farther apart (m) belong to two things; a wider one (m) than this is a wall.
@@ -45,7 +46,8 @@ NEWEST = 0.3
 class Mover:
     """Something that moves: its middle in m of the odometry frame, its velocity in m/s, when it was seen.
 
-    `stands` is where it was when it last moved on, and when that was.
+    `stands` is where it was when it last moved on, and when that was. What has not come to where nothing was does
+    not move as far as anybody knows.
     """
 
     x: float
@@ -55,12 +57,13 @@ class Mover:
     at: float
     number: int
     stands: tuple[float, float, float]
+    moves: bool = True
 
 
 def followed(
     movers: tuple[Mover, ...], grid: Grid, eye: Pose, points: Points, now: float
 ) -> tuple[Mover, ...]:
-    """The things that move after a scan, its points in the frame of the robot at `eye`; `grid` is without it."""
+    """What is no wall after a scan, its points in the frame of the robot at `eye`; `grid` is without it."""
     close = points[np.einsum("ij,ij->i", points, points) < WATCHED * WATCHED]
     left = [each for each in movers if 0.0 <= now - each.at < LOST]
     result: list[Mover] = []
@@ -68,11 +71,13 @@ def followed(
     for thing in _things(world(eye, close)):
         middle = _middle(thing, eye)
         last = min(left, key=lambda each: math.hypot(each.x - middle[0], each.y - middle[1]), default=None)
+        has_come = _is_new(grid, thing, FREE) and _is_alone(grid, thing)
         if last is not None and math.hypot(last.x - middle[0], last.y - middle[1]) < STEP:
             left.remove(last)
-            result.append(_moved(last, middle, now))
-        elif _has_come(grid, thing):
-            result.append(Mover(*middle, 0.0, 0.0, now, number, (*middle, now)))
+            moved = _moved(last, middle, now, is_new=_is_new(grid, thing, SEEN_FREE))
+            result.append(replace(moved, moves=moved.moves or has_come))
+        else:
+            result.append(Mover(*middle, 0.0, 0.0, now, number, (*middle, now), has_come))
             number += 1
     return (*result, *left)
 
@@ -82,8 +87,10 @@ def without(grid: Grid, movers: tuple[Mover, ...], before: tuple[Mover, ...]) ->
     if not movers:
         return grid
     evidence = grid.evidence.copy()
-    known = {each.number for each in before}
+    known = {each.number for each in before if each.moves}
     for each in movers:
+        if not each.moves:
+            continue
         here = near(grid, (each.x, each.y), BODY if each.number in known else TRAIL)
         evidence[here] = np.minimum(evidence[here], 0)
     return replace(grid, evidence=evidence)
@@ -112,25 +119,27 @@ def _middle(thing: Points, eye: Pose) -> tuple[float, float]:
     return x + BEHIND * (x - eye.x) / away, y + BEHIND * (y - eye.y) / away
 
 
-def _moved(last: Mover, middle: tuple[float, float], now: float) -> Mover:
+def _moved(last: Mover, middle: tuple[float, float], now: float, *, is_new: bool) -> Mover:
     elapsed = now - last.at
     if elapsed <= 0.0:
         return last
     vx, vy = ((new - old) / elapsed for new, old in zip(middle, (last.x, last.y), strict=True))
     vx, vy = last.vx + NEWEST * (vx - last.vx), last.vy + NEWEST * (vy - last.vy)
     x, y, _ = last.stands
-    stands = last.stands if math.dist(middle, (x, y)) < STILL else (*middle, now)
-    return Mover(*middle, vx, vy, now, last.number, stands)
+    stays = math.dist(middle, (x, y)) < STILL
+    stands = last.stands if stays else (*middle, now)
+    return Mover(*middle, vx, vy, now, last.number, stands, last.moves or (is_new and not stays))
 
 
-def _has_come(grid: Grid, thing: Points) -> bool:
-    """Whether most of a thing stands where nothing was, away from all that was there."""
+def _is_new(grid: Grid, thing: Points, evidence: int) -> bool:
+    """Whether most of a thing stands where there was no more evidence than this."""
     cells = grid.cells(thing)
     cells = cells[grid.inside(cells)]
-    if not len(cells):
-        return False
-    new = grid.evidence[cells[:, 0], cells[:, 1]] <= FREE
+    return bool(len(cells)) and bool((grid.evidence[cells[:, 0], cells[:, 1]] <= evidence).mean() > MOST)
+
+
+def _is_alone(grid: Grid, thing: Points) -> bool:
+    """Whether a thing stands away from all that was there."""
     x, y = thing.mean(axis=0).tolist()
     reach = ALONE + float(np.hypot(thing[:, 0] - x, thing[:, 1] - y).max())
-    is_alone = not (grid.evidence[_about(grid, (x, y), reach)] > 0).any()
-    return is_alone and bool(new.mean() > MOST)
+    return not (grid.evidence[_about(grid, (x, y), reach)] > 0).any()

@@ -100,7 +100,22 @@ def test_what_comes_to_where_nothing_was_moves_and_stays_a_mover_when_it_stands(
 
 def test_what_stood_there_from_the_start_does_not_move() -> None:
     grid = marked(about(thing(2.0, 0.0), 0.05), EYE, thing(2.0, 0.0), NOTHING)
-    assert followed((), grid, EYE, thing(2.02, 0.0), 1.0) == ()
+    movers: tuple[Mover, ...] = ()
+    for step in range(20):
+        movers = followed(movers, grid, EYE, thing(2.0 + 0.02 * (step % 2), 0.0), 0.1 * step)
+    assert [each.moves for each in movers] == [False]
+    assert told_apart(Courtesy(), movers) == ((), ())
+
+
+def test_what_stood_there_and_creeps_off_is_noticed() -> None:
+    grid = marked(free(), EYE, np.repeat(thing(2.0, 0.0), 8, axis=0), NOTHING)
+    movers: tuple[Mover, ...] = ()
+    for step in range(60):
+        points = thing(2.0 - 0.012 * step, 0.0)
+        before, movers = movers, followed(movers, grid, EYE, points, 0.1 * step)
+        grid = without(marked(grid, EYE, points, NOTHING), movers, before)
+    assert [each.moves for each in movers] == [True]
+    assert not grid.occupied.any()
 
 
 def test_what_turns_up_beside_a_wall_is_the_wall() -> None:
@@ -108,7 +123,7 @@ def test_what_turns_up_beside_a_wall_is_the_wall() -> None:
     grid = marked(free(), EYE, np.repeat(wall, 8, axis=0), NOTHING)
     for _ in range(6):
         grid = marked(grid, EYE, wall, NOTHING)
-    assert followed((), grid, EYE, wall[:4] - (0.1, 0.0), 1.0) == ()
+    assert not any(each.moves for each in followed((), grid, EYE, wall[:4] - (0.1, 0.0), 1.0))
 
 
 def mover(x: float, y: float, vx: float = 0.0, since: float = 0.0, number: int = 1) -> Mover:
