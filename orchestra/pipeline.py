@@ -286,8 +286,7 @@ def _loading(
                 begin_alone,
                 isolation.prepare,
                 problems=problems,
-                debug=inputs.debug,
-                launching=inputs.launching,
+                inputs=inputs,
                 codes=codes,
                 postponed=postponed,
             )

@@ -78,7 +78,7 @@ def _calls(traceback: TracebackType | None) -> list[TracebackType]:
 
 def _explained(error: BaseException, call: TracebackType | None) -> Explanation:
     """Return what the exception means; what Python says of it where nothing better is known."""
-    found = None if call is None else _better(error, call)
+    found = None if call is None else _of_unset(error, call) or _better(error, call)
     if found is not None:
         return found
     if isinstance(error, WrongValue):
@@ -95,6 +95,13 @@ def _explained(error: BaseException, call: TracebackType | None) -> Explanation:
         return Explanation(message, error.code, span, meant)
     code = Code.SYNTAX if isinstance(error, SyntaxError) else Code.USER_CODE
     return Explanation(_message(error), code)
+
+
+def _of_unset(error: BaseException, call: TracebackType) -> Explanation | None:
+    # Here, because only mistakes need it, and what it imports.
+    from orchestra.compat import unset_variables  # noqa: PLC0415
+
+    return unset_variables.explained(error, call)
 
 
 def _better(error: BaseException, call: TracebackType) -> Explanation | None:

@@ -146,6 +146,9 @@ class Connection(Protocol):
     def missing_package(self, package: str) -> tuple[Severity, str, str | None]:
         """Return what is to be said where code goes no further without a package, and the name that was meant."""
 
+    def unset_environment(self, name: str) -> tuple[Severity, str, str | None]:
+        """Return what is to be said where code goes no further without a variable, and the name that was meant."""
+
     def package_prefix(self, package: str) -> str | None:
         """Return the install prefix of a package."""
 

@@ -19,7 +19,7 @@ from orchestra.dataclass import dataclass
 from orchestra.description.entity import Action
 from orchestra.description.text import Template
 from orchestra.errors import DescriptionError, Problems
-from orchestra.fields import field
+from orchestra.fields import field, replace
 from orchestra.load.encodings import decoded
 from orchestra.load.files import load
 from orchestra.resolve.command_line import inputs_from
@@ -83,7 +83,8 @@ def opened(path: str, environment: Mapping[str, str]) -> Iterator[Original]:
         return begin(inputs, found, load=load, packages=packages, run_command=run_command)
 
     with isolated(environment, ("ros2", "launch", path)) as isolation:
-        connection = _Asked(packages, begin_alone, isolation.prepare, problems=problems, launching=False)
+        asked = replace(inputs, launching=False)
+        connection = _Asked(packages, begin_alone, isolation.prepare, problems=problems, inputs=asked)
         with connected(connection), catch_warnings():
             filterwarnings(
                 "ignore", message="the share folder of "

@@ -125,6 +125,9 @@ class Variables(Protocol):
     def note(self, kind: ReadKind, name: str, value: str) -> None:
         """Note that something other than a launch configuration is read."""
 
+    def removes(self, name: str) -> bool:
+        """Return whether the description has removed an environment variable."""
+
     def tracing(self) -> AbstractContextManager[list[Read]]:
         """Collect what is read meanwhile."""
 
@@ -172,8 +175,9 @@ class Context:
     `file` is the absolute path of the launch file that is being read, `included_from` the chain of includes to it,
     innermost first. `anonymous` remembers the names that `$(anon)` made. `parameters` are the values that
     `set_parameter` put in scope, for `$(param)`. `launching` is false where nothing will be started here: then a
-    missing package is a warning about this host. `elsewhere` are the packages for which there has
-    been one. `lost` has the names that something faulty would have set. `perform_opaque` performs what only Python can.
+    missing package is a warning about this host; where `planning` is false too, so is an unset environment variable.
+    `elsewhere` are the packages, programs and variables for which there has been one. `lost` has the names that
+    something faulty would have set. `perform_opaque` performs what only Python can.
     """
 
     problems: Problems
@@ -185,6 +189,7 @@ class Context:
     included_from: tuple[Span, ...] = ()
     log_folder: str = "${run}/logs"
     launching: bool = True
+    planning: bool = True
     anonymous: dict[str, str] = field(default_factory=dict)
     elsewhere: set[str] = field(default_factory=set)
     parameters: Mapping[str, str] = field(default_factory=dict)

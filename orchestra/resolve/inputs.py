@@ -54,7 +54,8 @@ class Inputs:
     """The command line and the environment of one resolution.
 
     `launching` tells that processes will be started here: then a missing package is an error, not a warning about
-    this host. `required` tells whether a required argument without a value is an error. `noninteractive` is what code
+    this host. Without `planning` nothing is made of what is found: then an environment variable that is not set is a
+    warning too. `required` tells whether a required argument without a value is an error. `noninteractive` is what code
     of launch files is told: whether no terminal is assumed. With `debug` what that code raises is told with all calls.
     `severity` says for codes how much they weigh, over what settings files say. `keeping` lets what is worked out on
     the way be kept for later plans.
@@ -65,6 +66,7 @@ class Inputs:
     parameters: tuple[GivenParameter, ...] = ()
     parameter_files: tuple[GivenFile, ...] = ()
     launching: bool = True
+    planning: bool = True
     required: bool = True
     noninteractive: bool = True
     debug: bool = False

@@ -150,6 +150,11 @@ class _Glance:
     def note(self, kind: ReadKind, name: str, value: str) -> None:
         """Note nothing: what only a glance reads makes no value."""
 
+    def removes(self, name: str) -> bool:
+        """Return false: nothing is told of what only a glance reads."""
+        del name
+        return False
+
     def tracing(self) -> AbstractContextManager[list[Read]]:
         """Collect nothing."""
         return nullcontext([])

@@ -135,8 +135,8 @@ def report_missing_package(
 
 
 @dataclass(frozen=True, slots=True)
-class MissingPackage:
-    """What is to be said of a package that is not here, and the name that was meant."""
+class Missing:
+    """What is to be said of a package or a variable that is not here, and the name that was meant."""
 
     severity: Severity
     told: str
@@ -144,12 +144,38 @@ class MissingPackage:
 
 
 @lru_cache(maxsize=64)  # many nodes are of one package
-def missing_package(package: str, known: tuple[str, ...], *, launching: bool) -> MissingPackage:
+def missing_package(package: str, known: tuple[str, ...], *, launching: bool) -> Missing:
     """Return what is to be said of a package that is none of those that are known."""
     meant = nearest(package, known)
     if launching or (meant is not None and is_slip(package, meant)):
-        return MissingPackage(Severity.ERROR, f"there is no package {package!r} here", meant)
-    return MissingPackage(Severity.WARNING, f"there is no package {package!r} {HERE}", None)
+        return Missing(Severity.ERROR, f"there is no package {package!r} here", meant)
+    return Missing(Severity.WARNING, f"there is no package {package!r} {HERE}", None)
+
+
+def report_unset_environment(name: str, written: Template, context: Context) -> Poison:
+    """Report an environment variable that is not set; `written` is the text that names it.
+
+    Where no plan is made it may be set elsewhere: then it is a warning, given once, unless the name is a slip for one
+    that is set, or the description itself has removed it.
+    """
+    unset = unset_environment(
+        name, context.environment, planning=context.planning or context.variables.removes(name)
+    )
+    if unset.severity is Severity.ERROR:
+        return refuse(written, context, Code.UNSET_ENVIRONMENT, unset.told, meant=unset.meant)
+    if f"environment {name}" not in context.elsewhere and name not in context.lost:
+        told = f"{unset.told}: what it would give is left open"
+        context.problems.warning(Code.UNSET_ENVIRONMENT, told, context.at(written.span))
+    context.elsewhere.add(f"environment {name}")
+    return POISON
+
+
+def unset_environment(name: str, known: Iterable[str], *, planning: bool) -> Missing:
+    """Return what is to be said of an environment variable that is none of those that are known."""
+    meant = nearest(name, known)
+    if planning or (meant is not None and is_slip(name, meant)):
+        return Missing(Severity.ERROR, f"the environment variable {name!r} is not set", meant)
+    return Missing(Severity.WARNING, f"the environment variable {name!r} is not set {HERE}", None)
 
 
 def report_missing_executable(

@@ -101,6 +101,7 @@ def begin(
         packages,
         run_command,
         launching=inputs.launching,
+        planning=inputs.planning,
         parameters=scope.parameter_texts,
         lost=found.lost,
     )

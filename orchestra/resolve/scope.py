@@ -105,9 +105,8 @@ class Scope:
         """Note that something other than a variable is read."""
         if self._reads is None:
             return
-        if kind == "environment" and self.changes.get(name):
-            change = self.changes[name][-1]
-            read = Read(kind, name, value, "environment", change.location, change.through)
+        if kind == "environment" and (changes := self.changes.get(name)):
+            read = Read(kind, name, value, "environment", changes[-1].location, changes[-1].through)
         elif kind == "environment":
             read = Read(kind, name, value, "caller", None)
         else:
@@ -115,6 +114,10 @@ class Scope:
             at, through = (found[-1].location, found[-1].through) if found else (None, ())
             read = Read(kind, name, value, "parameter", at, through)
         self._reads.append(read)
+
+    def removes(self, name: str) -> bool:
+        """Return whether the description has removed an environment variable."""
+        return any(change.value is None for change in self.changes.get(name, ())[-1:])
 
     def tracing(self) -> Tracing:
         """Collect what is read meanwhile."""

@@ -140,6 +140,45 @@ def test_a_missing_package_is_only_a_warning_about_this_host(orchestra: Command,
     assert [problem["severity"] for problem in json.loads(found.stdout)] == ["warning"]
 
 
+_ASKING = """\
+import os
+from launch import LaunchDescription
+from launch.actions import LogInfo
+
+def generate_launch_description():
+    {}
+    return LaunchDescription([LogInfo(msg=model + '.yaml')])
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.launch.yaml", "launch:\n- log: {message: $(env QQ_MODEL)}\n"),
+        ("a.launch.py", _ASKING.format("model = os.environ['QQ_MODEL']")),
+        ("a.launch.py", _ASKING.format("model = os.getenv('QQ_MODEL')")),
+        (
+            "a.launch.py",
+            _ASKING.format("try: model = os.environ['QQ_MODEL']\n    except KeyError: raise SystemExit(1)"),
+        ),
+    ],
+)
+def test_an_unset_environment_variable_is_a_warning_until_it_is_set(
+    orchestra_beside: Command, folder: Path, name: str, text: str
+) -> None:
+    """Where only a check is made, that is: a plan needs its value."""
+    (folder / name).write_text(text)
+    for _ in range(2):  # the second time nothing has changed
+        found = orchestra_beside("check", name, "--format", "json")
+        (problem,) = json.loads(found.stdout)
+        assert (found.returncode, problem["severity"], problem["code"]) == (0, "warning", "ORC021")
+        line = text.splitlines()[problem["line"] - 1]
+        assert line[problem["column"] - 1 : problem["end_column"] - 1] == "QQ_MODEL"
+    assert orchestra_beside("plan", name).returncode == 2
+    assert orchestra_beside("check", name, QQ_MODEL="burger").stdout == "no problems in 1 file\n"
+    assert "1 warning" in orchestra_beside("check", name).stdout
+
+
 def test_what_is_left_at_the_end_is_not_searched_for_garbage(tmp_path: Path) -> None:
     _write(tmp_path, plain="launch: []")
     program = (

@@ -39,6 +39,7 @@ if TYPE_CHECKING:
 
 
 _COLLECTING = 1000  # files, of some 30 kB each, after which memory is tidied up
+_LACKING = (Code.MISSING_PACKAGE, Code.UNSET_ENVIRONMENT, Code.USER_CODE)  # what another machine may have
 
 
 class Looker:
@@ -47,7 +48,10 @@ class Looker:
     def __init__(self, inputs: Inputs) -> None:
         self._environment = dict(inputs.environment)
         self._inputs = replace(
-            inputs, launching=False, environment=ObservedEnvironment(self._environment, observer())
+            inputs,
+            launching=False,
+            planning=False,
+            environment=ObservedEnvironment(self._environment, observer()),
         )
         self._packages = RecordedPackages(self._environment)
         self._loader = SharedLoader(self._names)
@@ -150,7 +154,7 @@ class _Visit:
 
 def _of_this_host(problem: Problem) -> Problem:
     """Return a problem as a warning where a file cannot be read for want of what another machine may have."""
-    is_lacking = problem.code in (Code.MISSING_PACKAGE, Code.USER_CODE) and problem.message.endswith(HERE)
+    is_lacking = problem.code in _LACKING and problem.message.endswith(HERE)
     return replace(problem, severity=Severity.WARNING) if is_lacking else problem
 
 

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Problems
+from orchestra.resolve.inputs import Inputs
 from orchestra.resolve.near_paths import near_path
-from orchestra.resolve.refusals import missing_package
+from orchestra.resolve.python.environ import environment_now
+from orchestra.resolve.refusals import missing_package, unset_environment
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
@@ -20,14 +22,16 @@ if TYPE_CHECKING:
     from orchestra.resolve.python.codes import Codes
     from orchestra.resolve.resolution import Resolution
 
+_INPUTS: Final = Inputs({})
+
 
 class LoadingConnection:
     """Serves the launch files of one resolution. `begin` makes a state of its own for a context that users build.
 
-    What comes up in such a state and stops nobody is reported to `problems`. `prepare` gets ready for their code; with
-    `debug` what that raises is told with all calls, without `launching` a package that is not here is a fault of this
-    host. Compiled code is kept for later plans: `codes` are a folder, None for nowhere, and the file at the top.
-    That waits in `postponed` for a call, where it is given.
+    What comes up in such a state and stops nobody is reported to `problems`. `prepare` gets ready for their code;
+    `inputs` say what is a fault of this host alone, and how much is told. Compiled code is kept for later plans:
+    `codes` are a folder, None for nowhere, and the file at the top. That waits in `postponed` for a
+    call, where it is given.
     """
 
     def __init__(
@@ -37,16 +41,15 @@ class LoadingConnection:
         prepare: Callable[[], None] = lambda: None,
         *,
         problems: Problems | None = None,
-        debug: bool = False,
-        launching: bool = True,
+        inputs: Inputs = _INPUTS,
         codes: tuple[str | None, str] = (None, ""),
         postponed: list[Callable[[], None]] | None = None,
     ) -> None:
-        self.debug = debug
+        self.debug = inputs.debug
         self.prepare = prepare
         self._packages = packages
         self._begin = begin
-        self._launching = launching
+        self._inputs = inputs
         self._place = codes
         self._postponed = postponed
         self._problems = Problems() if problems is None else problems
@@ -86,8 +89,13 @@ class LoadingConnection:
 
     def missing_package(self, package: str) -> tuple[Severity, str, str | None]:
         """Return what is to be said where code goes no further without a package, and the name that was meant."""
-        missing = missing_package(package, self._packages.names(), launching=self._launching)
+        missing = missing_package(package, self._packages.names(), launching=self._inputs.launching)
         return missing.severity, missing.told, missing.meant
+
+    def unset_environment(self, name: str) -> tuple[Severity, str, str | None]:
+        """Return what is to be said where code goes no further without a variable, and the name that was meant."""
+        unset = unset_environment(name, environment_now(), planning=self._inputs.planning)
+        return unset.severity, unset.told, unset.meant
 
     def near_file(self, path: str) -> str | None:
         """Return the path of a file that is there and was probably meant by one that is not."""

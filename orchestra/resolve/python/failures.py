@@ -20,6 +20,7 @@ if TYPE_CHECKING:
     from orchestra.errors import Problem, Problems
 
 _OF_TEXTS: Final[dict[Code | None, type[Exception]]] = {Code.MISSING_PACKAGE: PackageNotFoundError}
+_OF_THIS_HOST: Final = (Code.MISSING_PACKAGE, Code.MISSING_EXECUTABLE, Code.UNSET_ENVIRONMENT)
 _KINDS: Final[dict[Code | None, type[Exception]]] = {
     Code.BAD_CONDITION: InvalidConditionExpressionError,
     Code.MISSING_FILE: FileNotFoundError,
@@ -42,10 +43,10 @@ def failure(problems: Iterable[Problem]) -> Exception | None:
 def unevaluated(found: Problems) -> Exception:
     """Return what is to be raised where a text comes to nothing, for a fault that is known already if not for these.
 
-    A package that is not on this host is one, for code cannot go on without its place; as elsewhere, it may only be a
-    warning where it is reported.
+    A package, a program or a variable that is not on this host is one, for code cannot go on without it; as elsewhere,
+    it may only be a warning where it is reported.
     """
-    missing = (problem for problem in found if problem.code is Code.MISSING_PACKAGE)
+    missing = (problem for problem in found if problem.code in _OF_THIS_HOST)
     told = found.errors or tuple(missing)
     return _carrying(_OF_TEXTS.get(told[0].code if told else None, SubstitutionFailure), told)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.errors import Code
+from orchestra.resolve.refusals import report_unset_environment
 from orchestra.resolve.substitutions.lookup import looked_up
 
 if TYPE_CHECKING:
@@ -20,8 +20,6 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
         context,
         evaluate,
         find=context.environment.get,
-        code=Code.UNSET_ENVIRONMENT,
-        told="the environment variable {} is not set",
-        known=lambda: context.environment,
+        report=report_unset_environment,
         kind="environment",
     )

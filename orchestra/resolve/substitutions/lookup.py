@@ -4,16 +4,13 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON, Poison
-from orchestra.resolve.refusals import refuse
 from orchestra.resolve.substitutions.arguments import made
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable
+    from collections.abc import Callable
 
-    from orchestra.description.text import Call
-    from orchestra.errors import Code
+    from orchestra.description.text import Call, Template
     from orchestra.resolve.context import Context, Evaluated, ReadKind
     from orchestra.resolve.substitutions.arguments import Evaluate
 
@@ -24,15 +21,13 @@ def looked_up(
     evaluate: Evaluate,
     *,
     find: Callable[[str], Evaluated | str | None],
-    code: Code,
-    told: str,
-    known: Callable[[], Iterable[str]],
+    report: Callable[[str, Template, Context], Poison],
     kind: ReadKind | None = None,
 ) -> Evaluated:
     """Return what `find` has for the first argument, else the second one, which is evaluated only then.
 
-    Where there is neither, that is reported: `told` says it, with `{}` in the place of the name; `known` are the names
-    that there are. What is found is noted as something of a `kind` that was read, unless `find` does so.
+    Where there is neither, `report` tells so of the name, which is written as a text. What is found is noted as
+    something of a `kind` that was read, unless `find` does so.
     """
     written = call.arguments[0]
     name = evaluate(written, context)
@@ -44,8 +39,7 @@ def looked_up(
     if value is None and len(call.arguments) > 1:
         value = evaluate(call.arguments[1], context)
     if value is None:
-        meant = nearest(name.text, known())
-        return refuse(written, context, code, told.format(repr(name.text)), meant=meant)
+        return report(name.text, written, context)
     if isinstance(value, Poison):
         return POISON
     return made(call, context, value if isinstance(value, str) else value.text)
