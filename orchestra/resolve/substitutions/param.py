@@ -5,11 +5,13 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
+from orchestra.nearest import nearest
+from orchestra.resolve.refusals import refuse
 from orchestra.resolve.substitutions.lookup import looked_up
 
 if TYPE_CHECKING:
-    from orchestra.description.text import Call
-    from orchestra.resolve.context import Context, Evaluated
+    from orchestra.description.text import Call, Template
+    from orchestra.resolve.context import Context, Evaluated, Poison
     from orchestra.resolve.substitutions.arguments import Evaluate
 
 
@@ -23,8 +25,11 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
         context,
         evaluate,
         find=context.parameters.get,
-        code=Code.UNDEFINED_VARIABLE,
-        told="no set_parameter has set {} here",
-        known=lambda: context.parameters,
+        report=_report,
         kind="parameter",
     )
+
+
+def _report(name: str, written: Template, context: Context) -> Poison:
+    told = f"no set_parameter has set {name!r} here"
+    return refuse(written, context, Code.UNDEFINED_VARIABLE, told, meant=nearest(name, context.parameters))

@@ -6,12 +6,14 @@ from typing import TYPE_CHECKING
 
 from orchestra.description.text import Words
 from orchestra.errors import Code
+from orchestra.nearest import nearest
 from orchestra.resolve.context import Value, new_value
+from orchestra.resolve.refusals import refuse
 from orchestra.resolve.substitutions.lookup import looked_up
 
 if TYPE_CHECKING:
-    from orchestra.description.text import Call
-    from orchestra.resolve.context import Context, Evaluated
+    from orchestra.description.text import Call, Template
+    from orchestra.resolve.context import Context, Evaluated, Poison
     from orchestra.resolve.substitutions.arguments import Evaluate
 
 
@@ -29,7 +31,10 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
         context,
         evaluate,
         find=lambda name: context.variables.get(name, at),
-        code=Code.UNDEFINED_VARIABLE,
-        told="no launch argument or variable {} is set here",
-        known=context.variables.names,
+        report=_report,
     )
+
+
+def _report(name: str, written: Template, context: Context) -> Poison:
+    told = f"no launch argument or variable {name!r} is set here"
+    return refuse(written, context, Code.UNDEFINED_VARIABLE, told, meant=nearest(name, context.variables.names()))
