@@ -50,11 +50,11 @@ def tells(path: Path, count: int) -> bool:
 @pytest.mark.parametrize("target", ["orc-keeper", "orc-supervisor"])
 def test_it_tells_what_runs_what_is_waited_for_and_where_we_are(tmp_path: Path, target: str) -> None:
     slow = process(
-        "slow", "polite", "say=begun", "linger", ready=ready_when(log="never comes", timeout=600.0)
+        "slow", "polite", "say=begun", "linger", ready=ready_when(log="never comes", timeout=650.0)
     )
     behind = process("behind", "linger", depends_on=after("slow", "ready"))
     with launched(
-        tmp_path, plan(POLITE, slow, behind, triggers=(at_start(log("late"), delay=700.0),))
+        tmp_path, plan(POLITE, slow, behind, triggers=(at_start(log("late"), delay=750.0),))
     ) as run:
         run.await_line("polite", "up")
         run.await_line("slow", "begun")
@@ -65,7 +65,7 @@ def test_it_tells_what_runs_what_is_waited_for_and_where_we_are(tmp_path: Path, 
         dump = kept.read_text()
         for told in ("polite  running", "slow", "that matches 'never comes'"):
             assert told in dump
-        assert re.search(r"timers:\n  in [45]\d\d\.(.*\n)+?  in [56]\d\d\.", dump)
+        assert re.search(r"timers:\n  in [56]\d\d\.(.*\n)+?  in [67]\d\d\.", dump)
         assert f"supervisor (pid {run.own('orc-supervisor')}):\n" in dump
         assert (f"keeper (pid {run.popen.pid}):\n" in dump) == (target == "orc-keeper")
         assert ("in until_it_ends" in dump) == (target == "orc-keeper")
