@@ -143,7 +143,7 @@ def opened(
                     from orchestra.plan.checks.memory import check_memory  # noqa: PLC0415
 
                     check_memory(launch.plan, problems)
-            _point_into_code(problems)
+            _point_into_code(problems, inputs)
             settle(problems, path, inputs.severity, bare=_is_bare(path))
             if launch is not None and whole:
                 launch.plan = replace(launch.plan, problems=problems.ordered)
@@ -172,13 +172,16 @@ def _is_bare(path: str) -> bool:
     return once(("settings", folder), lambda: without_settings(f"{folder}/file"))
 
 
-def _point_into_code(problems: Problems) -> None:
+def _point_into_code(problems: Problems, inputs: Inputs) -> None:
     """Let problems of Python files stand at the text that is wrong."""
     if any(problem.span is not None and is_python(problem.span) for problem in problems):
         # It takes time to import, and only problems of such files need it.
         from orchestra.compat.suggestions import point_into_code  # noqa: PLC0415
+        from orchestra.resolve.python.leaving_open import leave_open  # noqa: PLC0415
 
         point_into_code(problems)
+        if not inputs.planning:
+            leave_open(problems, inputs.environment)
 
 
 def _warn_of_remaining(path: str, isolation: Isolation, problems: Problems) -> None:

@@ -1,4 +1,4 @@
-"""Environment variables that code of a launch file reads and that are not set, and what code does without them."""
+"""Environment variables that code of a launch file asks for and that are not set."""
 
 from __future__ import annotations
 
@@ -7,7 +7,6 @@ import os
 from typing import TYPE_CHECKING
 
 from orchestra.compat.explanation import Explanation
-from orchestra.compat.names_in_frames import value_of
 from orchestra.compat.place import Place, is_own
 from orchestra.compat.seam import connection
 from orchestra.compat.syntax_trees import node_span, tree_of
@@ -16,7 +15,7 @@ from orchestra.witness.origins import PYTHON
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
-    from types import FrameType, TracebackType
+    from types import TracebackType
 
     from orchestra.location import Span
 
@@ -24,13 +23,13 @@ if TYPE_CHECKING:
 def explained(error: BaseException, call: TracebackType) -> Explanation | None:
     """Explain what an unset variable leads to, as far as that is sure; `call` is the user's line. None: nothing does.
 
-    What follows from it in code that copes with it, to stop or to go on with None, is told only where that is no error.
+    What code raises that copes with it is told so only where that is no error.
     """
     place = Place(call.tb_frame.f_code, call.tb_lasti)
     name = _asked_for(error)
     if name is not None:
         return _told(name, _key(place, name) or place.span)
-    found = _stopped_for(error, place) or _nothing_of(error, call.tb_frame, place)
+    found = _stopped_for(error, place)
     told = None if found is None else _told(*found)
     return told if told is not None and told.severity is Severity.WARNING else None
 
@@ -89,31 +88,3 @@ def _calls(traceback: TracebackType | None) -> Iterator[TracebackType]:
         if not is_own(file) and not file.startswith(("<", *PYTHON)):
             yield traceback
         traceback = traceback.tb_next
-
-
-def _nothing_of(error: BaseException, frame: FrameType, place: Place) -> tuple[str, Span] | None:
-    """Return the variable whose None an expression cannot use, and where the code has asked for it."""
-    if not isinstance(error, TypeError | AttributeError) or "None" not in str(error):
-        return None
-    tree = tree_of(place.file)
-    whole = None if tree is None else tree.expression(place.file, place.span)
-    if tree is None or whole is None:
-        return None
-    for node in ast.walk(whole):
-        meant = tree.meaning(node) if isinstance(node, ast.Name) else node
-        name = _read_by(meant, frame)
-        if name is not None and name not in os.environ:
-            return name, node_span(place.file, meant.args[0])  # type: ignore[attr-defined] # it is a call
-    return None
-
-
-def _read_by(node: ast.AST, frame: FrameType) -> str | None:
-    """Return the variable that a call reads which gives None where it is not set."""
-    match node:
-        case ast.Call(
-            func=ast.Name() | ast.Attribute() as func, args=[ast.Constant(value=str(name))], keywords=[]
-        ):
-            read = value_of(func, frame)
-            gets = getattr(read, "__self__", None) is os.environ and getattr(read, "__name__", "") == "get"
-            return name if read is os.getenv or gets else None
-    return None
