@@ -173,9 +173,17 @@ def report_unset_environment(name: str, written: Template, context: Context) -> 
 def unset_environment(name: str, known: Iterable[str], *, planning: bool) -> Missing:
     """Return what is to be said of an environment variable that is none of those that are known."""
     meant = nearest(name, known)
-    if planning or (meant is not None and is_slip(name, meant)):
+    if planning or (meant is not None and _is_slip_of_variable(name, meant)):
         return Missing(Severity.ERROR, f"the environment variable {name!r} is not set", meant)
     return Missing(Severity.WARNING, f"the environment variable {name!r} is not set {HERE}", None)
+
+
+def _is_slip_of_variable(name: str, meant: str) -> bool:
+    """Return whether a name is hardly anything but a slip in the words of another: ROBOT_NAME is none of ROBOT_TYPE."""
+    words, others = name.split("_"), meant.split("_")
+    if len(words) != len(others):
+        return is_slip(name, meant)
+    return all(word == other or is_slip(word, other) for word, other in zip(words, others, strict=True))
 
 
 def report_missing_executable(
