@@ -10,7 +10,7 @@ import importlib
 import os
 import sys
 from contextlib import contextmanager
-from importlib.machinery import ModuleSpec
+from importlib.machinery import ModuleSpec, PathFinder, SourceFileLoader
 from importlib.util import find_spec
 from itertools import filterfalse
 from pathlib import Path
@@ -26,12 +26,14 @@ from orchestra.witness.origins import INSTALLED, PYTHON
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
     from importlib.abc import Loader, MetaPathFinder
+    from types import CodeType
 else:  # nobody asks for what they add, and they import some thirty modules
     Loader = MetaPathFinder = object
 
 _INSTALLED: Final = (*PYTHON, *INSTALLED)
 SERVED: Final = frozenset(entry.name for entry in Path(__file__).parent.iterdir() if entry.is_dir())
 _ROOM: Final = __name__.rpartition(".")[0]
+_OURS: Final = f"{__name__.partition('.')[0]}."
 _served: dict[str, ModuleType] = {}  # by the names under which they have been imported in this process
 
 
@@ -75,6 +77,37 @@ class _Finder(MetaPathFinder):
         return ModuleSpec(fullname, _Alias(name), is_package=found.submodule_search_locations is not None)
 
 
+class _Compiling(MetaPathFinder):
+    """Finds modules of ours that nobody has compiled yet, and lets what they are compiled to be kept beside them.
+
+    That of users' modules is not: nobody expects it there, and many may not write. But a start imports 150 of ours for
+    launch files in Python, and compiles them in 90 ms where they are as they were written, as in a working copy.
+    """
+
+    def find_spec(
+        self,
+        fullname: str,
+        path: Sequence[str] | None = None,
+        target: ModuleType | None = None,
+    ) -> ModuleSpec | None:
+        spec = PathFinder.find_spec(fullname, path, target) if fullname.startswith(_OURS) else None
+        if spec is not None and type(spec.loader) is SourceFileLoader:
+            spec.loader = _Keeping(fullname, spec.loader.path)
+        return spec
+
+
+class _Keeping(SourceFileLoader):
+    """Keeps the code that it compiles, as is done where nothing is served."""
+
+    def get_code(self, fullname: str) -> CodeType | None:
+        """Return the code of a module."""
+        before, sys.dont_write_bytecode = sys.dont_write_bytecode, False
+        try:
+            return super().get_code(fullname)
+        finally:
+            sys.dont_write_bytecode = before
+
+
 @contextmanager
 def served(untouched: Callable[[], bool] = lambda: False) -> Iterator[None]:
     """Serve the names for a while; afterwards the modules of this process are as they were.
@@ -82,13 +115,15 @@ def served(untouched: Callable[[], bool] = lambda: False) -> Iterator[None]:
     What launch files have imported is forgotten where it is the users' own: the next one begins anew. `untouched` tells
     whether no code of theirs has run.
     """
-    finder = _Finder()
+    finder, compiling = _Finder(), _Compiling()
     before = dict(sys.modules)
     bytecode, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     if any(map(before.__contains__, SERVED)):
         for name in [name for name in before if name.partition(".")[0] in SERVED]:
             del sys.modules[name]
     sys.meta_path.insert(0, finder)
+    if not bytecode and PathFinder in sys.meta_path:
+        sys.meta_path.insert(sys.meta_path.index(PathFinder), compiling)
     watching = observer()
     watching.ours |= SERVED
     if watching.installed:  # many files import the same, and nobody looks whether they are there before
@@ -97,6 +132,8 @@ def served(untouched: Callable[[], bool] = lambda: False) -> Iterator[None]:
         yield
     finally:
         sys.meta_path.remove(finder)
+        if compiling in sys.meta_path:
+            sys.meta_path.remove(compiling)
         sys.dont_write_bytecode = bytecode
         _forget_new(before)
         if not untouched():

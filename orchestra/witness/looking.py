@@ -23,6 +23,7 @@ _LATELY: Final[dict[str, bytes]] = {}
 
 # Nanoseconds in which a file may be changed twice without a sign: clocks of file systems tick slowly.
 _TICK: Final = 2_000_000_000
+_WRITING: Final = os.O_WRONLY | os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_TRUNC
 
 
 def signature(path: str) -> Signature | None:
@@ -38,6 +39,13 @@ def signature(path: str) -> Signature | None:
 
 def _signature_of(found: os.stat_result) -> Signature:
     return (found.st_mtime_ns, found.st_ctime_ns, found.st_size, found.st_ino, found.st_dev)
+
+
+def is_writing(mode: str | None, flags: int) -> bool:
+    """Tell whether a file is opened to be written; `mode` is that of `open`, None where flags alone are given."""
+    if mode is None:
+        return flags & _WRITING != 0
+    return not {"w", "a", "x", "+"}.isdisjoint(mode)
 
 
 def settled(found: Signature | None) -> bool:

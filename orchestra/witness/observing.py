@@ -23,8 +23,6 @@ if TYPE_CHECKING:
 
 _AnswerT = TypeVar("_AnswerT")
 
-_WRITING: Final = os.O_WRONLY | os.O_RDWR | os.O_APPEND | os.O_CREAT | os.O_TRUNC
-
 
 class Observer:
     """Records what this process looks at. There is one per process, `observer()`.
@@ -230,10 +228,12 @@ class Observer:
         if isinstance(path, int):
             return
         whole = self._whole(path)
+        writes = looking.is_writing(mode, flags)
         if whole is None or whole == os.devnull:
-            self.code.update(origins.own_source(path))
+            if not writes:  # as the bytecode of a module, under another name at first
+                self.code.update(origins.own_source(path))
             return
-        if (mode and not {"w", "a", "x", "+"}.isdisjoint(mode)) or (mode is None and flags & _WRITING):
+        if writes:
             self.unknown(f"{whole} is written")
             return
         if whole.endswith(".pyc"):

@@ -1,0 +1,18 @@
+"""What the observer hears of files."""
+
+from __future__ import annotations
+
+import os
+
+from orchestra.witness.observing import Observer
+from orchestra.witness.origins import OURS
+
+
+def test_bytecode_that_is_written_meanwhile_is_no_code_of_ours() -> None:
+    """It has another name until it is complete, which is gone when a plan is kept with what made it."""
+    watching = Observer()
+    watching.begin({})
+    watching._heard("open", (f"{OURS}fields.py", "rb", 0))
+    watching._heard("open", (f"{OURS}__pycache__/fields.cpython-311.pyc.140", None, os.O_CREAT | os.O_WRONLY))
+    assert watching.code == {f"{OURS}fields.py"}
+    assert not watching.end().unknown
