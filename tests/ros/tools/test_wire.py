@@ -9,7 +9,7 @@ import struct
 import time
 import tracemalloc
 from argparse import Namespace
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import pytest
 from rcl_interfaces.srv import GetParameters
@@ -274,6 +274,47 @@ def test_what_gets_lost_is_asked_for_again(monkeypatch: pytest.MonkeyPatch) -> N
     assert whole[0] == ["/robot1/actor", "/robot1/machine"]
     monkeypatch.setattr(socket, "socket", _Lossy)
     assert list(_seen()) == whole
+
+
+class _Unoffered(socket.socket):
+    """A socket that hears nothing of the samples that are offered to whom it says it is first."""
+
+    first: ClassVar[list[bytes]] = []
+    lost: ClassVar[list[bytes]] = []
+
+    def recv(self, *arguments: Any) -> bytes:
+        while True:
+            heard = super().recv(*arguments)
+            offers = (
+                isinstance(one, Heartbeat) and one.writer not in READERS and not one.writer[3] & 0xC0
+                for _source, one in read(heard)
+            )
+            if not (self.first[0] in heard and any(offers)):
+                return heard
+            self.lost.append(heard)
+
+    def sendto(self, *arguments: Any) -> int:
+        self.first.append(arguments[0][8:20])
+        return super().sendto(*arguments)
+
+
+@pytest.mark.usefixtures("beside")
+def test_who_is_offered_nothing_comes_again(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A server offers what it has to a new reader only once or twice: else there would be no client for ever."""
+    monkeypatch.setattr(socket, "socket", _Unoffered)
+    _Unoffered.first.clear()
+    _Unoffered.lost.clear()
+    with looking(Namespace(spin_time=20.0)) as graph:
+        answer = ask(
+            graph,
+            GetParameters,
+            "/robot1/machine/get_parameters",
+            GetParameters.Request(names=["use_sim_time"]),
+            Deadline(20.0),
+            repeat=False,
+        )
+    assert [one.type for one in answer.values] == [1]
+    assert _Unoffered.lost
 
 
 @pytest.mark.usefixtures("beside")

@@ -2,6 +2,9 @@
 
 A server that has not discovered yet whom it answers sends its answer to nobody. Here a request is sent when the
 server's writer has offered its samples to our reader, and its reader has acknowledged our writer: both have met us.
+
+A writer of Fast DDS offers what it has once, or twice, to a reader that is new. Where that gets lost we come again
+under another name.
 """
 
 from __future__ import annotations
@@ -26,6 +29,7 @@ if TYPE_CHECKING:
 
 _ANYBODY: Final = b"\0\0\0\0"
 _AGAIN, _LONGEST = 0.1, 0.5  # s until something is sent again, and at most
+_LOST: Final = 0.5  # s after which a server that is there has offered something, else it got lost
 _GUID: Final = 16
 
 
@@ -87,14 +91,23 @@ class Client:
         if now < self._at:
             return
         self._at, self._patience = now + self._patience, min(2 * self._patience, _LONGEST)
-        for source, peer in self.member.peers.items():
-            if peer.writers and (peer.reader is None or peer.heard_of < self._number):
-                numbers = range(peer.heard_of + 1, self._number + 1) if peer.reader else ()
-                self._count += 1
-                for number in numbers:
-                    for part in self._request(peer.prefix, number):
-                        self.member.send(peer, to(source), part)
-                self.member.send(peer, to(source), heartbeat(_ANYBODY, WRITER, self._number, self._count))
+        for source, peer in [*self.member.peers.items()]:
+            known_for = now - peer.met_at
+            if not peer.writers and peer.reader is not None and known_for > 2 * _LOST:
+                self.member.meet_again(source)
+            elif (peer.writers or known_for > _LOST) and (
+                peer.reader is None or peer.heard_of < self._number
+            ):
+                self._ask(source, peer)
+
+    def _ask(self, source: bytes, peer: Peer) -> None:
+        """Say how many requests there are, and send those that have not come to a server."""
+        self._count += 1
+        if peer.reader is not None and peer.writers:
+            for number in range(peer.heard_of + 1, self._number + 1):
+                for part in self._request(peer.prefix, number):
+                    self.member.send(peer, to(source), part)
+        self.member.send(peer, to(source), heartbeat(_ANYBODY, WRITER, self._number, self._count))
 
     def _request(self, prefix: bytes, number: int) -> list[bytes]:
         """Return a request in parts; it tells which reader is for the response."""

@@ -25,7 +25,7 @@ _UNKNOWN: Final = "unknown"
 _NOBODY: Final = ("_NODE_NAME_UNKNOWN_", "_NODE_NAMESPACE_UNKNOWN_")
 _ENDLESS: Final = 0x7FFFFFFF  # s
 _NANOSECONDS: Final = 1_000_000_000
-_TO_LEASE: Final = 4  # behind the kind of liveliness
+_KIND, _SPAN = struct.calcsize("I"), struct.calcsize("iI")  # bytes; what is shorter tells nothing
 
 
 @dataclass(frozen=True, slots=True)
@@ -80,15 +80,15 @@ def end_of(one: Described, node: Named | None) -> WireEnd:
     spans = {
         "lifespan": _span(one, known.LIFESPAN, 0),
         "deadline": _span(one, known.DEADLINE, 0),
-        "liveliness_lease_duration": _span(one, known.LIVELINESS, _TO_LEASE),
+        "liveliness_lease_duration": _span(one, known.LIVELINESS, _KIND),  # behind the kind
     }
     kind = found[1].decode("ascii", "replace") if found else "INVALID"
     return WireEnd(name, space, type_of(one.kind), kind, one.guid, one.writes, words, spans)
 
 
 def _word(one: Described, which: int, words: dict[int, str], usual: str) -> str:
-    value = one.fields.get(which)
-    if value is None:
+    value = one.fields.get(which, b"")
+    if len(value) < _KIND:
         return usual
     (number,) = struct.unpack_from(f"{one.order}I", value)
     return words.get(number, _UNKNOWN)
@@ -96,8 +96,8 @@ def _word(one: Described, which: int, words: dict[int, str], usual: str) -> str:
 
 def _span(one: Described, which: int, at: int) -> int | None:
     """Return a duration in nanoseconds, as Fast DDS reads it: the wire has fractions of a second."""
-    value = one.fields.get(which)
-    if value is None:
+    value = one.fields.get(which, b"")
+    if len(value) < at + _SPAN:
         return None
     seconds, fraction = struct.unpack_from(f"{one.order}iI", value, at)
     if seconds == _ENDLESS:

@@ -108,6 +108,11 @@ class Member:
         """Say something to one of whose endpoints this is."""
         self._send(peer.user_port, message(peer.prefix, *parts))
 
+    def meet_again(self, source: bytes) -> None:
+        """Forget somebody, and announce ourselves to him under another name."""
+        del self.peers[source]
+        self._changed(time.monotonic())
+
     def close(self) -> None:
         """Leave."""
         for name in self._names:
