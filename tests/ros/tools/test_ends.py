@@ -19,6 +19,9 @@ from orchestra.ros.tools.graph.action_names import actions_of
 from orchestra.ros.tools.graph.names import listed
 from orchestra.ros.tools.graph.qos import data_of
 from orchestra.ros.tools.graph.seeing import looking
+from orchestra.ros.tools.graph.wire import parameters as known
+from orchestra.ros.tools.graph.wire.endpoints import Described
+from orchestra.ros.tools.graph.wire.ends import end_of
 from orchestra.testing.domain import free_domain
 
 if TYPE_CHECKING:
@@ -100,3 +103,14 @@ def test_an_action_is_known_by_what_its_server_tells() -> None:
         ("/feedback", ["a/action/Go_FeedbackMessage"]),
     ]
     assert actions_of(topics) == [("/go", ["a/action/Go"])]
+
+
+@pytest.mark.parametrize(
+    "content", [b"", b"\1\0", b"\1\0\0\0\2\0"], ids=["none", "half a word", "no duration"]
+)
+def test_what_an_end_says_too_briefly_counts_as_not_said(content: bytes) -> None:
+    """Whoever sends on the network may send anything."""
+    fields = dict.fromkeys((known.DURABILITY, known.LIVELINESS, known.LIFESPAN, known.DEADLINE), content)
+    end = end_of(Described(bytes(16), "rt/odd", "std_msgs::msg::dds_::Int32_", True, fields, "<"), None)
+    assert (end.qos["lifespan"], end.qos["deadline"], end.qos["liveliness_lease_duration"]) == (None,) * 3
+    assert end.qos["durability"] == ("transient_local" if len(content) > 3 else "volatile")
