@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from bringup.control.command import STANDSTILL, Command, wrapped
-from bringup.control.giving_way import is_waiting
+from bringup.control.giving_way import Courtesy, is_waiting
 from bringup.control.grid import about, marked
 from bringup.control.journey import Journey, Progress
 from bringup.control.lookout import is_looking
@@ -65,8 +65,8 @@ def travelled(
     journey: Journey, pose: Pose, sight: Sight, settings: Settings, now: float, last: Command
 ) -> tuple[Journey, Command]:
     """One tick: the journey after it and the velocity wanted, not yet guarded; `last` is the command before."""
-    if now < journey.since:  # The clock was set back: what happened before is as old as it is now.
-        journey = replace(journey, since=now, seen=now, planned=-math.inf, no_way_since=None, progress=None)
+    if now < max(journey.since, journey.planned):
+        journey = _set_back(journey, now)
     journey = replace(journey, lost_since=None)
     journey = _watched(_seen(journey, sight, settings), pose, now)
     result = _over(journey, settings, now)
@@ -78,6 +78,14 @@ def travelled(
     if journey.way is None or is_looking(journey.lookout):
         return replace(journey, left=_distance(journey, pose)), STANDSTILL
     return _followed(journey, journey.way, pose, settings)
+
+
+def _set_back(journey: Journey, now: float) -> Journey:
+    """The journey after the clock was set back: what happened before is as old as it is now; nobody waits for it."""
+    courtesy = Courtesy(journey.courtesy.times, parked=journey.courtesy.parked)
+    lookout = replace(journey.lookout, doubt=None)
+    past = Journey(journey.goal, now, journey.grid, seen=now, lookout=lookout, courtesy=courtesy)
+    return replace(past, arrived=None if journey.arrived is None else now)
 
 
 def _distance(journey: Journey, pose: Pose) -> float:

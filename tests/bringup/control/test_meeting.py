@@ -6,7 +6,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from bringup.control.command import Pose
+from bringup.control.command import STANDSTILL, Pose
 from bringup.control.costs import CLOSED, costs
 from bringup.control.giving_way import (
     LONGEST,
@@ -25,11 +25,14 @@ from bringup.control.giving_way import (
 )
 from bringup.control.grid import Grid, about, marked
 from bringup.control.journey import Goal, Journey
+from bringup.control.lookout import Doubt, Lookout
 from bringup.control.movers import LOST, Mover, followed, without
 from bringup.control.outcome import Outcome
 from bringup.control.passing import among, meeting
 from bringup.control.route import found
 from bringup.control.settings import Settings
+from bringup.control.sight import Sight
+from bringup.control.travelling import travelled
 from bringup.control.way import Way
 from tests.bringup.control.test_flat_world import Array, Robot, box, drive
 
@@ -203,3 +206,21 @@ def test_who_does_not_move_although_it_is_given_way_is_parked() -> None:
     after = finished(waits, (stays, moves), PARKED + 1.0)
     assert after.giving is None
     assert told_apart(after, (stays, moves)) == ((moves,), (stays,))
+
+
+@pytest.mark.parametrize("now", [95.0, 5.0], ids=["to the way before", "to before the goal"])
+def test_a_clock_that_is_set_back_lets_nobody_wait_for_its_old_time(now: float) -> None:
+    way = Way(np.array([[1.0, 1.0]]), costs(free(), RADIUS))
+    waiting = Courtesy(1, 98.0, (0.0, 0.0, 98.0), Giving(0.0, 0.0, since=99.0), ((3.0, 3.0),))
+    looking = Lookout(((3.0, 0.0),), Doubt(1.0, 1.0, way, since=99.0))
+    there = Mover(1.0, 2.0, 0.0, 0.0, 100.0, 1, (1.0, 2.0, 98.0))
+    journey = Journey(
+        Goal(2.0, 0.0), 90.0, free(), (there,), 100.0, way, 100.0, lookout=looking, courtesy=waiting
+    )
+    sight = Sight(now + 0.1, NOTHING, EYE, NOTHING)
+    after, command = travelled(journey, EYE, sight, Settings(mode="go_to_goal"), now + 0.1, STANDSTILL)
+    assert after.way is not None
+    assert after.way.corners[-1] == pytest.approx((2.0, 0.0), abs=0.1)
+    assert command.linear > 0.0
+    assert (after.courtesy.times, after.courtesy.parked) == (1, ((3.0, 3.0),))
+    assert after.lookout.shut == ((3.0, 0.0),)
