@@ -9,10 +9,10 @@ from orchestra.description.actions import model_of
 from orchestra.description.core import ValidationError
 from orchestra.description.launch import Description, Launch
 from orchestra.description.source import Keyed, Listed, Written, kind_of, texts_in
-from orchestra.errors import Code
+from orchestra.errors import HERE, Code
 from orchestra.fields import field
 from orchestra.load.elements import Tagged, beginning_of, emptied
-from orchestra.load.exposed import exposed_action, exposes_action
+from orchestra.load.exposed import ADDED_BY, exposed_action, exposes_action
 from orchestra.load.keys import action_meant, as_written, spelled
 from orchestra.load.reader import Reader
 
@@ -196,6 +196,12 @@ class _Builder:
         model = model_of(spelled(name))
         if model is not None:
             return model, True
+        if spelled(name) in ADDED_BY:
+            message = (
+                f"the package '{ADDED_BY[spelled(name)]}', which adds the action '{name}', is not {HERE}"
+            )
+            self.reader.error(Code.UNKNOWN_ACTION, message, at)
+            return None, False
         near, slip = action_meant(name)
         instead = as_written(near, name) if near is not None and slip else near
         self.reader.error(Code.UNKNOWN_ACTION, f"unknown action '{name}'", at, suggestion=instead)

@@ -5,16 +5,29 @@ What parses them is code of theirs, which hands back objects; these stand in the
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.seam import is_connected
 from orchestra.errors import Problems
 from orchestra.fields import replace
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from orchestra.description.entity import Action
     from orchestra.description.text import Call, Part
     from orchestra.location import Span
+
+ADDED_BY: Final[Mapping[str, str]] = MappingProxyType(
+    {
+        "gz_server": "ros_gz_sim",
+        "gz_spawn_model": "ros_gz_sim",
+        "ros_gz_bridge": "ros_gz_bridge",
+        "spawn_controller": "launch_ros2_control",
+    }
+)
+"""Actions that packages of ROS 2 add, with the package: what they take is known only where it is installed."""
 
 # All imports inside functions: they bring in what Python launch files import, which few files need.
 

@@ -100,6 +100,27 @@ def test_parameter_files_are_read_as_rcl_does(orchestra: Command, folder: Path) 
     assert {(file, line) for _, file, line in _told(found)} == {("bad.yaml", 3)}
 
 
+def test_a_name_with_a_substitution_is_judged_where_it_is_known_whether_that_is_evaluated(
+    orchestra: Command, folder: Path
+) -> None:
+    (folder / "params.yaml").write_text("$(var robot)/talker:\n  ros__parameters:\n    rate: [1, two]\n")
+    found = orchestra("check", "params.yaml", "--format", "json")
+    assert _told(found) == [("ORC041", "params.yaml", 3)]
+    (folder / "params.yaml").write_text("$(var robot)/talker:\n  ros__parameters:\n    rate: 1\n")
+    assert orchestra("check", "params.yaml").returncode == 0
+    node = "launch: [node: {exec: sleep, name: talker, param: [{from: params.yaml}]}]\n"
+    _write(folder, robot=node)
+    assert ("ORC040", "params.yaml", 1) in _told(orchestra("check", "robot.launch.yaml", "--format", "json"))
+
+
+def test_an_action_that_a_package_adds_is_needed_where_it_is_started(
+    orchestra: Command, folder: Path
+) -> None:
+    _write(folder, world="launch: [gz_server: {world_sdf_file: empty.sdf}]\n")
+    assert orchestra("check", "world.launch.yaml").returncode == 0
+    assert orchestra("plan", "world.launch.yaml").returncode == 2
+
+
 def test_all_mistakes_of_a_folder_are_told_at_once(orchestra: Command, folder: Path) -> None:
     _write(folder, a="launch:\n  - executable: {cdm: x}\n", b="launch:\n  - log: {message: $(vra x)}\n")
     found = orchestra("check", ".")

@@ -127,7 +127,7 @@ class Looker:
             message = f"cannot read the parameter file {file}: {error}"
             problems.error(Code.UNREADABLE_FILE, message, Location(point(file)))
         else:
-            check_common(read_parameter_file(text, file, problems, ()), problems)
+            check_common(read_parameter_file(text, file, problems, template=True), problems)
         settle(problems, str(Path(path).absolute()), self._inputs.severity)
         silencing = frozenset(problems.silencing)
         return Finding(real(path), problems.ordered, silencing=silencing)
@@ -149,6 +149,8 @@ class _Visit:
         description = self._loader.load(path, problems, chain, ending)
         if description is None and not chain:
             problems.amend(_of_this_host)
+        elif any(map(_is_added_elsewhere, problems)):
+            problems.amend(_of_a_package)
         return description
 
 
@@ -156,6 +158,16 @@ def _of_this_host(problem: Problem) -> Problem:
     """Return a problem as a warning where a file cannot be read for want of what another machine may have."""
     is_lacking = problem.code in _LACKING and problem.message.endswith(HERE)
     return replace(problem, severity=Severity.WARNING) if is_lacking else problem
+
+
+def _is_added_elsewhere(problem: Problem) -> bool:
+    """Return whether a problem is that of an action which another machine may have."""
+    return problem.code is Code.UNKNOWN_ACTION and problem.message.endswith(HERE)
+
+
+def _of_a_package(problem: Problem) -> Problem:
+    """Return a problem as a warning where an action is not known for want of the package that adds it."""
+    return replace(problem, severity=Severity.WARNING) if _is_added_elsewhere(problem) else problem
 
 
 def _has_comments(path: str) -> bool:

@@ -33,15 +33,17 @@ _EVERY_NODE: Final = ("/**", SECTION_KEY)
 
 
 def read_parameter_file(
-    text: str, file: str, problems: Problems, included_from: tuple[Span, ...] = ()
+    text: str, file: str, problems: Problems, included_from: tuple[Span, ...] = (), *, template: bool = False
 ) -> tuple[Section, ...]:
     """Return the sections of a parameter file in order.
 
     Everything that rcl refuses is reported as an error (`PARAMETER_SYNTAX`, `PARAMETER_TYPE`), what it takes in a
     way that nobody means as a warning, what is set twice as `DUPLICATE_PARAMETER`. After an error the sections are
     those that could be read all the same.
+
+    Of a `template`, in which `$(...)` may be evaluated first, names of nodes with such are not judged.
     """
-    return _read(text, file, problems, included_from, lambda events: events)[0]
+    return _read(text, file, problems, included_from, lambda events: events, template=template)[0]
 
 
 def read_kept(text: str, file: str, problems: Problems) -> tuple[tuple[Section, ...], bool]:
@@ -61,10 +63,16 @@ def read_plain_file(
 
 
 def _read(
-    text: str, file: str, problems: Problems, included_from: tuple[Span, ...], changed: _Change
+    text: str,
+    file: str,
+    problems: Problems,
+    included_from: tuple[Span, ...],
+    changed: _Change,
+    *,
+    template: bool = False,
 ) -> tuple[tuple[Section, ...], bool]:
     text, found = text.removeprefix("\ufeff"), Problems()
-    reader, sound = Reader(file, found, included_from), 0
+    reader, sound = Reader(file, found, included_from, template=template), 0
     try:
         for event in changed(yaml.parse(text, Loader=LOADER)):
             sound = len(found)

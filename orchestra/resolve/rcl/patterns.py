@@ -27,8 +27,13 @@ def matches(pattern: str, full_name: str) -> bool:
     return _expression(pattern).fullmatch(full_name) is not None
 
 
-def pattern_fault(pattern: str) -> Fault | None:
-    """Return why rcl refuses a pattern, None where it takes it. Only whole parts can be wildcards."""
+def pattern_fault(pattern: str, *, template: bool = False) -> Fault | None:
+    """Return why rcl refuses a pattern, None where it takes it. Only whole parts can be wildcards.
+
+    Of a `template` nothing is known where `$(...)` stands in it.
+    """
+    if template and "$(" in pattern:
+        return None
     parts = pattern.split("/")
     offset = 0
     for index, part in enumerate(parts[:-1]):

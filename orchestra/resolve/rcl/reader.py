@@ -41,6 +41,7 @@ class Reader:
     file: str
     problems: Problems
     included_from: tuple[Span, ...]
+    template: bool = False  # `$(...)` in it may be evaluated before rcl reads it
     inside: bool = False
     expects_key: bool = True
     fresh: bool = False
@@ -109,7 +110,7 @@ class Reader:
             message = f"'{SECTION_KEY}' must stand below the name of a node"
             raise Unreadable if told else self.unreadable(message, event)
         pattern, said = self.node.text, joined("/", self.keys[1:])
-        fault, named = pattern_fault(pattern), self.key_places[-1] or at
+        fault, named = pattern_fault(pattern, template=self.template), self.key_places[-1] or at
         self.lost |= told or fault is not None
         if tuple(self.keys[:-1]) in self.strays.sections:
             raise self.unreadable(f"'{self.keys[-1]}' {_BELOW}", event, named)
