@@ -128,6 +128,11 @@ _HARMLESS: dict[str, tuple[str, str | bytes]] = {
         "a.yaml",
         f"n:\n  ros__parameters: {{p: 0.{'0' * 310}{'1' * 5_000}, q: {'9' * _HUGE}}}\n",
     ),
+    "many digits without commas": ("a.yaml", f"n:\n  ros__parameters: {{p: [{'1' * _DEEP}.x 2.0]}}\n"),
+    "many blanks in a text of two lines": (
+        "a.yaml",
+        f"n:\n  ros__parameters:\n    p: a\n      - b{' ' * _DEEP}c\n",
+    ),
 }
 """Odd, but there is nothing wrong with them."""
 

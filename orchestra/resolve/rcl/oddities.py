@@ -27,11 +27,12 @@ _UNIT: Final = pattern(
     r"([-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)\s?"
     r"(?:deg|degrees?|rad|m|cm|mm|km|s|sec|ms|us|ns|min|k?Hz|M[Hh]z|hz|m/s|rad/s|deg/s|m/s\^?2|kg|g|N|Nm|V|A|W|Ah|%|°)"
 )
-_NUMBERS: Final = pattern(r"[-+]?[0-9]*\.?[0-9]+(?:\s+[-+]?[0-9]*\.?[0-9]+)+")
+# Neither leaves open where a part of it ends: a text takes time in proportion to its length.
+_NUMBERS: Final = pattern(r"{0}(?:\s+{0})+".format(r"[-+]?(?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)"))
 _TAG: Final = pattern(r"!\S*")
 _KINDS: Final = {"!!str": str, "!!int": int, "!!float": float, "!!bool": bool, "!!seq": tuple}
 _DASHED: Final = pattern(r"-[A-Za-z_/]")
-_ITEM: Final = pattern(r"\s*(-\s.*?)\s*")
+_ITEM: Final = pattern(r"\s*(-\s\S*(?:\s+\S+)*)\s*")
 
 
 def report_oddities(sections: Sequence[Section], lines: Sequence[str], problems: Problems) -> None:

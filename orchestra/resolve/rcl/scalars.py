@@ -30,9 +30,9 @@ _YAML_FLOATS = {
 _SPACES = " \t\n\v\f\r"
 _INTEGERS = range(-(2**63), 2**63)
 _INTEGER = pattern(r"([-+]?)(?:0[xX]([0-9a-fA-F]+)|0([0-7]*)|([1-9][0-9]*))")
-_DECIMAL = pattern(r"[-+]?(?P<digits>[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?")
+_DECIMAL = pattern(r"[-+]?(?P<digits>[0-9]++\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?")
 _HEXADECIMAL = pattern(
-    r"[-+]?0[xX](?=\.?[0-9a-fA-F])(?P<digits>(?P<whole>[0-9a-fA-F]*)\.?(?P<part>[0-9a-fA-F]*))(?:[pP](?P<power>[-+]?[0-9]+))?"
+    r"[-+]?0[xX](?=\.?[0-9a-fA-F])(?P<digits>(?P<whole>[0-9a-fA-F]*+)\.?(?P<part>[0-9a-fA-F]*))(?:[pP](?P<power>[-+]?[0-9]+))?"
 )
 _SPECIAL = pattern(r"([-+]?)(inf(?:inity)?|nan)(?:(?<=nan)\([0-9A-Za-z_]*\))?", re.IGNORECASE)
 _LEAST_NORMAL = 2.0**-1022
