@@ -37,4 +37,6 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
 
 def _report(name: str, written: Template, context: Context) -> Poison:
     told = f"no launch argument or variable {name!r} is set here"
-    return refuse(written, context, Code.UNDEFINED_VARIABLE, told, meant=nearest(name, context.variables.names()))
+    return refuse(
+        written, context, Code.UNDEFINED_VARIABLE, told, meant=nearest(name, context.variables.names())
+    )
