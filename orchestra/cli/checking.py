@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.cli.look.finding import Finding
 from orchestra.cli.look.kept import Kept
 from orchestra.cli.look.pool import Lost, Pool
+from orchestra.cli.look.sources import NOWHERE, is_source, shared
 from orchestra.cli.look.worker import Done
 from orchestra.cli.targets import Target
 from orchestra.dataclass import dataclass
@@ -61,7 +62,8 @@ def check(targets: Sequence[Target], inputs: Inputs, manner: Manner) -> Checked:
 
     A launch file that another of them includes is judged by how that one uses it: alone it would lack the arguments
     and variables that it is given there. Where a condition keeps it from being included, it is looked at all the same,
-    but what it lacks is not told.
+    but what it lacks is not told; nor is that of one which is included as part of its package, from where that is
+    installed or would be.
     """
     kept = Kept(inputs, wanted=manner.cache)
     findings, unchanged = _findings(targets, inputs, manner, kept)
@@ -72,8 +74,9 @@ def check(targets: Sequence[Target], inputs: Inputs, manner: Manner) -> Checked:
         kept.tidy()
     found = Problems()
     named = {path for finding in every for path in finding.named}
+    sources = shared(path for finding in every for path in (*finding.named, *finding.included))
     for finding in _outermost(every):
-        lacks = _LACKS if finding.path in named else ()
+        lacks = _LACKS if finding.path in named or is_source(finding.path, sources) else ()
         found.extend(problem for problem in finding.problems if problem.code not in lacks)
     _judge_comments(targets, every, found, strict=manner.strict)
     return Checked(found.ordered, len(targets), unchanged)
@@ -164,7 +167,7 @@ def _behind(findings: Sequence[Finding]) -> list[Target]:
     """Return the files that only stand behind conditions, and are nobody's target."""
     known = {path for finding in findings for path in (finding.path, *finding.included)}
     named = {path for finding in findings for path in finding.named}
-    return [Target(path, "launch") for path in sorted(named - known)]
+    return [Target(path, "launch") for path in sorted(named - known) if not path.startswith(NOWHERE)]
 
 
 def _outermost(findings: Sequence[Finding]) -> list[Finding]:

@@ -54,10 +54,17 @@ def hidden(action: Conditional, context: Context, variables: Mapping[str, Variab
     return Hidden(action, _files((action,), context, variables))
 
 
-def files_named(description: Description, environment: Mapping[str, str], packages: Packages) -> set[str]:
-    """Return the files that includes name, whatever their conditions say, as far as no variable is needed for that."""
+def files_named(
+    description: Description, environment: Mapping[str, str], packages: Packages, absent: str
+) -> set[str]:
+    """Return the files that includes name, whatever their conditions say, as far as no variable is needed for that.
+
+    They are there, but for those below the folder `absent`.
+    """
     context = Context(Problems(), _Glance({}), environment, packages, _run_nothing, description.path)
-    return {path for path in _files(description.actions, context, {}) if path is not None}
+    paths = _paths(description.actions, context, {})
+    found = (path if path.startswith(absent) else beside(context.file, path) for path in paths if path)
+    return {path for path in found if path is not None}
 
 
 def names_in(actions: Iterable[Conditional]) -> set[str]:
@@ -169,11 +176,19 @@ def _run_nothing(command: tuple[str, ...], environment: Mapping[str, str]) -> Co
 def _files(
     actions: tuple[Conditional, ...], context: Context, variables: Mapping[str, Variable]
 ) -> tuple[str | None, ...]:
+    paths = _paths(actions, context, variables)
+    return tuple(None if path is None else beside(context.file, path) for path in paths)
+
+
+def _paths(
+    actions: tuple[Conditional, ...], context: Context, variables: Mapping[str, Variable]
+) -> list[str | None]:
+    """Return what includes name, None for what cannot be told."""
     found = [entity for entity in entities_in(actions) if isinstance(entity, _NAMING)]
     values = [
         glimpse(entity.file, context, variables) if isinstance(entity, Include) else None for entity in found
     ]
-    return tuple(None if value is None else beside(context.file, value.text) for value in values)
+    return [None if value is None else value.text for value in values]
 
 
 def entities_in(value: object) -> list[Entity]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 import subprocess
 import sys
 from collections.abc import Callable
@@ -63,6 +64,40 @@ def test_the_same_file_alone_lacks_its_argument(orchestra: Command, folder: Path
     found = orchestra("check", "robot.launch.yaml", "--format", "json")
     assert found.returncode == 2
     assert ("ORC022", "robot.launch.yaml", 2) in _told(found)
+
+
+_PART = "launch:\n- arg: {name: robot}\n- log: {message: $(var robot)}\n"
+_ARMS = "$(find-pkg-share arms)/launch/part.launch.yaml"
+
+
+def _source(folder: Path) -> None:
+    launch = folder / "src/arms/launch"
+    launch.mkdir(parents=True)
+    _write(launch, part=_PART)
+    _write(folder / "src", main=f"launch: [include: {{file: {_ARMS}, arg: [{{name: robot, value: r1}}]}}]\n")
+
+
+def test_what_a_file_of_a_package_that_is_yet_to_be_built_lacks_is_not_told(
+    orchestra: Command, folder: Path
+) -> None:
+    _source(folder)
+    told = _told(orchestra("check", "src", "--format", "json"))
+    assert told == [("ORC030", "src/main.launch.yaml", 1)]
+    (folder / "src/arms").rename(folder / "src/legs")
+    told = _told(orchestra("check", "src", "--format", "json"))
+    assert ("ORC022", "src/legs/launch/part.launch.yaml", 2) in told
+
+
+def test_what_a_file_lacks_of_which_a_copy_is_installed_and_included_is_not_told(
+    orchestra: Command, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _source(folder)
+    shares = folder / "install/share"
+    shutil.copytree(folder / "src/arms", shares / "arms")
+    (shares / "ament_index/resource_index/packages").mkdir(parents=True)
+    (shares / "ament_index/resource_index/packages/arms").touch()
+    monkeypatch.setenv("AMENT_PREFIX_PATH", str(folder / "install"))
+    assert orchestra("check", "src").stdout == "no problems in 2 files\n"
 
 
 def test_arguments_can_be_given(orchestra: Command, folder: Path) -> None:

@@ -12,6 +12,7 @@ from orchestra import pipeline
 from orchestra.cli.look.finding import Finding
 from orchestra.cli.look.questions import RecordedPackages
 from orchestra.cli.look.sharing import SharedLoader
+from orchestra.cli.look.sources import NOWHERE, Sources
 from orchestra.cli.look.standing import Standing
 from orchestra.declared.alone import check_common
 from orchestra.errors import HERE, Code, Problems, Severity
@@ -115,7 +116,7 @@ class Looker:
         )
 
     def _names(self, description: Description) -> set[str]:
-        files = files_named(description, self._inputs.environment, self._packages)
+        files = files_named(description, self._inputs.environment, Sources(self._packages), NOWHERE)
         return set(map(real, files))
 
     def _parameters(self, path: str) -> Finding:
