@@ -54,6 +54,22 @@ def is_slip(word: str, meant: str) -> bool:
     return likeness >= _LIKENESS_OF_A_SLIP or _is_swapped(one, other)
 
 
+def is_one_slip(word: str, meant: str) -> bool:
+    """Return whether one slip is all that tells two words apart, and neither is a word of its own.
+
+    Two letters are in each other's place, or one after the first is wrong, missing or too many. `sockets` is no slip
+    for `socket`, nor `map` for `mcap`.
+    """
+    one, other = _folded(word), _folded(meant)
+    if one == other or _is_swapped(one, other):
+        return True
+    short = min(len(one), len(other)) < _LETTERS_OF_A_SHORT_WORD
+    plural = one == f"{other}s" or (other == f"{one}s" and not other.endswith("ss"))
+    if short or plural or one[0] != other[0] or _digits(word) != _digits(meant):
+        return False
+    return _one_slip(one, other)
+
+
 def _ratio(one: str, other: str) -> float:
     from difflib import SequenceMatcher  # noqa: PLC0415 - slow, and most launch files have no slips
 

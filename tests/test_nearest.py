@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from orchestra.nearest import is_slip, nearest
+from orchestra.nearest import is_one_slip, is_slip, nearest
 
 
 @pytest.mark.parametrize(
@@ -38,3 +38,25 @@ def test_the_nearest_word(word: str, candidates: list[str], meant: str | None) -
 )
 def test_a_slip_of_the_keys(word: str, meant: str, slip: bool) -> None:
     assert is_slip(word, meant) is slip
+
+
+@pytest.mark.parametrize(
+    ("word", "meant", "slip"),
+    [
+        ("ymal", "yaml", True),
+        ("numpi", "numpy", True),
+        ("launchros", "launch_ros", True),
+        ("launch-ros", "launch_ros", True),
+        ("ament_index_pyton", "ament_index_python", True),
+        ("subproces", "subprocess", True),
+        ("sockets", "socket", False),
+        ("selector", "selectors", False),
+        ("scripts", "secrets", False),
+        ("launch_pal", "launch_yaml", False),
+        ("lxml", "xml", False),
+        ("map", "mcap", False),
+        ("tf2_msgs", "tf3_msgs", False),
+    ],
+)
+def test_one_slip_of_the_keys(word: str, meant: str, slip: bool) -> None:
+    assert is_one_slip(word, meant) is slip

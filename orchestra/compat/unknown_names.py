@@ -16,7 +16,7 @@ from orchestra.compat.rewritten import arguments_around, in_quotes
 from orchestra.compat.seam import connection
 from orchestra.compat.source_text import word_in
 from orchestra.errors import HERE
-from orchestra.nearest import is_slip, nearest
+from orchestra.nearest import is_one_slip, is_slip, nearest
 
 if TYPE_CHECKING:
     from collections.abc import Iterable
@@ -96,23 +96,26 @@ def _no_module(name: str, place: Place) -> Explanation:
     parent, _, last = name.rpartition(".")
     path: Any = getattr(sys.modules.get(parent or ROOM), "__path__", ())
     meant = nearest(last, (module.name for module in iter_modules(path) if parent or module.ispkg))
-    if not parent and (meant is None or not is_slip(last, meant)):
+    span = word_in(place.file, place.span, name)
+    if not parent and _is_beside(place, last):
+        return Explanation(f"there is no Python module '{name}' here", span=span, notes=(_BESIDE,))
+    if not parent and (meant is None or not (is_one_slip(last, meant) or last == f"{meant}s")):
         meant = _installed(last)
     full = None if meant is None else f"{parent}.{meant}".lstrip(".")
-    span = word_in(place.file, place.span, name)
     if parent or meant is not None:
         return Explanation(f"there is no Python module '{name}' here", span=span, suggestion=full)
-    if _is_beside(place, last):
-        return Explanation(f"there is no Python module '{name}' here", span=span, notes=(_BESIDE,))
     severity, _, _ = connection().missing_package(name)  # modules come with packages
     return Explanation(f"there is no Python module '{name}' {HERE}", span=span, severity=severity)
 
 
 def _installed(name: str) -> str | None:
-    """Return the module of Python or of a package that one which is not there is a slip for."""
+    """Return the module of Python or of a package that one which is not there is surely a slip for.
+
+    Other names that are alike are those of modules that come with packages: `launch_pal` is no slip for `launch_yaml`.
+    """
     installed = {module.name for module in iter_modules() if not module.name.startswith("_")}
-    meant = nearest(name, installed | sys.stdlib_module_names)
-    return meant if meant is not None and is_slip(name, meant) else None
+    known = installed | {module for module in sys.stdlib_module_names if not module.startswith("_")}
+    return nearest(name, (module for module in known if is_one_slip(name, module)))
 
 
 def _is_beside(place: Place, module: str) -> bool:

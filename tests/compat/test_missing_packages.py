@@ -75,6 +75,10 @@ def test_a_file_that_needs_a_package_to_be_read_is_refused(tmp_path: Path, launc
     [
         (AT_IMPORT, "warning", None),
         (f"import nowhere_to_be_found\n{_NOTHING}", "warning", None),
+        # Modules of packages, which are no slips for `secrets`, `launch_yaml` and `socket`.
+        (f"import scripts\n{_NOTHING}", "warning", None),
+        (f"import launch_pal\n{_NOTHING}", "warning", None),
+        (f"import sockets\n{_NOTHING}", "warning", None),
         (f"import collectoins\n{_NOTHING}", "error", "collections"),
         (f"import launch.actoins\n{_NOTHING}", "error", "launch.actions"),
     ],
