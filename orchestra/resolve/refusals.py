@@ -147,7 +147,7 @@ class Missing:
 def missing_package(package: str, known: tuple[str, ...], *, launching: bool) -> Missing:
     """Return what is to be said of a package that is none of those that are known."""
     meant = nearest(package, known)
-    if launching or (meant is not None and is_slip(package, meant)):
+    if launching or (meant is not None and _is_slip_in_words(package, meant)):
         return Missing(Severity.ERROR, f"there is no package {package!r} here", meant)
     return Missing(Severity.WARNING, f"there is no package {package!r} {HERE}", None)
 
@@ -173,13 +173,16 @@ def report_unset_environment(name: str, written: Template, context: Context) -> 
 def unset_environment(name: str, known: Iterable[str], *, planning: bool) -> Missing:
     """Return what is to be said of an environment variable that is none of those that are known."""
     meant = nearest(name, known)
-    if planning or (meant is not None and _is_slip_of_variable(name, meant)):
+    if planning or (meant is not None and _is_slip_in_words(name, meant)):
         return Missing(Severity.ERROR, f"the environment variable {name!r} is not set", meant)
     return Missing(Severity.WARNING, f"the environment variable {name!r} is not set {HERE}", None)
 
 
-def _is_slip_of_variable(name: str, meant: str) -> bool:
-    """Return whether a name is hardly anything but a slip in the words of another: ROBOT_NAME is none of ROBOT_TYPE."""
+def _is_slip_in_words(name: str, meant: str) -> bool:
+    """Return whether a name is hardly anything but a slip in the words of another.
+
+    `ROBOT_NAME` is none of `ROBOT_TYPE`, nor `joint_state_publisher` of `robot_state_publisher`.
+    """
     words, others = name.split("_"), meant.split("_")
     if len(words) != len(others):
         return is_slip(name, meant)

@@ -11,6 +11,7 @@ from orchestra.cli.look.looker import Looker
 from orchestra.cli.targets import targets
 from orchestra.errors import Code, Problem, Problems
 from orchestra.pipeline import collect, inputs_from
+from orchestra.resolve.refusals import missing_package
 from tests.load.planning import installed
 
 if TYPE_CHECKING:
@@ -164,3 +165,23 @@ def generate_launch_description():
     return LaunchDescription([])
 """
     assert _problems(tmp_path, text, launching=True) == []
+
+
+@pytest.mark.parametrize(
+    ("package", "severity", "meant"),
+    [
+        ("robot_state_publihser", "error", "robot_state_publisher"),
+        ("sensor_msg", "error", "sensor_msgs"),
+        ("tf2_rs", "error", "tf2_ros"),
+        ("joint_state_publisher", "warning", None),
+        ("turtlebot3_gazebo", "warning", None),
+        ("ros_gz_image", "warning", None),
+    ],
+)
+def test_a_package_whose_name_has_another_word_is_no_slip(
+    package: str, severity: str, meant: str | None
+) -> None:
+    """A machine may have one package of a family and not the others."""
+    known = ("robot_state_publisher", "ros_gz_sim", "sensor_msgs", "tf2_ros", "turtlebot3_node")
+    missing = missing_package(package, known, launching=False)
+    assert (missing.severity, missing.meant) == (severity, meant)
