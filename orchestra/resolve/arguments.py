@@ -125,8 +125,12 @@ def _report_missing(
     name: str, declared_at: Location, description: Description, run: Resolution, included_at: Location | None
 ) -> None:
     message = lacking(name)
-    if included_at is None:
+    if included_at is None and (run.inputs.planning or run.inputs.arguments):
         run.problems.error(Code.MISSING_ARGUMENT, f"{message}: give '{name}:=VALUE'", declared_at)
+        return
+    if included_at is None:
+        message += f": what it would give is left open; who launches or includes this gives '{name}:=VALUE'"
+        run.problems.warning(Code.MISSING_ARGUMENT, message, declared_at)
         return
     note = f"declared at {declared_at}"
     message = f"{message}: {description.file} needs one from its include"

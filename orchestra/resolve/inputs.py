@@ -54,11 +54,11 @@ class Inputs:
     """The command line and the environment of one resolution.
 
     `launching` tells that processes will be started here: then a missing package is an error, not a warning about
-    this host. Without `planning` nothing is made of what is found: then an environment variable that is not set is a
-    warning too. `required` tells whether a required argument without a value is an error. `noninteractive` is what code
-    of launch files is told: whether no terminal is assumed. With `debug` what that code raises is told with all calls.
-    `severity` says for codes how much they weigh, over what settings files say. `keeping` lets what is worked out on
-    the way be kept for later plans.
+    this host. Without `planning` nothing is made of what is found: then an environment variable that is not set is
+    a warning too, and so is a required argument without a value where none is given at all. `required` tells
+    whether it is told at all. `noninteractive` is what code of launch files is told: whether no terminal is
+    assumed. With `debug` what that code raises is told with all calls. `severity` says for codes how much they
+    weigh, over what settings files say. `keeping` lets what is worked out on the way be kept for later plans.
     """
 
     environment: Mapping[str, str]
