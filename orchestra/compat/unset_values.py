@@ -19,22 +19,21 @@ if TYPE_CHECKING:
 
 _READING = frozenset({"os.getenv", "getenv", "os.environ.get", "environ.get"})
 _ENVIRONMENT = frozenset({"os.environ", "environ"})
-_CODES = frozenset(
-    {Code.USER_CODE, Code.WRONG_TYPE, Code.BAD_VALUE, Code.MISSING_FILE, Code.MISSING_ARGUMENT}
-)
+_CODES = frozenset({Code.USER_CODE, Code.WRONG_TYPE, Code.BAD_VALUE, Code.MISSING_FILE})
 _ENDING = frozenset({"SystemExit", "exit", "quit", "sys.exit"})
 
 
 def left_open(problem: Problem, unset: Callable[[str], str | None]) -> Problem:
-    """Return an error as a warning that names the variable where nothing but its want has led to it.
+    """Return an error, or that an argument lacks a value, as a warning that names the variable that has led to it.
 
     Sure is that where an expression that cannot use None, or a text with it, is made of `os.getenv` without a default,
     and where code itself stops for it. `unset` has what is to be told of a variable, None where it is set.
     """
     span = problem.span
-    if problem.severity is not Severity.ERROR or problem.code not in _CODES or span is None:
+    lacks = problem.code is Code.MISSING_ARGUMENT
+    if not lacks and (problem.severity is not Severity.ERROR or problem.code not in _CODES):
         return problem
-    if not is_python(span):
+    if span is None or not is_python(span):
         return problem
     file = str(Path(span.file).absolute())
     tree = tree_of(file)

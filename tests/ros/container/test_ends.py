@@ -36,7 +36,7 @@ def test_a_signal_ends_it_cleanly(domain: dict[str, str], asking: Asking, tmp_pa
         wait_for(lambda: seen <= {*asking.graph()}, "both topics")
         box.popen.send_signal(signal.SIGINT)
         assert box.popen.wait(PATIENCE) == 0
-        wait_for(lambda: not asking.graph(), "an empty graph")
+        asking.left_alone()
         assert "good-bye\n" in box.written
         assert "Traceback" not in box.written
 
@@ -80,7 +80,7 @@ def test_a_callback_that_fails_ends_the_container_as_it_ends_a_process(
         box.loaded("Failing", node_name=f"weak_{executable}")
         asking.begin(f"/weak_{executable}/{service}", _TRIGGER)
         assert box.popen.wait(PATIENCE) == status
-        wait_for(lambda: not asking.graph(), "an empty graph")
+        asking.left_alone()
         assert "good-bye" in box.written
         failed = (
             "[FATAL]" in box.written
