@@ -64,8 +64,8 @@ class Asking:
     def left_alone(self) -> None:
         """Wait until nobody else is in the graph.
 
-        The client may believe in somebody for ever whose last words came to it after his farewell: once in 20 whole
-        runs of the tests. Then those who are there are asked themselves.
+        The client may go on to believe in somebody who has left: seen in one of some 20 whole runs, for over 80 s, and not
+        understood. Then those who are there are asked themselves.
         """
         left: list[str] = []
 
