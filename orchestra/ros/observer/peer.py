@@ -8,8 +8,8 @@ it), and a node that is to be deactivated at its end has less time. Through what
 from __future__ import annotations
 
 import time
+from functools import cache
 from typing import TYPE_CHECKING
-from weakref import WeakKeyDictionary
 
 from lifecycle_msgs.msg import TransitionEvent
 from lifecycle_msgs.srv import ChangeState, GetState
@@ -103,9 +103,7 @@ class Peers:
             self._there.pop(name).close()
 
 
-_OF_NODES: WeakKeyDictionary[Node, Peers] = WeakKeyDictionary()
-
-
+@cache
 def peers_of(node: Node) -> Peers:
-    """Return the peers of a node of ours, always the same."""
-    return _OF_NODES.setdefault(node, Peers(node))
+    """Return the peers of a node of ours, always the same; the observer has one node, as long as it lives."""
+    return Peers(node)
