@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import json
+import signal
 import sys
 import tempfile
 from pathlib import Path
@@ -24,6 +25,8 @@ _ROUNDS: Final = 7
 def main(words: Sequence[str] | None = None) -> int:
     """Measure what is asked for; return 0."""
     asked = _asked(words)
+    # A shell without job control starts what goes to the background deaf to SIGINT: so would be all that is measured.
+    signal.signal(signal.SIGINT, signal.default_int_handler)
     launching.compile_all()
     outcomes: list[Outcome] = []
     unable: list[tuple[Figure, str]] = []
