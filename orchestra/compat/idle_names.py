@@ -1,55 +1,120 @@
-"""Variables of functions that are set and never read, as their bytecode tells: it takes no syntax tree."""
+"""Actions in variables of functions that are set and never read, as their bytecode tells: it takes no syntax tree."""
 
 from __future__ import annotations
 
+import re
 from functools import cache
 from itertools import compress
-from types import FunctionType
-from typing import TYPE_CHECKING
+from types import CodeType, FunctionType
+from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
-    from types import CodeType, ModuleType
+    from collections.abc import Iterable, Iterator, Sequence
+    from types import ModuleType
 
-_NIBBLE = 15  # of instructions with two variables each half of the argument is one
+PROCESSES: Final = frozenset(
+    {"ComposableNodeContainer", "ExecuteLocal", "ExecuteProcess", "LifecycleNode", "Node"}
+)
+ACTIONS: Final = PROCESSES | {
+    *("GroupAction", "IncludeLaunchDescription", "LoadComposableNodes", "OpaqueFunction"),
+    *("RegisterEventHandler", "RosTimer", "TimerAction"),
+}
+_NIBBLE: Final = 15  # of instructions with two variables each half of the argument is one
 
 
-def has_idle_names(module: ModuleType) -> bool:
-    """Return whether a function of a launch file may have such variables."""
-    return any(
-        _is_idle(item.__code__)
+def has_idle_actions(module: ModuleType, source: bytes) -> bool:
+    """Return whether a launch file, of which this is the text, may make actions that it keeps and never reads."""
+    codes = [code for code in _codes(vars(module).values()) if code.co_filename == module.__file__]
+    if not any(map(_idle_names, codes)):
+        return False
+    lines = source.splitlines()
+    own = [
+        item
         for item in vars(module).values()
-        if type(item) is FunctionType and item.__code__.co_filename == module.__file__
-    )
+        if isinstance(item, type) and item.__module__ == module.__name__
+    ]
+    methods = _codes(value for item in own for value in vars(item).values())
+    return any(_keeps_action(code, lines) for outer in (*codes, *methods) for code in _with_inner(outer))
 
 
-def _is_idle(code: CodeType) -> bool:
+def _codes(values: Iterable[object]) -> Iterator[CodeType]:
+    return (value.__code__ for value in values if type(value) is FunctionType)
+
+
+def _with_inner(code: CodeType) -> Iterator[CodeType]:
+    """Yield a code, and those of the functions and classes inside of it."""
+    yield code
+    for item in code.co_consts:
+        if type(item) is CodeType:
+            yield from _with_inner(item)
+
+
+def _keeps_action(code: CodeType, lines: Sequence[bytes]) -> bool:
+    """Return whether a variable that is never read is set to something that names an action."""
+    idle = _idle_names(code)
+    if not idle:
+        return False
+    written, positions = code.co_code, list(code.co_positions())
+    for kind, shift in ((_SET, 0), (_SET_AND_READ, 4)):
+        for index in compress(range(len(positions)), written[::2].translate(_tables()[kind])):
+            # What was done before it is to make the value.
+            begin, end, *_ = positions[index - 1]
+            if begin is None or written[2 * index + 1] >> shift not in idle:
+                continue
+            if any(map(_action().search, lines[begin - 1 : end or begin])):
+                return True
+    return False
+
+
+def _idle_names(code: CodeType) -> set[int]:
+    """Return the variables that are never read, by the lower byte of their numbers."""
     given = code.co_argcount + code.co_kwonlyargcount
     count = len(code.co_varnames)
     if count == given or (code.co_flags & _MORE_ARGUMENTS and count == given + 1):
-        return False
+        return set()
     written = code.co_code
-    single, double = _loading()
     operations, operands = written[::2], written[1::2]
-    read = set(compress(operands, operations.translate(single)))
-    for operand in compress(operands, operations.translate(double)):
+    read = set(compress(operands, operations.translate(_tables()[_READ])))
+    for operand in compress(operands, operations.translate(_tables()[_READ_TWICE])):
         read |= {operand >> 4, operand & _NIBBLE}
-    names = [
-        name for index, name in enumerate(code.co_varnames) if index >= given and index & 255 not in read
-    ]
-    return any(not name.startswith("_") and name not in code.co_cellvars for name in names)
-
-
-_MORE_ARGUMENTS = 4 | 8  # `*args` and `**kwargs`
+    read |= {
+        operand & _NIBBLE for operand in compress(operands, operations.translate(_tables()[_SET_AND_READ]))
+    }
+    return {
+        index & 255
+        for index, name in enumerate(code.co_varnames)
+        if index >= given
+        and index & 255 not in read
+        and not name.startswith("_")
+        and name not in code.co_cellvars
+    }
 
 
 @cache
-def _loading() -> tuple[bytes, bytes]:
-    """Return tables of the operations that read a variable, and of those that read or set two."""
+def _action() -> re.Pattern[bytes]:
+    return re.compile(rf"\b(?:{'|'.join(sorted(ACTIONS))})\b".encode())
+
+
+_MORE_ARGUMENTS: Final = 4 | 8  # `*args` and `**kwargs`
+
+
+@cache
+def _tables() -> tuple[bytes, ...]:
+    """Return which operations do what to variables, a table for each kind."""
     from opcode import opmap  # noqa: PLC0415 - once
 
-    single, double = bytearray(256), bytearray(256)
+    tables = [bytearray(256) for _ in range(_SET_AND_READ + 1)]
     for name, number in opmap.items():
-        if "LOAD_FAST" in name and number < len(single):
-            table = double if name.count("_FAST") > 1 else single
-            table[number] = 1
-    return bytes(single), bytes(double)
+        if number < len(tables[_READ]) and "_FAST" in name and not name.startswith("DELETE"):
+            tables[_kind(name.count("LOAD_FAST"), name.count("STORE_FAST"))][number] = 1
+    return tuple(map(bytes, tables))
+
+
+def _kind(reads: int, sets: int) -> int:
+    if reads and sets:
+        return _SET_AND_READ
+    return _SET if sets else _READ_TWICE if reads > 1 else _READ
+
+
+# Kinds of operations; one that sets two variables takes what it sets them to apart.
+_READ, _READ_TWICE, _SET, _SET_AND_READ = range(4)

@@ -9,28 +9,23 @@ from __future__ import annotations
 import ast
 import linecache
 import re
+from collections import Counter
 from typing import TYPE_CHECKING, Final
 
+from orchestra.compat.idle_names import ACTIONS, PROCESSES
 from orchestra.compat.literals import keyword
 from orchestra.compat.syntax_trees import called_by, node_span, tree_of
 from orchestra.errors import Code
 from orchestra.location import Location
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
     from orchestra.compat.place import Place
     from orchestra.compat.syntax_trees import Tree
     from orchestra.errors import Problems
     from orchestra.location import Span
 
-_PROCESSES: Final = frozenset(
-    {"ComposableNodeContainer", "ExecuteLocal", "ExecuteProcess", "LifecycleNode", "Node"}
-)
-_ACTIONS: Final = _PROCESSES | {
-    *("GroupAction", "IncludeLaunchDescription", "LoadComposableNodes", "OpaqueFunction"),
-    *("RegisterEventHandler", "RosTimer", "TimerAction"),
-}
 _TARGETS: Final = ("target_action", "target_lifecycle_node")
 # Code that reaches variables in another way than by their names.
 _REACHING: Final = frozenset({"dir", "eval", "exec", "globals", "locals", "vars"})
@@ -39,8 +34,11 @@ _REACHING: Final = frozenset({"dir", "eval", "exec", "globals", "locals", "vars"
 def tell_unadded(path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
     """Warn of the actions of a file that are part of no launch description."""
     tree = _tree(path)
-    for name in () if tree is None else _made(tree):
-        if tree is not None and _others(name, tree) == [] and not _is_remarked(name.id, path):
+    if tree is None:
+        return
+    counts = Counter(node.id for node in tree.nodes if isinstance(node, ast.Name))
+    for name in _made(tree, lambda name: counts[name] == 1):
+        if not _is_remarked(name.id, path):
             told = f"'{name.id}' is added to no launch description: it has no effect"
             problems.warning(Code.USER_CODE, told, Location(node_span(path, name), chain))
 
@@ -53,12 +51,12 @@ def target_unadded(handler: Place) -> Span | None:
         if tree is None or target is None:
             continue
         if isinstance(target, ast.Name):
-            made = next((name for name in _made(tree) if name.id == target.id), None)
+            made = next(_made(tree, target.id.__eq__), None)
             waiting = list(_targets(tree))
             is_sure = made is not None and all(item in waiting for item in _others(made, tree))
             if not is_sure or _is_remarked(target.id, handler.file):
                 continue
-        elif called_by(target) not in _PROCESSES:
+        elif called_by(target) not in PROCESSES:
             continue
         return node_span(handler.file, target)
     return None
@@ -70,12 +68,12 @@ def _tree(path: str) -> Tree | None:
     return None if tree is None or any(called_by(node) in _REACHING for node in tree.nodes) else tree
 
 
-def _made(tree: Tree) -> Iterator[ast.Name]:
-    """Yield the variables of functions that are set once, to an action."""
+def _made(tree: Tree, wanted: Callable[[str], bool]) -> Iterator[ast.Name]:
+    """Yield the variables of functions with a name that is wanted where they are set to an action."""
     for node in tree.nodes:
         match node:
-            case ast.Assign(targets=[ast.Name() as name], value=value) if called_by(value) in _ACTIONS:
-                if not name.id.startswith("_") and any(tree.functions_around(node)):
+            case ast.Assign(targets=[ast.Name() as name], value=value) if called_by(value) in ACTIONS:
+                if wanted(name.id) and not name.id.startswith("_") and any(tree.functions_around(node)):
                     yield name
 
 

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat import faults
 from orchestra.compat.explanation import told
-from orchestra.compat.idle_names import has_idle_names
+from orchestra.compat.idle_names import has_idle_actions
 from orchestra.compat.launch.launch_description import LaunchDescription
 from orchestra.compat.place import show
 from orchestra.compat.refusing import collecting, is_lost
@@ -98,7 +98,7 @@ def _look_for_slips(
 ) -> None:
     """Warn of what code does in vain: actions that are added to nothing, substitutions of other languages."""
     # Here, because only what may be a mistake needs them.
-    if has_idle_names(module):
+    if has_idle_actions(module, source):
         from orchestra.compat.unadded import tell_unadded  # noqa: PLC0415
 
         tell_unadded(path, problems, included_from)
