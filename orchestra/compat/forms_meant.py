@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 if TYPE_CHECKING:
@@ -36,6 +37,13 @@ def _as_text(source: str, value: Any) -> str | None:
     if source != repr(value):
         return f"str({source})"
     return repr(source.lower() if isinstance(value, bool) else source)
+
+
+def _plain_value(source: str, value: Any) -> str | None:
+    """Return a path as the text that a parameter can be, and what numpy has as the numbers."""
+    if isinstance(value, PurePath):
+        return f"str({source})"
+    return f"{source}.tolist()" if callable(getattr(value, "tolist", None)) else None
 
 
 def _words(source: str, value: Any) -> str | None:
@@ -127,6 +135,8 @@ def _is_ours(kind: type[Any]) -> bool:
 _FORMS: Final[dict[str, _Form]] = {
     "expected a text": _as_text,
     "of a launch argument is a text": _as_text,
+    "is no value of a parameter": _plain_value,
+    "a parameter that is a list cannot hold": _plain_value,
     "a remapping is a tuple": _pair,
     " is a list of words, not": _words,
     "a condition is made by IfCondition": _condition,

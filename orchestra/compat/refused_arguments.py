@@ -53,6 +53,7 @@ def settled(
         try:
             constructor(made, *call.words, **call.named)
         except Exception as again:  # noqa: BLE001 - the next thing that is wrong with it
+            _part(again, error)
             fault = again
         else:
             is_made = True
@@ -71,6 +72,15 @@ def settled(
     for problem in call.found:
         problems.report(replace(problem, included_from=chain, notes=(*problem.notes, *notes)))
     return True
+
+
+def _part(error: BaseException, first: BaseException) -> None:
+    """Take the first error out of what led to another one: it is being handled meanwhile, and no reason for it."""
+    reason: BaseException | None = error
+    while reason is not None:
+        if reason.__context__ is first:
+            reason.__context__ = None
+        reason = reason.__context__
 
 
 def _entities(given: Any, depth: int = 0) -> Iterator[Any]:

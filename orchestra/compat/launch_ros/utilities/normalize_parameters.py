@@ -13,6 +13,7 @@ from typing import Any
 
 from orchestra.compat.described import described
 from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 from orchestra.compat.launch_ros.utilities.exact import Exact, builtin
 from orchestra.compat.text import normalized
@@ -61,7 +62,14 @@ def _named_value(name: Sequence[Substitution], value: Any) -> Any:
     try:
         return _value(value)
     except TypeError as error:
-        raise TypeError(f"parameter {described(name)}: {error}") from None
+        raise TypeError(f"parameter {_shown(name)}: {error}") from None
+
+
+def _shown(name: Sequence[Substitution]) -> str:
+    """Return a name as a launch file has it where it is a text, else what it is made of."""
+    if all(isinstance(part, TextSubstitution) for part in name):
+        return repr("".join(part.text for part in name if isinstance(part, TextSubstitution)))
+    return described(name)
 
 
 def _value(value: Any) -> Any:
@@ -101,6 +109,6 @@ def _kind(item: Any) -> type:
     """Return what an item of a list counts as. Raises `TypeError` for what no list can hold."""
     kinds = (*_SCALARS, Substitution, Sequence)
     found = next((kind for kind in kinds if isinstance(item, kind)), None)
-    if found is None:
+    if found is None or isinstance(item, bytes):
         raise TypeError(f"a parameter that is a list cannot hold {item!r}")
     return found
