@@ -27,10 +27,15 @@ _BREAKS = pattern(r"\s*[\n\r\x0b\x0c\x85\u2028\u2029]\s*")
 
 
 class Severity(StrEnum):
-    """How much a problem weighs: an error keeps everything from starting."""
+    """How much a problem weighs, the gravest first.
+
+    An error keeps everything from starting. A note is worth knowing and no fault of what is written: that this machine
+    lacks what another one may have.
+    """
 
     ERROR = "error"
     WARNING = "warning"
+    NOTE = "note"
 
 
 class Code(StrEnum):
@@ -167,6 +172,18 @@ class Problems:
     ) -> None:
         """Report a warning at a place."""
         self.report(_problem(Severity.WARNING, code, message, at, suggestion, notes))
+
+    def weighed(
+        self,
+        severity: Severity,
+        code: Code,
+        message: str,
+        at: Location | Span | None = None,
+        *,
+        notes: Iterable[str] = (),
+    ) -> None:
+        """Report something at a place, as grave as that is where it is found."""
+        self.report(_problem(severity, code, message, at, None, notes))
 
     def extend(self, problems: Iterable[Problem]) -> None:
         """Take over problems that another collector found."""

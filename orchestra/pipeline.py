@@ -181,7 +181,7 @@ def _point_into_code(problems: Problems, inputs: Inputs) -> None:
 
         point_into_code(problems)
         if not inputs.planning:
-            leave_open(problems, inputs.environment)
+            leave_open(problems, inputs.environment, inputs.weights.variable)
 
 
 def _warn_of_remaining(path: str, isolation: Isolation, problems: Problems) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.cli import boundary, severities
 from orchestra.cli.inputs import as_errors
@@ -23,9 +23,12 @@ _EPILOG = """\
 A file is checked whatever it is called. In a folder, and the folders below it, these are checked: files whose name
 ends in .launch, or in launch.py, .xml, .yaml or .yml behind a dot, line or underline; Python, XML and YAML files whose
 text is that of a launch file; and YAML files with `ros__parameters`. A package stands for its share folder, PACKAGE
-FILE and PACKAGE/NAME for one of its launch files, as for `orchestra launch`. The exit status is 0, or 2 where there
-is an error.
+FILE and PACKAGE/NAME for one of its launch files, as for `orchestra launch`. What only this machine lacks is a note.
+The exit status is 0, or 2 where there is an error.
 """
+
+
+_NOTES: Final = ("brief", "all", "none")
 
 
 def parser() -> CommandParser:
@@ -38,6 +41,12 @@ def parser() -> CommandParser:
         help="files, folders, packages, launch files of packages; launch arguments",
     )
     made.add_argument("--format", choices=FORMATS, default="text", help="of the problems (default: text)")
+    made.add_argument(
+        "--notes",
+        choices=_NOTES,
+        default=_NOTES[0],
+        help="on what this machine lacks: in brief behind the problems, all where they are, or none (default: brief)",
+    )
     made.add_argument("--strict", action="store_true", help="take warnings for errors")
     severities.add_to(made)
     made.add_argument(
@@ -71,10 +80,11 @@ def _seconds(word: str) -> float:
 
 
 def _summary(checked: Checked) -> str:
-    """Return what was looked at, and how much of it has changed."""
+    """Return what was looked at, and how much of it has changed. What is only noted is no problem."""
     files = f"{checked.files} file{'s' * (checked.files != 1)}"
     unchanged = f", {checked.unchanged} unchanged" if checked.unchanged else ""
-    return f"{'looked at' if checked.problems else 'no problems in'} {files}{unchanged}\n"
+    sound = all(problem.severity is Severity.NOTE for problem in checked.problems)
+    return f"{'no problems in' if sound else 'looked at'} {files}{unchanged}\n"
 
 
 def run(options: Namespace) -> int:
@@ -97,7 +107,10 @@ def run(options: Namespace) -> int:
     with contained():
         checked = check(found, inputs, manner)
     problems = as_errors(checked.problems) if options.strict else checked.problems
-    boundary.show_problems(problems, options.format, sys.stdout, command_line=" ".join(words))
+    if options.notes == "none":
+        problems = tuple(problem for problem in problems if problem.severity is not Severity.NOTE)
+    shown = "brief" if (options.format, options.notes) == ("text", "brief") else options.format
+    boundary.show_problems(problems, shown, sys.stdout, command_line=" ".join(words))
     if options.format == "text":
         sys.stdout.write(_summary(checked))
     faulty = any(problem.severity is Severity.ERROR for problem in problems)

@@ -10,6 +10,7 @@ Paint: TypeAlias = Callable[[str, str], str]
 _STYLES = {
     "error": "1;31",
     "warning": "1;33",
+    "note": "2",
     "help": "1;36",
     "strong": "1",
     "faint": "2",
@@ -17,7 +18,10 @@ _STYLES = {
 
 
 def painter(*, enabled: bool) -> Paint:
-    """Return a function from a style (`error`, `warning`, `help`, `strong`, `faint`) and a text to the painted text."""
+    """Return a function from a style and a text to the painted text.
+
+    Styles are `error`, `warning`, `note`, `help`, `strong` and `faint`.
+    """
     if not enabled:
         return lambda _style, text: text
     return lambda style, text: f"\x1b[{_STYLES[style]}m{text}\x1b[0m" if text else text

@@ -86,7 +86,7 @@ def plan_from(options: Namespace, *, launching: bool) -> Plan:
     file, given = file_and_inputs(options)
     with nullcontext() if launching else leaving.contained():
         plan = pipeline.make_plan(file, replace(given, launching=launching))
-    if options.strict and plan.problems:
+    if options.strict and has_warnings(plan):
         raise DescriptionError(as_errors(plan.problems))
     return plan
 
@@ -104,7 +104,7 @@ def launch_from(options: Namespace, lasting: ExitStack, postponed: list[Callable
     launch = lasting.enter_context(pipeline.opened(file, given, problems, postponed=postponed))
     if launch is None or problems.errors:
         raise DescriptionError(problems.ordered)
-    if options.strict and launch.plan.problems:
+    if options.strict and has_warnings(launch.plan):
         raise DescriptionError(as_errors(launch.plan.problems))
     return launch
 
@@ -125,5 +125,13 @@ def warnings_text(problems: tuple[Problem, ...], options: Namespace) -> str:
 
 
 def as_errors(problems: tuple[Problem, ...]) -> tuple[Problem, ...]:
-    """Return the problems, warnings turned into errors."""
-    return tuple(replace(problem, severity=Severity.ERROR) for problem in problems)
+    """Return the problems, warnings turned into errors. Notes stay: they are no fault of what is written."""
+    return tuple(
+        replace(problem, severity=Severity.ERROR) if problem.severity is Severity.WARNING else problem
+        for problem in problems
+    )
+
+
+def has_warnings(plan: Plan) -> bool:
+    """Return whether a plan has warnings, which `--strict` takes for errors."""
+    return any(problem.severity is Severity.WARNING for problem in plan.problems)

@@ -17,7 +17,7 @@ def add_to(parser: ArgumentParser) -> None:
         "--severity",
         action="append",
         default=[],
-        metavar="CODE=off|warning|error",
+        metavar="CODE=off|note|warning|error",
         help="how much the problems of a code weigh; it wins over settings files; may be given more than once",
     )
 

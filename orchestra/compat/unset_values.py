@@ -23,11 +23,12 @@ _CODES = frozenset({Code.USER_CODE, Code.WRONG_TYPE, Code.BAD_VALUE, Code.MISSIN
 _ENDING = frozenset({"SystemExit", "exit", "quit", "sys.exit"})
 
 
-def left_open(problem: Problem, unset: Callable[[str], str | None]) -> Problem:
-    """Return an error, or that an argument lacks a value, as a warning that names the variable that has led to it.
+def left_open(problem: Problem, unset: Callable[[str], str | None], weight: Severity) -> Problem:
+    """Return an error, or that an argument lacks a value, as one of the variable that has led to it.
 
     Sure is that where an expression that cannot use None, or a text with it, is made of `os.getenv` without a default,
-    and where code itself stops for it. `unset` has what is to be told of a variable, None where it is set.
+    and where code itself stops for it. `unset` has what is to be told of a variable, None where it is set; it weighs
+    so much.
     """
     span = problem.span
     lacks = problem.code is Code.MISSING_ARGUMENT
@@ -48,7 +49,7 @@ def left_open(problem: Problem, unset: Callable[[str], str | None]) -> Problem:
             return replace(
                 problem,
                 code=Code.UNSET_ENVIRONMENT,
-                severity=Severity.WARNING,
+                severity=weight,
                 message=told,
                 span=at,
                 suggestion=None,

@@ -31,7 +31,7 @@ def explained(error: BaseException, call: TracebackType) -> Explanation | None:
         return _told(name, _key(place, name) or place.span)
     found = _stopped_for(error, place)
     told = None if found is None else _told(*found)
-    return told if told is not None and told.severity is Severity.WARNING else None
+    return told if told is not None and told.severity is not Severity.ERROR else None
 
 
 def _told(name: str, at: Span) -> Explanation:

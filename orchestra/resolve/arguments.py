@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.compat import argv
 from orchestra.dataclass import dataclass
-from orchestra.errors import Code, Problems
+from orchestra.errors import Code, Problems, Severity
 from orchestra.location import Location, is_python
 from orchestra.nearest import is_slip, nearest
 from orchestra.resolve.mentions import names_behind, names_in
@@ -125,12 +125,12 @@ def _report_missing(
     name: str, declared_at: Location, description: Description, run: Resolution, included_at: Location | None
 ) -> None:
     message = lacking(name)
-    if included_at is None and (run.inputs.planning or run.inputs.arguments):
-        run.problems.error(Code.MISSING_ARGUMENT, f"{message}: give '{name}:=VALUE'", declared_at)
-        return
     if included_at is None:
-        message += f": what it would give is left open; who launches or includes this gives '{name}:=VALUE'"
-        run.problems.warning(Code.MISSING_ARGUMENT, message, declared_at)
+        weight = run.inputs.weights.argument
+        lacked = f"give '{name}:=VALUE'"
+        if weight is not Severity.ERROR:
+            lacked = f"what it would give is left open; who launches or includes this gives '{name}:=VALUE'"
+        run.problems.weighed(weight, Code.MISSING_ARGUMENT, f"{message}: {lacked}", declared_at)
         return
     note = f"declared at {declared_at}"
     message = f"{message}: {description.file} needs one from its include"

@@ -58,7 +58,7 @@ def _package(written: ComposableNode, run: Resolution) -> str | Poison | None:
     """
     package, packages = run.text(written.pkg), run.context.packages
     if isinstance(package, str) and packages.prefix(package) is None:
-        missing = missing_package(package, packages.names(), launching=False)
+        missing = missing_package(package, packages.names(), Severity.WARNING)
         if missing.severity is Severity.ERROR:
             return report_missing_package(package, written.pkg, run.context)
     return package

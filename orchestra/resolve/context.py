@@ -11,6 +11,7 @@ from orchestra.description.text import Opaque
 from orchestra.errors import Problems
 from orchestra.fields import field
 from orchestra.location import Location, Span, new_location
+from orchestra.resolve.weights import Weights
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
@@ -174,10 +175,9 @@ class Context:
 
     `file` is the absolute path of the launch file that is being read, `included_from` the chain of includes to it,
     innermost first. `anonymous` remembers the names that `$(anon)` made. `parameters` are the values that
-    `set_parameter` put in scope, for `$(param)`. `launching` is false where nothing will be started here: then a
-    missing package is a warning about this host; where `planning` is false too, so is an unset environment variable.
-    `elsewhere` are the packages, programs and variables for which there has been one. `lost` has the names that
-    something faulty would have set. `perform_opaque` performs what only Python can.
+    `set_parameter` put in scope, for `$(param)`. `launching` is false where nothing will be started here. `weights` say
+    how much it counts that a package, a program or a variable is not here; `elsewhere` are those that have been told.
+    `lost` has the names that something faulty would have set. `perform_opaque` performs what only Python can.
     """
 
     problems: Problems
@@ -189,7 +189,7 @@ class Context:
     included_from: tuple[Span, ...] = ()
     log_folder: str = "${run}/logs"
     launching: bool = True
-    planning: bool = True
+    weights: Weights = Weights()
     anonymous: dict[str, str] = field(default_factory=dict)
     elsewhere: set[str] = field(default_factory=set)
     parameters: Mapping[str, str] = field(default_factory=dict)

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.description.text import Template
-from orchestra.errors import HERE, Code
+from orchestra.errors import HERE, Code, Severity
 from orchestra.location import displayed, is_python
 from orchestra.nearest import is_slip, nearest
 from orchestra.resolve.context import Value
@@ -51,17 +51,18 @@ def look_at_files(written: Template, context: Context, evaluate: Evaluate) -> No
 def report_program(name: str, at: Span, context: Context) -> None:
     """Report a program that is not on the PATH.
 
-    Where nothing will be started it may be on another machine: then it is a warning, given once, unless the name is a
+    Where nothing will be started it may be on another machine: then it is told once, and no error, unless the name is a
     slip for one that is here.
     """
     meant = nearest(name, _programs(context.environment.get("PATH", os.defpath)))
-    if context.launching or (meant is not None and is_slip(name, meant)):
+    weight = context.weights.package
+    if weight is Severity.ERROR or (meant is not None and is_slip(name, meant)):
         told = f"there is no program {name!r} on the PATH"
         context.problems.error(Code.MISSING_EXECUTABLE, told, context.at(at), suggestion=meant)
         return
     if f"program {name}" not in context.elsewhere:
         told = f"there is no program {name!r} {HERE}: what it would give is left open"
-        context.problems.warning(Code.MISSING_EXECUTABLE, told, context.at(at))
+        context.problems.weighed(weight, Code.MISSING_EXECUTABLE, told, context.at(at))
     context.elsewhere.add(f"program {name}")
 
 

@@ -8,6 +8,7 @@ from typing import Final
 from orchestra.dataclass import dataclass
 from orchestra.fields import field
 from orchestra.location import Span
+from orchestra.resolve.weights import Weights
 
 ASSIGNED: Final = ":="
 
@@ -53,10 +54,9 @@ class GivenFile:
 class Inputs:
     """The command line and the environment of one resolution.
 
-    `launching` tells that processes will be started here: then a missing package is an error, not a warning about
-    this host. Without `planning` nothing is made of what is found: then an environment variable that is not set is
-    a warning too, and so is a required argument without a value where none is given at all. `required` tells
-    whether it is told at all. `noninteractive` is what code of launch files is told: whether no terminal is
+    `launching` tells that processes will be started here. Without `planning` nothing is made of what is found. By
+    that it is `weights` how much it counts that something is not here. `required` tells whether a required argument
+    without a value is told at all. `noninteractive` is what code of launch files is told: whether no terminal is
     assumed. With `debug` what that code raises is told with all calls. `severity` says for codes how much they
     weigh, over what settings files say. `keeping` lets what is worked out on the way be kept for later plans.
     """
@@ -72,6 +72,11 @@ class Inputs:
     debug: bool = False
     severity: Mapping[str, str] = field(default_factory=dict)
     keeping: bool = True
+
+    @property
+    def weights(self) -> Weights:
+        """How much it weighs that this machine lacks what another one may have."""
+        return Weights(self.environment, self.launching, self.planning, bool(self.arguments))
 
 
 def _behind(name: Span, value: str) -> Span:

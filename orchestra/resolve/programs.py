@@ -6,7 +6,7 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from orchestra.errors import Code
+from orchestra.errors import Code, Severity
 from orchestra.location import displayed
 from orchestra.resolve.containers import own_words
 from orchestra.resolve.context import POISON
@@ -78,7 +78,7 @@ def packaged_words(
 def _is_runnable(path: str, location: Location, run: Resolution) -> bool:
     """Return whether a file can be started; what is there and cannot be is reported.
 
-    What only this machine lacks, or what is wrong with a file of others, is a warning where nothing is started.
+    What is wrong with a file of others is a warning where nothing is started.
     """
     environment = run.scope.environment
     search = environment.get("PATH", os.defpath)
@@ -94,9 +94,9 @@ def _is_runnable(path: str, location: Location, run: Resolution) -> bool:
         run.startable.add((path, search))
         return True
     message = f"{displayed(path)} cannot be started: {fault.reason}"
-    report = run.problems.warning if fault.here and not run.inputs.launching else run.problems.error
-    report(Code.MISSING_EXECUTABLE, message, location, notes=fault.notes)
-    return fault.here and not run.inputs.launching
+    weight = run.inputs.weights.package if fault.here else Severity.ERROR
+    run.problems.weighed(weight, Code.MISSING_EXECUTABLE, message, location, notes=fault.notes)
+    return weight is not Severity.ERROR
 
 
 def _seen(path: str, environment: Mapping[str, str]) -> tuple[str, Fault | None]:

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from orchestra.errors import Code
+from orchestra.errors import HERE, Code, Severity
 from orchestra.nearest import is_slip, nearest
 from orchestra.resolve.containers import known_components
 from orchestra.resolve.packages.components import is_named_by_module, target_of
@@ -29,15 +29,16 @@ _OWN_WAY: Final = frozenset({"__getattr__", "*"})
 def check_plugin(package: str, plugin: Value, run: Resolution) -> Value | Poison:
     """Return a plugin; one that must be in Python and is not here is reported.
 
-    Where nothing is started another environment may have it: then it is a warning, unless its name is a slip.
+    Where nothing is started another environment may have it: then it is no error, unless its name is a slip.
     """
     fault = _fault(package, plugin.text, run)
     if fault is None:
         return plugin
     slip = fault.meant is not None and is_slip(_top(plugin.text), _top(fault.meant))
-    if fault.certain or run.inputs.launching or slip:
+    weight = run.inputs.weights.package
+    if fault.certain or weight is Severity.ERROR or slip:
         return refuse_value(plugin, run.problems, Code.MISSING_EXECUTABLE, fault.told, meant=fault.meant)
-    run.problems.warning(Code.MISSING_EXECUTABLE, f"{fault.told} on this machine", plugin.location)
+    run.problems.weighed(weight, Code.MISSING_EXECUTABLE, f"{fault.told} {HERE}", plugin.location)
     return plugin
 
 

@@ -6,7 +6,7 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from orchestra.errors import Code
+from orchestra.errors import HERE, Code, Severity
 from orchestra.nearest import is_slip
 from orchestra.resolve.context import POISON
 from orchestra.resolve.packages.modules import Unrunnable, unrunnable
@@ -27,15 +27,16 @@ PATHS: Final = frozenset({"PYTHONPATH", "PYTHONHOME", "PYTHONSAFEPATH"})
 def module_words(module: Value, action: Node, run: Resolution) -> tuple[str, ...] | Poison:
     """Return the words that run a module; one that is not here is reported.
 
-    Where nothing is started another environment may have it: then it is a warning, unless its name is a slip.
+    Where nothing is started another environment may have it: then it is no error, unless its name is a slip.
     """
     words = (sys.executable, "-m", module.text)
     fault = module_fault(module.text, action, run)
     if fault is None:
         return words
-    if fault.certain or run.inputs.launching or is_slip_of(module.text, fault):
+    weight = run.inputs.weights.package
+    if fault.certain or weight is Severity.ERROR or is_slip_of(module.text, fault):
         return refuse_value(module, run.problems, Code.MISSING_EXECUTABLE, fault.told, meant=fault.meant)
-    run.problems.warning(Code.MISSING_EXECUTABLE, f"{fault.told} on this machine", module.location)
+    run.problems.weighed(weight, Code.MISSING_EXECUTABLE, f"{fault.told} {HERE}", module.location)
     return words
 
 

@@ -116,17 +116,18 @@ def report_missing_package(
 ) -> Poison:
     """Report a package that is not here; `written` is the text that names it, `value` what it comes to.
 
-    Where nothing will be started it may be elsewhere: then it is a warning, given once, unless the name is a slip for
+    Where nothing will be started it may be elsewhere: then it is told once, and no error, unless the name is a slip for
     one that is installed.
     """
     if "/" in package:
         told = f"{package!r} is no name of a package: a path in one is written behind it"
         return refuse(written, context, Code.MISSING_PACKAGE, told)
-    missing = missing_package(package, context.packages.names(), launching=context.launching)
-    if missing.severity is Severity.WARNING:
+    missing = missing_package(package, context.packages.names(), context.weights.package)
+    if missing.severity is not Severity.ERROR:
         if package not in context.elsewhere:
             told = f"{missing.told}: what it would give is left open"
-            context.problems.warning(Code.MISSING_PACKAGE, told, context.at(written.span))
+            at = context.at(written.span)
+            context.problems.weighed(missing.severity, Code.MISSING_PACKAGE, told, at)
         context.elsewhere.add(package)
         return POISON
     if value is not None:
@@ -144,38 +145,37 @@ class Missing:
 
 
 @lru_cache(maxsize=64)  # many nodes are of one package
-def missing_package(package: str, known: tuple[str, ...], *, launching: bool) -> Missing:
-    """Return what is to be said of a package that is none of those that are known."""
+def missing_package(package: str, known: tuple[str, ...], weight: Severity) -> Missing:
+    """Return what is to be said of a package that is none of those that are known, of such a weight."""
     meant = nearest(package, known)
-    if launching or (meant is not None and _is_slip_in_words(package, meant)):
+    if weight is Severity.ERROR or (meant is not None and _is_slip_in_words(package, meant)):
         return Missing(Severity.ERROR, f"there is no package {package!r} here", meant)
-    return Missing(Severity.WARNING, f"there is no package {package!r} {HERE}", None)
+    return Missing(weight, f"there is no package {package!r} {HERE}", None)
 
 
 def report_unset_environment(name: str, written: Template, context: Context) -> Poison:
     """Report an environment variable that is not set; `written` is the text that names it.
 
-    Where no plan is made it may be set elsewhere: then it is a warning, given once, unless the name is a slip for one
+    Where no plan is made it may be set elsewhere: then it is told once, and no error, unless the name is a slip for one
     that is set, or the description itself has removed it.
     """
-    unset = unset_environment(
-        name, context.environment, planning=context.planning or context.variables.removes(name)
-    )
+    weight = Severity.ERROR if context.variables.removes(name) else context.weights.variable
+    unset = unset_environment(name, context.environment, weight)
     if unset.severity is Severity.ERROR:
         return refuse(written, context, Code.UNSET_ENVIRONMENT, unset.told, meant=unset.meant)
     if f"environment {name}" not in context.elsewhere and name not in context.lost:
         told = f"{unset.told}: what it would give is left open"
-        context.problems.warning(Code.UNSET_ENVIRONMENT, told, context.at(written.span))
+        context.problems.weighed(unset.severity, Code.UNSET_ENVIRONMENT, told, context.at(written.span))
     context.elsewhere.add(f"environment {name}")
     return POISON
 
 
-def unset_environment(name: str, known: Iterable[str], *, planning: bool) -> Missing:
-    """Return what is to be said of an environment variable that is none of those that are known."""
+def unset_environment(name: str, known: Iterable[str], weight: Severity) -> Missing:
+    """Return what is to be said of an environment variable that is none of those that are known, of such a weight."""
     meant = nearest(name, known)
-    if planning or (meant is not None and _is_slip_in_words(name, meant)):
+    if weight is Severity.ERROR or (meant is not None and _is_slip_in_words(name, meant)):
         return Missing(Severity.ERROR, f"the environment variable {name!r} is not set", meant)
-    return Missing(Severity.WARNING, f"the environment variable {name!r} is not set {HERE}", None)
+    return Missing(weight, f"the environment variable {name!r} is not set {HERE}", None)
 
 
 def _is_slip_in_words(name: str, meant: str) -> bool:

@@ -101,7 +101,7 @@ def begin(
         packages,
         run_command,
         launching=inputs.launching,
-        planning=inputs.planning,
+        weights=inputs.weights,
         parameters=scope.parameter_texts,
         lost=found.lost,
     )

@@ -159,7 +159,7 @@ class _Look:
         packages = self.run.context.packages
         if packages.prefix(name) is not None:
             return True
-        missing = missing_package(name, packages.names(), launching=False)
+        missing = missing_package(name, packages.names(), Severity.WARNING)
         if missing.severity is Severity.ERROR:
             self._tell(Code.MISSING_PACKAGE, missing.told, written, missing.meant)
         return False

@@ -60,8 +60,8 @@ class Override:
 class Settings:
     """What stands in one settings file; patterns are relative to `folder`, where it is.
 
-    `severity` has `off`, `warning` or `error` for codes. `strict` takes what are still warnings for errors. `exclude`
-    names files that are left alone in folders.
+    `severity` has `off`, `note`, `warning` or `error` for codes. `strict` takes what are still warnings for errors.
+    `exclude` names files that are left alone in folders.
     """
 
     folder: str = ""

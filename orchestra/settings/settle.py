@@ -62,7 +62,8 @@ class _Weighing:
             return None
         if level is not None:
             return replace(problem, severity=Severity(level))
-        return replace(problem, severity=Severity.ERROR) if settings.strict else problem
+        is_error = settings.strict and problem.severity is Severity.WARNING
+        return replace(problem, severity=Severity.ERROR) if is_error else problem
 
     def absolute(self, file: str) -> str:
         """Return the path of a file as it is displayed."""

@@ -59,14 +59,14 @@ def test_an_included_file_is_judged_by_how_it_is_used(orchestra: Command, folder
     assert (found.returncode, found.stdout) == (0, "no problems in 2 files\n")
 
 
-def test_what_the_same_file_alone_lacks_is_a_warning(
+def test_what_the_same_file_alone_lacks_is_a_note(
     orchestra: Command, orchestra_beside: Command, folder: Path
 ) -> None:
     """Whoever launches it gives the argument; a call that gives others is one that would fail."""
     _write(folder, robot=_ROBOT)
     found = orchestra("check", "robot.launch.yaml", "--format", "json")
     told = {problem["code"]: problem["severity"] for problem in json.loads(found.stdout)}
-    assert told == {"ORC022": "warning", "ORC020": "error"}  # a variable that nothing declares may be a slip
+    assert told == {"ORC022": "note", "ORC020": "error"}  # a variable that nothing declares may be a slip
     assert "error: the argument 'robot'" in orchestra_beside("plan", "robot.launch.yaml").stderr
 
 
@@ -107,7 +107,7 @@ def test_what_a_file_lacks_of_which_a_copy_is_installed_and_included_is_not_told
 def test_arguments_can_be_given(orchestra: Command, folder: Path) -> None:
     two = "launch:\n- arg: {name: robot}\n- arg: {name: speed}\n- log: {message: $(var robot) $(var speed)}\n"
     _write(folder, two=two)
-    assert "2 warnings" in orchestra("check", ".").stdout
+    assert "2 notes" in orchestra("check", ".").stdout
     lacking = orchestra("check", ".", "robot:=r1")
     assert (lacking.returncode, "1 error" in lacking.stdout) == (2, True)
     assert orchestra("check", ".", "robot:=r1", "speed:=2").stdout == "no problems in 1 file\n"
@@ -196,13 +196,6 @@ def test_other_formats(orchestra: Command, folder: Path, name: str) -> None:
     assert "ORC004" in found.stdout
 
 
-def test_a_missing_package_is_only_a_warning_about_this_host(orchestra: Command, folder: Path) -> None:
-    _write(folder, a="launch:\n  - node: {pkg: qqqqqqqqqq, exec: zzzzzz}\n")
-    found = orchestra("check", ".", "--format", "json")
-    assert found.returncode == 0
-    assert [problem["severity"] for problem in json.loads(found.stdout)] == ["warning"]
-
-
 _ASKING = """\
 import os
 from launch import LaunchDescription
@@ -226,7 +219,7 @@ def generate_launch_description():
         ),
     ],
 )
-def test_an_unset_environment_variable_is_a_warning_until_it_is_set(
+def test_an_unset_environment_variable_is_noted_until_it_is_set(
     orchestra_beside: Command, folder: Path, name: str, text: str
 ) -> None:
     """Where only a check is made, that is: a plan needs its value."""
@@ -234,12 +227,12 @@ def test_an_unset_environment_variable_is_a_warning_until_it_is_set(
     for _ in range(2):  # the second time nothing has changed
         found = orchestra_beside("check", name, "--format", "json")
         (problem,) = json.loads(found.stdout)
-        assert (found.returncode, problem["severity"], problem["code"]) == (0, "warning", "ORC021")
+        assert (found.returncode, problem["severity"], problem["code"]) == (0, "note", "ORC021")
         line = text.splitlines()[problem["line"] - 1]
         assert line[problem["column"] - 1 : problem["end_column"] - 1] == "QQ_MODEL"
     assert orchestra_beside("plan", name).returncode == 2
     assert orchestra_beside("check", name, QQ_MODEL="burger").stdout == "no problems in 1 file\n"
-    assert "1 warning" in orchestra_beside("check", name).stdout
+    assert "1 note" in orchestra_beside("check", name).stdout
 
 
 def test_what_is_left_at_the_end_is_not_searched_for_garbage(tmp_path: Path) -> None:

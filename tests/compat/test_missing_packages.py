@@ -9,7 +9,7 @@ import pytest
 
 from orchestra.cli.look.looker import Looker
 from orchestra.cli.targets import targets
-from orchestra.errors import Code, Problem, Problems
+from orchestra.errors import Code, Problem, Problems, Severity
 from orchestra.pipeline import collect, inputs_from
 from orchestra.resolve.refusals import missing_package
 from tests.load.planning import installed
@@ -84,7 +84,7 @@ def test_a_file_that_needs_a_package_to_be_read_is_refused(tmp_path: Path, launc
         (f"import launch.actoins\n{_NOTHING}", "error", "launch.actions"),
     ],
 )
-def test_a_check_only_warns_of_what_another_machine_may_have(
+def test_a_check_only_tells_of_what_another_machine_may_have(
     tmp_path: Path, text: str, severity: str, suggestion: str | None
 ) -> None:
     (tmp_path / "a.launch.py").write_text(_HEAD + text, "utf-8")
@@ -183,5 +183,5 @@ def test_a_package_whose_name_has_another_word_is_no_slip(
 ) -> None:
     """A machine may have one package of a family and not the others."""
     known = ("robot_state_publisher", "ros_gz_sim", "sensor_msgs", "tf2_ros", "turtlebot3_node")
-    missing = missing_package(package, known, launching=False)
+    missing = missing_package(package, known, Severity.WARNING)
     assert (missing.severity, missing.meant) == (severity, meant)

@@ -63,10 +63,10 @@ _OTHERWISE = {
 
 
 @pytest.mark.parametrize("what", _LEADS_TO)
-def test_what_follows_from_an_unset_variable_is_a_warning_that_names_it(what: str, tmp_path: Path) -> None:
+def test_what_follows_from_an_unset_variable_is_a_note_that_names_it(what: str, tmp_path: Path) -> None:
     path = _written(tmp_path, _LEADS_TO[what])
     (problem,) = _checked(path)
-    assert (problem.severity, problem.code) == (Severity.WARNING, "ORC021"), problem
+    assert (problem.severity, problem.code) == (Severity.NOTE, "ORC021"), problem
     assert "'QQ' is not set" in problem.message
     span = problem.span
     assert span is not None
@@ -93,7 +93,7 @@ def test_so_it_is_in_an_included_file(what: str, tmp_path: Path) -> None:
     outer = tmp_path / "outer.launch.yaml"
     outer.write_text("launch: [include: {file: $(dirname)/a.launch.py}]\n")
     (problem,) = _checked(outer)
-    assert (problem.severity, problem.code) == (Severity.WARNING, "ORC021"), problem
+    assert (problem.severity, problem.code) == (Severity.NOTE, "ORC021"), problem
     assert problem.included_from
 
 

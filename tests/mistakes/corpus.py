@@ -1,7 +1,7 @@
 """Broken files with what is wrong in them marked in place, as text files hold them.
 
 A case begins with `## title`. `⟪wrong⟫` marks what a problem must span, `⟪wrong⇒right⟫` also what must be suggested,
-`⟪?wrong⟫` says that it is a warning. `$ WORDS` are those of the command line, `@ WORDS` are told to the test. Files
+`⟪?wrong⟫` says that it is a warning, `⟪??lacking⟫` that it is a note. `$ WORDS` are those of the command line, `@ WORDS` are told to the test. Files
 begin with `=== name`; the first one needs no name where the test gives it one. `chain: FILE:LINE ...` says by which
 includes a file is reached, innermost first.
 """
@@ -20,7 +20,8 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
-_MARK = re.compile(r"⟪(\??)(.*?)(?:⇒(.*?))?⟫", re.DOTALL)
+_MARK = re.compile(r"⟪(\?{0,2})(.*?)(?:⇒(.*?))?⟫", re.DOTALL)
+_WEIGHTS = {"": Severity.ERROR, "?": Severity.WARNING, "??": Severity.NOTE}
 _FILE = "=== "
 _CHAIN = "chain: "
 
@@ -58,11 +59,11 @@ class Case:
         """Return a text without its marks, which are noted as mistakes in the file of this name."""
         text, at = "", 0
         for found in _MARK.finditer(marked):
-            warning, wrong, right = found.groups()
+            weight, wrong, right = found.groups()
             text += marked[at : found.start()]
             begin = _place(text)
             text += wrong
-            severity = Severity.WARNING if warning else Severity.ERROR
+            severity = _WEIGHTS[weight]
             self.mistakes.append(Mistake(Span(name, *begin, *_place(text)), severity, right))
             at = found.end()
         return text + marked[at:]

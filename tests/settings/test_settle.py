@@ -44,6 +44,7 @@ def _write(folder: Path, comment: str = "", name: str = "a.launch.yaml") -> None
     [
         ("", [("ORC004", "error", 2)]),
         ("[severity]\nORC004 = 'warning'\n", [("ORC004", "warning", 2)]),
+        ("[severity]\nORC004 = 'note'\n", [("ORC004", "note", 2)]),
         ("[severity]\nORC004 = 'off'\n", []),
         ("[severity]\nORC005 = 'off'\n", [("ORC004", "error", 2)]),
         ("[[overrides]]\nfiles = ['*.yaml']\nseverity = {ORC004 = 'off'}\n", []),
@@ -74,6 +75,23 @@ def test_a_plan_is_made_of_what_has_been_lowered(folder: Path) -> None:
     assert [problem.severity for problem in plan.problems] == [Severity.WARNING]
     (folder / "pyproject.toml").write_text("[tool.orchestra]\nstrict = true\nseverity = {ORC004 = 'off'}\n")
     assert make_plan(str(folder / "a.launch.yaml"), inputs).problems == ()
+
+
+@pytest.mark.parametrize(
+    ("settings", "found"),
+    [
+        ("strict = true\n", "note"),
+        ("[severity]\nORC022 = 'warning'\n", "warning"),
+        ("severity.ORC022 = 'off'\n", ""),
+    ],
+)
+def test_notes_stay_what_they_are_where_warnings_are_errors(folder: Path, settings: str, found: str) -> None:
+    (folder / "a.launch.yaml").write_text("launch:\n  - arg: {name: robot}\n")
+    (folder / "orchestra.toml").write_text(settings)
+    inputs = inputs_from([], environment=os.environ)
+    assert (
+        "".join(item.severity for item in check(targets([str(folder)]), inputs, Manner()).problems) == found
+    )
 
 
 def test_the_settings_nearest_to_the_problem_count(folder: Path) -> None:

@@ -15,7 +15,7 @@ from orchestra.cli.look.sharing import SharedLoader
 from orchestra.cli.look.sources import NOWHERE, Sources
 from orchestra.cli.look.standing import Standing
 from orchestra.declared.alone import check_common
-from orchestra.errors import HERE, Code, Problems, Severity
+from orchestra.errors import HERE, Code, Problems
 from orchestra.fields import replace
 from orchestra.location import Location, displayed, point
 from orchestra.resolve.mentions import files_named
@@ -36,11 +36,14 @@ if TYPE_CHECKING:
     from orchestra.location import Span
     from orchestra.pipeline import Isolating
     from orchestra.resolve.inputs import Inputs
+    from orchestra.resolve.weights import Weights
     from orchestra.witness.record import Record
 
 
 _COLLECTING = 1000  # files, of some 30 kB each, after which memory is tidied up
-_LACKING = (Code.MISSING_PACKAGE, Code.UNSET_ENVIRONMENT, Code.USER_CODE)  # what another machine may have
+# What another machine may have: for want of it a file cannot be read, or an action.
+_LACKING = (Code.MISSING_PACKAGE, Code.UNSET_ENVIRONMENT, Code.USER_CODE)
+_ADDED = (Code.UNKNOWN_ACTION,)
 
 
 class Looker:
@@ -93,7 +96,7 @@ class Looker:
 
     def _launch_file(self, path: str) -> Finding:
         problems = Problems()
-        visit = _Visit(self._loader)
+        visit = _Visit(self._loader, self._inputs.weights)
         self._loader.named = set()
         absolute = os.path.abspath(path)  # noqa: PTH100 - pathlib is slow
         with pipeline.opened(
@@ -137,9 +140,10 @@ class Looker:
 class _Visit:
     """What one launch file includes."""
 
-    def __init__(self, loader: SharedLoader) -> None:
+    def __init__(self, loader: SharedLoader, weights: Weights) -> None:
         self.included: set[str] = set()
         self._loader = loader
+        self._weights = weights
 
     def load(
         self, path: str, problems: Problems, chain: tuple[Span, ...] = (), ending: str | None = None
@@ -149,26 +153,20 @@ class _Visit:
             self.included.add(real(path))
         description = self._loader.load(path, problems, chain, ending)
         if description is None and not chain:
-            problems.amend(_of_this_host)
-        elif any(map(_is_added_elsewhere, problems)):
-            problems.amend(_of_a_package)
+            problems.amend(lambda problem: _weighed(problem, self._weights, _LACKING))
+        elif any(_is_lack(problem, _ADDED) for problem in problems):
+            problems.amend(lambda problem: _weighed(problem, self._weights, _ADDED))
         return description
 
 
-def _of_this_host(problem: Problem) -> Problem:
-    """Return a problem as a warning where a file cannot be read for want of what another machine may have."""
-    is_lacking = problem.code in _LACKING and problem.message.endswith(HERE)
-    return replace(problem, severity=Severity.WARNING) if is_lacking else problem
+def _is_lack(problem: Problem, codes: tuple[Code, ...]) -> bool:
+    """Return whether a problem of these codes is that something is not here which another machine may have."""
+    return problem.code in codes and problem.message.endswith(HERE)
 
 
-def _is_added_elsewhere(problem: Problem) -> bool:
-    """Return whether a problem is that of an action which another machine may have."""
-    return problem.code is Code.UNKNOWN_ACTION and problem.message.endswith(HERE)
-
-
-def _of_a_package(problem: Problem) -> Problem:
-    """Return a problem as a warning where an action is not known for want of the package that adds it."""
-    return replace(problem, severity=Severity.WARNING) if _is_added_elsewhere(problem) else problem
+def _weighed(problem: Problem, weights: Weights, codes: tuple[Code, ...]) -> Problem:
+    """Return a problem that keeps a file or an action from being read, as grave as it is that this is not here."""
+    return replace(problem, severity=weights.of(problem.code)) if _is_lack(problem, codes) else problem
 
 
 def _has_comments(path: str) -> bool:

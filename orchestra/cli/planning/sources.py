@@ -68,7 +68,7 @@ def from_file(
     ):
         if launch is None or problems.errors:
             raise DescriptionError(problems.ordered)
-        if options.strict and launch.plan.problems:
+        if options.strict and inputs.has_warnings(launch.plan):
             raise DescriptionError(inputs.as_errors(launch.plan.problems))
         files = written(launch.files.folder) if launch.files.used else {}
         return Made(launch.plan, " ".join([displayed(file), *words]), file, files)

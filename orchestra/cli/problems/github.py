@@ -1,11 +1,13 @@
 """Problems as workflow commands, which GitHub shows beside the lines of a change.
 
-Source: docs.github.com, "Workflow commands for GitHub Actions", setting an error or a warning message.
+Source: docs.github.com, "Workflow commands for GitHub Actions", setting an error, a warning or a notice message.
 """
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
+
+from orchestra.errors import Severity
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -13,6 +15,9 @@ if TYPE_CHECKING:
     from orchestra.cli.colour import Paint
     from orchestra.cli.problems.sources import Sources
     from orchestra.errors import Problem
+
+
+_COMMANDS: Final = {Severity.ERROR: "error", Severity.WARNING: "warning", Severity.NOTE: "notice"}
 
 
 def render(problems: Sequence[Problem], _sources: Sources, _paint: Paint) -> str:
@@ -23,7 +28,7 @@ def render(problems: Sequence[Problem], _sources: Sources, _paint: Paint) -> str
 def _command(problem: Problem) -> str:
     properties = ",".join(f"{name}={_property(str(value))}" for name, value in _properties(problem))
     message = "\n".join(_message(problem))
-    return f"::{problem.severity} {properties}::{_data(message)}"
+    return f"::{_COMMANDS[problem.severity]} {properties}::{_data(message)}"
 
 
 def _properties(problem: Problem) -> Iterator[tuple[str, str | int]]:

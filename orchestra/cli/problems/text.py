@@ -19,8 +19,12 @@ def render(problems: Sequence[Problem], sources: Sources, paint: Paint) -> str:
     """Return the problems as text, an empty line between two, with a line of counts at the end."""
     if not problems:
         return ""
-    blocks = ["".join(f"{line}\n" for line in _block(problem, sources, paint)) for problem in problems]
-    return "\n".join([*blocks, f"{counts(problems)}\n"])
+    return "\n".join([*blocks(problems, sources, paint), f"{counts(problems)}\n"])
+
+
+def blocks(problems: Sequence[Problem], sources: Sources, paint: Paint) -> list[str]:
+    """Return the lines of each."""
+    return ["".join(f"{line}\n" for line in _block(problem, sources, paint)) for problem in problems]
 
 
 def counts(problems: Sequence[Problem]) -> str:
@@ -29,10 +33,17 @@ def counts(problems: Sequence[Problem]) -> str:
     return ", ".join(f"{number} {severity}{'s' * (number != 1)}" for number, severity in numbers if number)
 
 
+def headline(problem: Problem, paint: Paint) -> str:
+    """Return where something is, how grave, and what; that of a note is faint as a whole."""
+    place, word = f"{problem.span}: " if problem.span else "", f"{problem.severity}:"
+    message, code = printable(problem.message), f"[{problem.code}]"
+    if problem.severity is Severity.NOTE:
+        return paint("note", f"{place}{word} {message} {code}")
+    return f"{paint('strong', place)}{paint(problem.severity, word)} {paint('strong', message)} {code}"
+
+
 def _block(problem: Problem, sources: Sources, paint: Paint) -> Iterator[str]:
-    severity = paint(problem.severity.value, f"{problem.severity}:")
-    place = paint("strong", f"{problem.span}: ") if problem.span else ""
-    yield f"{place}{severity} {paint('strong', printable(problem.message))} [{problem.code}]"
+    yield headline(problem, paint)
     if problem.span:
         yield from _source(problem.span, problem.severity, sources, paint)
     if problem.suggestion is not None:

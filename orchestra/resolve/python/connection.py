@@ -89,12 +89,12 @@ class LoadingConnection:
 
     def missing_package(self, package: str) -> tuple[Severity, str, str | None]:
         """Return what is to be said where code goes no further without a package, and the name that was meant."""
-        missing = missing_package(package, self._packages.names(), launching=self._inputs.launching)
+        missing = missing_package(package, self._packages.names(), self._inputs.weights.package)
         return missing.severity, missing.told, missing.meant
 
     def unset_environment(self, name: str) -> tuple[Severity, str, str | None]:
         """Return what is to be said where code goes no further without a variable, and the name that was meant."""
-        unset = unset_environment(name, environment_now(), planning=self._inputs.planning)
+        unset = unset_environment(name, environment_now(), self._inputs.weights.variable)
         return unset.severity, unset.told, unset.meant
 
     def near_file(self, path: str) -> str | None:

@@ -14,11 +14,11 @@ if TYPE_CHECKING:
     from orchestra.errors import Problems
 
 
-def leave_open(problems: Problems, environment: Mapping[str, str]) -> None:
-    """Make a warning that names the variable of each; what is nearly the name of one that is set stays an error."""
+def leave_open(problems: Problems, environment: Mapping[str, str], weight: Severity) -> None:
+    """Name the variable for each, which weighs so much; what is nearly the name of one that is set stays an error."""
 
     def told(name: str) -> str | None:
-        unset = None if name in environment else unset_environment(name, environment, planning=False)
+        unset = None if name in environment else unset_environment(name, environment, weight)
         return None if unset is None or unset.severity is Severity.ERROR else unset.told
 
-    problems.amend(lambda problem: left_open(problem, told))
+    problems.amend(lambda problem: left_open(problem, told, weight))

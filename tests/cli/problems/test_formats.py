@@ -58,8 +58,66 @@ def test_text() -> None:
     )
 
 
-def test_text_of_nothing_is_empty() -> None:
-    assert _render("text", ()) == ""
+@pytest.mark.parametrize("name", ["text", "brief"])
+def test_text_of_nothing_is_empty(name: str) -> None:
+    assert _render(name, ()) == ""
+
+
+def _lacking(package: str, *places: tuple[str, int], more: str = "") -> list[Problem]:
+    message = f"there is no package '{package}' on this machine{more}"
+    return [
+        Problem(Code.MISSING_PACKAGE, Severity.NOTE, message, Span(file, line, 5, line, 9))
+        for file, line in places
+    ]
+
+
+def test_in_brief_notes_stand_behind_what_is_wrong_and_say_everything_once() -> None:
+    notes = [
+        *_lacking("a", ("robot.yaml", 1)),
+        *_lacking("b", ("robot.yaml", 2), ("other.yaml", 7)),
+        *_lacking("b", ("other.yaml", 9), more=": it is left open"),
+        *_lacking("c", ("robot.yaml", 2), ("robot.yaml", 3)),
+    ]
+    assert _render("brief", (*notes, _PLACELESS)) == (
+        "error: no such core [ORC055]\n"
+        "\n"
+        "robot.yaml:2:5: note: there is no package 'b' on this machine [ORC030] (3 places in 2 files)\n"
+        "robot.yaml:2:5: note: there is no package 'c' on this machine [ORC030] (2 places)\n"
+        "robot.yaml:1:5: note: there is no package 'a' on this machine [ORC030]\n"
+        "\n"
+        "1 error, 6 notes\n"
+    )
+
+
+def test_in_brief_notes_never_hide_what_is_wrong() -> None:
+    many = [note for number in range(300) for note in _lacking(f"p{number}", ("robot.yaml", 1))]
+    lines = _render("brief", (*many, *_ALL)).splitlines()
+    assert [line for line in lines if "note: there" in line][-1].startswith(
+        "robot.yaml:1:5: note: there is no package 'p9'"
+    )
+    assert lines[-3:] == ["... and 290 others: see --notes all", "", "2 errors, 1 warning, 300 notes"]
+
+
+def test_where_all_notes_are_wanted_they_stand_in_their_place() -> None:
+    (note,) = _lacking("demo", ("robot.yaml", 2))
+    told = _render("text", (note, _PLACELESS))
+    assert told.startswith(
+        "robot.yaml:2:5: note: there is no package 'demo' on this machine [ORC030]\n    2 |   - node:\n"
+    )
+    assert told.endswith("1 error, 1 note\n")
+
+
+def test_a_line_of_a_note_is_faint() -> None:
+    (note,) = _lacking("demo", ("robot.yaml", 2))
+    line, *_ = _render("brief", (note,), coloured=True).splitlines()
+    assert line == "\x1b[2mrobot.yaml:2:5: note: there is no package 'demo' on this machine [ORC030]\x1b[0m"
+
+
+def test_programs_get_notes_by_the_names_that_their_formats_have() -> None:
+    notes = (*_lacking("demo", ("robot.yaml", 2)),)
+    assert _render("github", notes).startswith("::notice file=robot.yaml,line=2,")
+    assert json.loads(_render("json", notes))[0]["severity"] == "note"
+    assert json.loads(_render("sarif", notes))["runs"][0]["results"][0]["level"] == "note"
 
 
 def test_a_colourless_text_is_what_remains_of_a_coloured_one() -> None:

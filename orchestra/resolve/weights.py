@@ -1,0 +1,56 @@
+"""How much it weighs that this machine lacks what another one may have: the one place where that is decided.
+
+| what is lacking                  | launch | plan    | check                                                   |
+|----------------------------------|--------|---------|---------------------------------------------------------|
+| a package, and what comes in one | error  | warning | a note; a warning where a workspace is sourced          |
+| an environment variable          | error  | error   | a note                                                  |
+| a required argument              | error  | error   | a note; an error where arguments are given              |
+
+What comes in packages are their executables, components, Python modules and actions, programs of the PATH such as
+xacro, and interpreters. Where a workspace is sourced, what the files need should be in it. A name that is hardly
+anything but a slip for one that is here is an error in any case: that is decided where the names are known.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Final
+
+from orchestra.dataclass import dataclass
+from orchestra.errors import Code, Severity
+from orchestra.fields import field
+
+_SOURCED: Final = "AMENT_PREFIX_PATH"
+
+
+@dataclass(frozen=True, slots=True)
+class Weights:
+    """The column of the table that counts; the environment is that of the caller."""
+
+    environment: Mapping[str, str] = field(default_factory=dict)
+    launching: bool = True
+    planning: bool = True
+    with_arguments: bool = False
+
+    @property
+    def package(self) -> Severity:
+        """How much a package weighs that is not here, and what comes in one."""
+        if self.launching:
+            return Severity.ERROR
+        # Not asked for where it decides nothing: what is kept depends on what is asked for.
+        is_note = not self.planning and not self.environment.get(_SOURCED)
+        return Severity.NOTE if is_note else Severity.WARNING
+
+    @property
+    def variable(self) -> Severity:
+        """How much an environment variable weighs that is not set."""
+        return Severity.ERROR if self.planning else Severity.NOTE
+
+    @property
+    def argument(self) -> Severity:
+        """How much a required argument of the first file weighs that nobody gives."""
+        return Severity.ERROR if self.planning or self.with_arguments else Severity.NOTE
+
+    def of(self, code: Code) -> Severity:
+        """Return how much it weighs that code of a file, or an action of it, goes no further for such a lack."""
+        return self.variable if code is Code.UNSET_ENVIRONMENT else self.package

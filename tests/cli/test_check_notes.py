@@ -1,0 +1,121 @@
+"""Notes of `orchestra check`: what this machine lacks and another one may have, which is no fault of the files."""
+
+from __future__ import annotations
+
+import json
+from typing import TYPE_CHECKING, Final
+
+import pytest
+
+if TYPE_CHECKING:
+    from pathlib import Path
+    from subprocess import CompletedProcess
+
+    from tests.cli.conftest import Command
+
+_PYTHON: Final = """\
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription, LogInfo
+from launch.substitutions import Command, PathJoinSubstitution
+from launch_ros.actions import Node
+from launch_ros.substitutions import FindPackageShare
+%s
+
+def generate_launch_description():
+    return LaunchDescription([%s])
+"""
+_SHARE: Final = "PathJoinSubstitution([FindPackageShare('qq_arm'), 'launch', 'arm.launch.py'])"
+
+
+@pytest.fixture
+def orchestra(orchestra_here: Command) -> Command:
+    """Run `orchestra check` in this process, as where no workspace is sourced; nothing is kept."""
+
+    def run(*words: str, **environment: str) -> CompletedProcess[str]:
+        return orchestra_here("check", "--no-cache", *words, **{"AMENT_PREFIX_PATH": "", **environment})
+
+    return run
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "code"),
+    [
+        (
+            "a.launch.yaml",
+            "launch:\n- node: {pkg: qq_arm, exec: zzzzzz, param: [{from: $(find-pkg-share qq_arm)/a.yaml}]}\n",
+            "ORC030",
+        ),
+        (
+            "a.launch.yaml",
+            "launch:\n- include: {file: $(find-pkg-share qq_arm)/launch/a.launch.yaml}\n",
+            "ORC030",
+        ),
+        ("a.launch.yaml", "launch:\n- log: {message: $(command 'qq_xacro a.xacro')}\n", "ORC031"),
+        ("a.launch.yaml", "launch:\n- node: {module: qq_arm.driver, name: arm}\n", "ORC031"),
+        ("a.launch.yaml", "launch:\n- gz_server: {world_sdf_file: empty.sdf}\n", "ORC007"),
+        (
+            "a.launch.py",
+            _PYTHON % ("", f"IncludeLaunchDescription({_SHARE}), Node(package='qq_arm', executable='b')"),
+            "ORC030",
+        ),
+        (
+            "a.launch.py",
+            _PYTHON
+            % (
+                "from ament_index_python.packages import get_package_share_directory\nqq = get_package_share_directory('qq_arm')",
+                "",
+            ),
+            "ORC030",
+        ),
+        ("a.launch.py", _PYTHON % ("import qq_arm", ""), "ORC036"),
+        ("a.launch.py", _PYTHON % ("", "LogInfo(msg=Command('qq_xacro a.xacro'))"), "ORC031"),
+    ],
+)
+def test_what_comes_with_a_package_is_noted_once_and_a_warning_where_a_workspace_is_sourced(
+    orchestra: Command, folder: Path, prefix: Path, name: str, text: str, code: str
+) -> None:
+    (folder / name).write_text(text)
+    for workspace, weight in (("", "note"), (str(prefix), "warning")):
+        found = orchestra(name, "--format", "json", AMENT_PREFIX_PATH=workspace)
+        told = [(problem["severity"], problem["code"]) for problem in json.loads(found.stdout)]
+        assert (found.returncode, told) == (0, [(weight, code)])
+
+
+def test_what_is_kept_of_a_file_is_weighed_anew_where_another_workspace_is_sourced(
+    orchestra_beside: Command, folder: Path, prefix: Path
+) -> None:
+    (folder / "a.launch.yaml").write_text("launch: [node: {pkg: qq_arm, exec: zzz}]\n")
+    for workspace, told in (("", "1 note"), (str(prefix), "1 warning"), ("", "1 note")):
+        assert told in orchestra_beside("check", ".", AMENT_PREFIX_PATH=workspace).stdout
+    assert orchestra_beside("check", ".", AMENT_PREFIX_PATH="").stdout.endswith(", 1 unchanged\n")
+
+
+def test_notes_are_no_problems_and_stay_where_warnings_are_errors(orchestra: Command, folder: Path) -> None:
+    text = "launch:\n- arg: {name: robot}\n- node: {pkg: qq_arm, exec: zzz, name: $(env QQ_MODEL)}\n"
+    (folder / "a.launch.yaml").write_text(text)
+    (folder / "b.launch.yaml").write_text(text)
+    found = orchestra(".", "--strict")
+    assert found.returncode == 0
+    assert found.stdout.endswith("\n6 notes\nno problems in 2 files\n")
+    assert "(2 places in 2 files)" in found.stdout
+    every = orchestra(".", "--notes", "all").stdout
+    assert every.count("note: there is no package 'qq_arm'") == 2
+    assert orchestra(".", "--notes", "none").stdout == "no problems in 2 files\n"
+    assert orchestra(".", "--notes", "none", "--format", "github").stdout == ""
+
+
+def test_what_is_nearly_the_name_of_something_that_is_here_is_no_note(
+    orchestra: Command, folder: Path, prefix: Path
+) -> None:
+    (folder / "a.launch.yaml").write_text("launch: [node: {pkg: dmeo, exec: echo, name: $(env QQ_MODLE)}]\n")
+    found = orchestra(".", "--format", "json", AMENT_PREFIX_PATH=str(prefix), QQ_MODEL="x")
+    told = [(problem["severity"], problem["suggestion"]) for problem in json.loads(found.stdout)]
+    assert (found.returncode, told) == (2, [("error", "demo"), ("error", "QQ_MODEL")])
+
+
+def test_how_much_a_note_weighs_can_be_said(orchestra: Command, folder: Path) -> None:
+    (folder / "a.launch.yaml").write_text("launch: [node: {pkg: qq_arm, exec: zzz}]\n")
+    for level, status in (("off", 0), ("note", 0), ("warning", 0), ("error", 2)):
+        found = orchestra(".", "--severity", f"ORC030={level}", "--format", "json")
+        told = "".join(problem["severity"] for problem in json.loads(found.stdout))
+        assert (found.returncode, told or "off") == (status, level)
