@@ -282,6 +282,36 @@ def test_a_report_has_the_runs_before_it_and_its_own_last_lines(tmp_path: Path) 
     assert run.stderr.count("a has a crash report") == 1
 
 
+def test_what_starts_again_at_once_does_not_wait_for_the_report_which_is_of_the_run_before(
+    tmp_path: Path,
+) -> None:
+    own_pid = python("import os, sys; print(os.getpid()); sys.exit(3)")
+    run = finished(
+        tmp_path, plan(process("a", command=own_pid, restart=Restart("on-failure", delay=0.0, budget=1)))
+    )
+    kinds = [event.kind for event in run.events]
+    assert kinds.index("crash_recorded") > [n for n, kind in enumerate(kinds) if kind == "process_running"][1]
+    first, second = reports(run)
+    assert [(first["start"], len(first["history"])), (second["start"], len(second["history"]))] == [
+        (1, 1),
+        (2, 2),
+    ]
+    assert first["lines"] == [str(first["pid"])]
+    assert second["lines"] == [str(second["pid"])]
+    assert [event.pid for event in run.of_kind("crash_recorded", "a")] == [first["pid"], second["pid"]]
+    assert first["ended"] <= second["ended"]
+
+
+def test_a_program_that_is_gone_when_it_shall_start_again_has_two_reports(tmp_path: Path) -> None:
+    program = tmp_path / "once"
+    program.write_text('#!/bin/sh\nrm "$0"\nexit 3\n')
+    program.chmod(0o755)
+    again = Restart("on-failure", delay=0.0, budget=1)
+    run = finished(tmp_path, plan(process("a", command=(str(program),), restart=again)))
+    first, second = reports(run)
+    assert (first["cause"]["code"], second["cause"]["reason"]) == (3, f"no such file or directory: {program}")
+
+
 def test_a_crash_loop_keeps_the_first_and_the_last(tmp_path: Path) -> None:
     run = finished(tmp_path, plan(process("a", "exit=3", restart=_STORM)))
     first = list(range(1, KEPT_FIRST + 1))

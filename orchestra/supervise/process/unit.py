@@ -118,6 +118,7 @@ class Unit:
         if isinstance(event, life.Hung):
             self._crashes.hung(self._around.kin.members(self.id))
         self.state, effects = transition(self.rules, before, event)
+        self._crashes.entered(self.state.phase)
         if self.state.phase is not before.phase:
             if self.over and self.state.ending:
                 self._listener.completed(self.id, self.state.ending, intended=self.state.halted)
@@ -173,6 +174,8 @@ class Unit:
         self._cancel("pause")
 
     def _pause(self, delay: float) -> None:
+        if delay:
+            self._crashes.write()
         self._account.say("starts again" + (f" in {delay:.3g} s" if delay else ""))
         self._set_timer("pause", delay, life.DelayOver())
 
