@@ -64,7 +64,7 @@ class CallSubstitution(Substitution):
         if len(parts) != 1 or type(parts[0]) is not Call:
             return None
         made = new_template(parts, self._raw(), parts[0].span)
-        if all(type(item) is TextSubstitution for argument in given for item in argument):
+        if given and all(type(item) is TextSubstitution for argument in given for item in argument):
             self._kept = tuple(map(list, given)), made
         return made
 

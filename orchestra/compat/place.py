@@ -108,6 +108,17 @@ class Argument(Span):
                 object.__setattr__(self, known, getattr(span, known))
             return getattr(span, name)
 
+    def __eq__(self, other: object) -> bool:
+        """Tell whether the other one is the same argument in the same place, which is seldom worked out for that."""
+        if not isinstance(other, Argument):
+            return NotImplemented
+        if self.path != other.path:
+            return False
+        return self.place is other.place or self.place.span == other.place.span
+
+    def __hash__(self) -> int:
+        return hash((self.place.span, self.path))
+
     def __deepcopy__(self, memo: object) -> Argument:
         """Return the same: nobody changes it, and what is made of a span has no path."""
         return self

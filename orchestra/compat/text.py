@@ -15,7 +15,7 @@ from orchestra.description.text import new_template, new_words
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
-    from orchestra.description.text import Template
+    from orchestra.description.text import Part, Template
     from orchestra.location import Span
 
 Sub: TypeAlias = str | Substitution | Iterable[str | Substitution]
@@ -42,10 +42,18 @@ def template(subs: Sub, span: Span, *, quoted: bool = False) -> Template:
         items = normalized(subs)
     except WrongType as error:
         raise WrongType(str(error), error.value, at=span) from None
-    parts, raw = items[0]._parts(span) if items else (), items[0]._raw() if items else ""
-    for item in items[1:]:
-        parts += item._parts(span)
-        raw += item._raw()
+    parts: tuple[Part, ...] = ()
+    raw = ""
+    for item in items:
+        whole = item._whole()
+        if whole is None:
+            parts += item._parts(span)
+            raw += item._raw()
+        elif len(items) == 1 and not quoted:
+            return whole
+        else:
+            parts += whole.parts
+            raw += whole.raw
     if len(parts) == 1:
         span = parts[0].span
     return new_template(parts, raw, span, quoted)

@@ -62,6 +62,10 @@ class Substitution(Refusing):
         """Return the parts of a template; they stand at `span`."""
         return (Opaque(self, span),)
 
+    def _whole(self) -> Template | None:
+        """Return the text that the substitution alone is, with a place of its own; None where that is not known."""
+        return None
+
     def _raw(self) -> str:
         """Return the substitution as it would be written in a launch file, or else its description."""
         return said(self, Substitution)
