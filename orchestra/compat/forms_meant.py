@@ -11,6 +11,9 @@ if TYPE_CHECKING:
 
 _Form: TypeAlias = "Callable[[str, Any], str | None]"
 _TWO: Final = 2
+_TRUE: Final = frozenset({"1", "on", "t", "true", "y", "yes"})
+_UNTRUE: Final = frozenset({"0", "f", "false", "n", "no", "off"})
+_DECIMAL: Final = re.compile(r"-?\d+(\.\d*)?(e-?\d+)?")
 _PLAIN: Final = re.compile(r"[\w./:=@%+, -]+")
 _CALLED: Final = re.compile(r"([\w.]+)\(.*\)")
 
@@ -35,7 +38,7 @@ def _as_text(source: str, value: Any) -> str | None:
     if type(value) not in (bool, int, float):
         return None
     if source != repr(value):
-        return f"str({source})"
+        return repr(source) if _DECIMAL.fullmatch(source) else f"str({source})"
     return repr(source.lower() if isinstance(value, bool) else source)
 
 
@@ -44,6 +47,42 @@ def _plain_value(source: str, value: Any) -> str | None:
     if isinstance(value, PurePath):
         return f"str({source})"
     return f"{source}.tolist()" if callable(getattr(value, "tolist", None)) else None
+
+
+def _as_truth(source: str, value: Any) -> str | None:
+    """Return a text or a number as a truth value."""
+    if not isinstance(value, str | int):
+        return None
+    word = str(value).strip().lower()
+    is_literal = source.strip("'\"") == str(value)
+    return str(word in _TRUE) if word in _TRUE | _UNTRUE and is_literal else None
+
+
+def _as_float(source: str, value: Any) -> str:
+    """Return a whole number as one with a point."""
+    return f"{source}.0" if source == repr(value) else f"float({source})"
+
+
+def _as_number(source: str, value: Any) -> str | None:
+    """Return a text that is a number without its quotes."""
+    if not isinstance(value, str) or source[1:-1] != value:
+        return None
+    return value if _DECIMAL.fullmatch(value) else None
+
+
+def _items(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the others
+    """Return the pairs of a dictionary."""
+    return f"{source}.items()"
+
+
+def _mapping(source: str, value: Any) -> str | None:
+    """Return pairs as a dictionary."""
+    try:
+        plain = dict(value)
+    except (TypeError, ValueError):
+        return None
+    is_literal = source[:1] == "[" and all(isinstance(each, str) for pair in plain.items() for each in pair)
+    return repr(plain) if is_literal else f"dict({source})"
 
 
 def _words(source: str, value: Any) -> str | None:
@@ -133,7 +172,14 @@ def _is_ours(kind: type[Any]) -> bool:
 
 
 _FORMS: Final[dict[str, _Form]] = {
+    " is a text, this is": _as_text,
     "expected a text": _as_text,
+    " is True or False": _as_truth,
+    " is a float, this is": _as_float,
+    " is a number, this is": _as_number,
+    " are pairs, this is a dict": _items,
+    " are a dict, this is": _mapping,
+    "an environment is a dict": _mapping,
     "of a launch argument is a text": _as_text,
     "is no value of a parameter": _plain_value,
     "a parameter that is a list cannot hold": _plain_value,

@@ -119,5 +119,13 @@ def _arguments_around(file: str, span: Span) -> tuple[str, ...]:
 
 
 def _short(file: str, span: Span) -> str | None:
+    """Return the code of a range, in one line; None where it is long, or says more in comments."""
     source = text_at(file, span)
-    return source if "\n" not in source and 0 < len(source) <= _MOST else None
+    if "\n" in source:
+        # Here, because only mistakes need it.
+        import ast  # noqa: PLC0415
+
+        tree = tree_of(file)
+        node = None if tree is None or "#" in source else tree.expression(file, span)
+        source = "" if node is None else ast.unparse(node)
+    return source if 0 < len(source) <= _MOST else None

@@ -387,7 +387,7 @@ _SAME: list[tuple[str, list[dict[str, Any]]]] = [
         ],
     ),
     (
-        "TimerAction(period=2, actions=[LogInfo(msg='x')], cancel_on_shutdown=False)",
+        "TimerAction(period=2.0, actions=[LogInfo(msg='x')], cancel_on_shutdown=False)",
         [{"timer": {"period": 2, "cancel_on_shutdown": False, "children": [{"log": {"message": "x"}}]}}],
     ),
     (
@@ -399,7 +399,7 @@ _SAME: list[tuple[str, list[dict[str, Any]]]] = [
     ("LogWarning(msg='x')", [{"log": {"message": "x", "level": "warning"}}]),
     ("LogInfo(msg='x', condition=UnlessCondition('true'))", [{"log": {"message": "x", "unless": True}}]),
     (
-        "IncludeLaunchDescription('inner.launch.py', launch_arguments={'a': LC('x', default='7')})",
+        "IncludeLaunchDescription('inner.launch.py', launch_arguments={'a': LC('x', default='7')}.items())",
         [{"include": {"file": "inner.launch.py", "arg": [{"name": "a", "value": "$(var x 7)"}]}}],
     ),
     (

@@ -348,7 +348,7 @@ class Sourced(LaunchDescriptionSource):
         ExecuteProcess(cmd=['z']),
         IncludeLaunchDescription({source}, for_each={{'i': [1, 2]}}, scoped=True, label='all', depends_on=[
             {{'process': 'z'}}
-        ], launch_arguments={{'x': 'y'}}),
+        ], launch_arguments={{'x': 'y'}}.items()),
         ExecuteProcess(cmd=['a', LC('x', default='gone')], depends_on=[{{'label': 'all'}}]),
     """
     plan = plans.python(tmp_path, actions, before)

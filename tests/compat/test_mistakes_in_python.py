@@ -310,6 +310,7 @@ _VALUES = {
         "[Node(**TALKER, additional_env=«[('a', 'b')]»)]",
         "an environment is a dict of names and values, this is a list",
         Code.WRONG_TYPE,
+        "{'a': 'b'}",
     ),
     "a variable that is a number": Mistake(
         "[Node(**TALKER, additional_env={'LEVEL': «5»})]",

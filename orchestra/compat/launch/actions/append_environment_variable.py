@@ -31,6 +31,10 @@ class AppendEnvironmentVariable(SettingAction):
         super().__init__(name, value, **kwargs)
         self.__prepend = prepend if isinstance(prepend, bool) else normalized(prepend)
         self.__separator = normalized(separator)
+        if isinstance(prepend, str):
+            from orchestra.compat.refused_upstream import tell_text_of_truth  # noqa: PLC0415 - only mistakes need it
+
+            tell_text_of_truth("prepend", prepend, self._place)
 
     @property
     def prepend(self) -> bool | list[Substitution]:

@@ -38,15 +38,16 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 OVERRIDE = "OVERRIDE_LAUNCH_PROCESS_OUTPUT"
+_USUAL = frozenset({bool, type(None)})
 
 
 class ExecuteLocal(ModelledAction):
     """Start a process.
 
     Where `output` is not said, both streams go to the screen and to the log. `on_exit` is entities, or a callable that
-    takes the event and the context and returns some; it is looked at each time the process ends. The environment
-    variable OVERRIDE_LAUNCH_PROCESS_OUTPUT stands for every `output`, as upstream. Accepted without effect:
-    `output_format` and `log_cmd`. Orchestra's own keys are keywords too (`orchestra.compat.extensions.RUNNING`).
+    takes event and context and returns some; it is looked at each time the process ends. The environment variable
+    OVERRIDE_LAUNCH_PROCESS_OUTPUT stands for every `output`, as upstream. `output_format` and `log_cmd` have no effect.
+    Orchestra's own keys are keywords too: `RUNNING`.
     """
 
     _more_keywords: tuple[str, ...] = RUNNING
@@ -75,7 +76,9 @@ class ExecuteLocal(ModelledAction):
         self.__shell = shell
         self.__timeouts = {"sigterm_timeout": sigterm_timeout, "sigkill_timeout": sigkill_timeout}
         self.__emulate_tty = emulate_tty
-        self.__output = _normalized_output(os.environ.get(OVERRIDE, output))
+        self.__output = os.environ.get(OVERRIDE, output)
+        if not (self.__output is None or isinstance(self.__output, dict)):
+            self.__output = normalized(self.__output)
         self.__output_format = output_format
         self.__cached_output = cached_output
         self.__log_cmd = log_cmd
@@ -86,6 +89,11 @@ class ExecuteLocal(ModelledAction):
         self._details: dict[str, Any] | None = None
         self._return_code: int | None = None
         self.__written = {"stdout": bytearray(), "stderr": bytearray()}
+        given = respawn, shell, cached_output, log_cmd, emulate_tty, respawn_delay, respawn_max_retries
+        if not _USUAL.issuperset(map(type, (*given, *self.__timeouts.values()))):
+            from orchestra.compat.refused_upstream import tell_of_process  # noqa: PLC0415 - few have such
+
+            tell_of_process(given, self.__timeouts, self._place)
 
     @property
     def process_description(self) -> Executable:
@@ -277,10 +285,6 @@ def _checked_exit(done: Any) -> Any:
 def _delay(delay: Sub | float | None) -> Sub | float | None:
     """Return a delay: upstream does not wait for one below zero."""
     return max(delay, 0) if isinstance(delay, int | float) else delay
-
-
-def _normalized_output(output: Sub | Mapping[str, Any] | None) -> Any:
-    return output if output is None or isinstance(output, dict) else normalized(output)
 
 
 def _output_field(output: Any, span: Span) -> Any:

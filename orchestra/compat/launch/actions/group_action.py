@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.building import models_of
@@ -20,7 +20,7 @@ from orchestra.compat.values import pairs, scalar
 from orchestra.description.actions.group import Group
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping
+    from collections.abc import Iterable
 
     from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
@@ -53,6 +53,14 @@ class GroupAction(ModelledAction):
         self.__forwarding = forwarding
         self.__launch_configurations = dict(launch_configurations or {})
         self.__all: list[LaunchDescriptionEntity] | None = None
+        if type(scoped) is not bool or type(forwarding) is not bool:
+            from orchestra.compat.refused_upstream import tell_counted_as_true  # noqa: PLC0415 - only mistakes need it
+
+            tell_counted_as_true({"scoped": scoped, "forwarding": forwarding}, self._place)
+        if launch_configurations is not None and not isinstance(launch_configurations, Mapping):
+            from orchestra.compat.refused_upstream import tell_no_mapping  # noqa: PLC0415 - as above
+
+            tell_no_mapping(launch_configurations, self._place)
 
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the actions, with those that make the scope around them."""

@@ -58,6 +58,10 @@ class IncludeLaunchDescription(ModelledAction):
         if callable(launch_arguments):
             raise WrongType("the launch_arguments are a method: it is not called", path=("launch_arguments",))
         given = launch_arguments.items() if isinstance(launch_arguments, Mapping) else launch_arguments
+        if given is not launch_arguments:
+            from orchestra.compat.refused_upstream import tell_no_pairs  # noqa: PLC0415 - only mistakes need it
+
+            tell_no_pairs(launch_arguments, self._place)
         self.__launch_arguments = tuple(given or ())
 
     @property

@@ -47,6 +47,10 @@ class TimerAction(ModelledAction):
         self.__actions = actions if isinstance(actions, list) else list(actions)
         self.__cancel_on_shutdown = cancel_on_shutdown
         self._is_cancelled = False
+        if type(period) is not float:
+            from orchestra.compat.refused_upstream import tell_no_float  # noqa: PLC0415 - few periods are texts
+
+            tell_no_float(period, self._place)
 
     @property
     def period(self) -> float | list[Substitution]:
