@@ -65,12 +65,19 @@ def container_words(package: str, executable: str, packages: Packages) -> tuple[
     return _words(executable) if missing else None
 
 
-def known_components() -> tuple[EntryPoint, ...]:
-    """Return the components that distributions declare."""
+def known_components(run: Resolution) -> tuple[EntryPoint, ...]:
+    """Return the components that distributions declare, which are looked for once where code is imported from."""
     # Here and below, because few plans have components.
     from orchestra.resolve.packages.components import declared_components  # noqa: PLC0415
 
-    return once(("components", *sys.path), declared_components)
+    path = tuple(sys.path)
+
+    def found() -> tuple[EntryPoint, ...]:
+        if path not in run.components:
+            run.components[path] = declared_components()
+        return run.components[path]
+
+    return once(("components", *path), found)
 
 
 def settle_containers(run: Resolution) -> None:
@@ -97,7 +104,7 @@ def _words(executable: str) -> tuple[str, ...]:
 def _put_back(stand_in: StandIn, index: int, run: Resolution) -> None:
     """Put back a container into which something is loaded that is not in Python, and tell of its missing package."""
     process = run.found.processes[index]
-    foreign = [one for one in _loaded_into(index, process, run) if not _is_ours(one)]
+    foreign = [one for one in _loaded_into(index, process, run) if not _is_ours(one, run)]
     if not foreign:
         return
     run.found.processes[index] = replace(process, program=stand_in.others)
@@ -113,10 +120,11 @@ def _put_back(stand_in: StandIn, index: int, run: Resolution) -> None:
     run.problems.amend(explained)
 
 
-def _is_ours(component: ResolvedComponent) -> bool:
+def _is_ours(component: ResolvedComponent, run: Resolution) -> bool:
     from orchestra.resolve.packages.components import target_of  # noqa: PLC0415 - as above
 
-    return component.faulty or target_of(component.package, component.plugin, known_components()) is not None
+    known = known_components(run)
+    return component.faulty or target_of(component.package, component.plugin, known) is not None
 
 
 def _loaded_into(index: int, process: ResolvedProcess, run: Resolution) -> Iterator[ResolvedComponent]:

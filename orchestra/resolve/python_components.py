@@ -43,7 +43,7 @@ def check_plugin(package: str, plugin: Value, run: Resolution) -> Value | Poison
 
 
 def _fault(package: str, plugin: str, run: Resolution) -> Unrunnable | None:
-    known = known_components()
+    known = known_components(run)
     if target_of(package, plugin, known) is None:
         # The part that all of a package have in common says nothing of what was meant.
         own = {point.name.rpartition("::")[2]: point.name for point in known if package in point.owners}

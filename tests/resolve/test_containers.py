@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import sys
 from typing import TYPE_CHECKING
+from unittest.mock import Mock
 
 import pytest
 
 from orchestra.errors import Code
+from orchestra.resolve.packages import components
 from tests.plan.checks.told import marked
 from tests.resolve.launching import Outcome, outcome
 
@@ -55,10 +57,10 @@ def _planned(
     launching: bool = True,
     prefix: Path | None = None,
 ) -> Outcome:
-    components = "".join(
+    written = "".join(
         f"    - {{pkg: demo, plugin: '{plugin}', name: n{n}}}\n" for n, plugin in enumerate(plugins)
     )
-    text = _FILE.format(container=container, package=package, executable=executable, components=components)
+    text = _FILE.format(container=container, package=package, executable=executable, components=written)
     if not plugins:
         text = text.partition("- load_composable_node")[0]
     environment = {} if prefix is None else {"AMENT_PREFIX_PATH": str(prefix)}
@@ -91,6 +93,13 @@ def test_a_component_in_cpp_needs_the_package(launching: bool, folder: Path) -> 
     assert bool(found.problems.errors) == launching
     assert "components in Python: 'demo::Camera' and 1 more are not" in problem.notes[-1]
     assert found.process("/box").command[0].startswith("${prefix:rclcpp_components}/")
+
+
+def test_what_distributions_declare_is_read_once(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    looking = Mock(wraps=components.declared_components)
+    monkeypatch.setattr(components, "declared_components", looking)
+    assert not [*_planned(folder, *["demo::Talker"] * 5).problems]
+    looking.assert_called_once_with()
 
 
 def test_an_installed_package_is_used_unless_it_cannot_load_what_is_asked(folder: Path) -> None:
