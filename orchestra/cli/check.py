@@ -95,15 +95,15 @@ def run(options: Namespace) -> int:
     words = [word for word in options.words if ":=" in word]
     # All of them are heavy, and `--help` does not need them.
     from orchestra.cli.checking import Manner, check  # noqa: PLC0415
+    from orchestra.cli.look.gathered import gathered  # noqa: PLC0415
     from orchestra.cli.places import places  # noqa: PLC0415
-    from orchestra.cli.targets import targets  # noqa: PLC0415
     from orchestra.resolve.command_line import inputs_from  # noqa: PLC0415
     from orchestra.resolve.packages import InstalledPackages  # noqa: PLC0415
 
-    found = targets(places(paths, InstalledPackages(os.environ)))
+    jobs, cache = options.jobs or len(os.sched_getaffinity(0)), not options.no_cache
+    found, identity = gathered(places(paths, InstalledPackages(os.environ)), jobs, cache=cache)
     inputs = replace(inputs_from(words, environment=os.environ), severity=severities.given(options))
-    jobs = options.jobs or len(os.sched_getaffinity(0))
-    manner = Manner(jobs, options.time_limit, not options.no_cache, options.strict)
+    manner = Manner(jobs, options.time_limit, cache, options.strict, identity)
     with contained():
         checked = check(found, inputs, manner)
     problems = as_errors(checked.problems) if options.strict else checked.problems

@@ -34,13 +34,14 @@ class Manner:
     """How files are looked at: by how many processes, how long one file may take in seconds, whether by what is kept.
 
     Without `jobs` this process looks by itself, at every file, for as long as it takes. With `strict` comments that
-    silence nothing are told.
+    silence nothing are told. `identity` is that of Orchestra in this environment, where it is known already.
     """
 
     jobs: int = 0
     patience: float = 120.0
     cache: bool = False
     strict: bool = False
+    identity: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,7 +66,7 @@ def check(targets: Sequence[Target], inputs: Inputs, manner: Manner) -> Checked:
     but what it lacks is not told; nor is that of one which is included as part of its package, from where that is
     installed or would be.
     """
-    kept = Kept(inputs, wanted=manner.cache)
+    kept = Kept(inputs, wanted=manner.cache, identity=manner.identity)
     findings, unchanged = _findings(targets, inputs, manner, kept)
     every = list(findings)
     while behind := _behind(every):
@@ -96,10 +97,8 @@ def _findings(
 
 
 def _looks(targets: Sequence[Target], inputs: Inputs, manner: Manner, kept: Kept) -> list[Finding]:
-    # Here, because it is heavy, and not needed where everything is known.
-    with late():  # two thirds of the time that it takes to import
-        import yaml  # noqa: F401, PLC0415
-    from orchestra.cli.look.looker import Looker  # noqa: PLC0415
+    get_ready()
+    from orchestra.cli.look.looker import Looker  # noqa: PLC0415 - as there
 
     if not manner.jobs:
         looker = Looker(inputs)
@@ -117,6 +116,13 @@ def _looks(targets: Sequence[Target], inputs: Inputs, manner: Manner, kept: Kept
             order[place]: _finding(ordered[place], result) for place, result in pool.results(len(targets))
         }
     return [found[number] for number in range(len(targets))]
+
+
+def get_ready() -> None:
+    """Import what it takes to look at files. It is heavy, and not needed where everything is known."""
+    with late():  # two thirds of the time that it takes to import
+        import yaml  # noqa: F401, PLC0415
+    import orchestra.cli.look.looker  # noqa: F401, PLC0415
 
 
 class _Looking:

@@ -10,11 +10,13 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.cli.look.finding import Finding
 from orchestra.cli.look.questions import Questions
 from orchestra.witness.batches import Batches
-from orchestra.witness.identity import identity
+from orchestra.witness.identity import identity as identity_now
 from orchestra.witness.place import folder
 from orchestra.witness.world import World
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from orchestra.cli.targets import Target
     from orchestra.resolve.inputs import Inputs
     from orchestra.witness.record import Record
@@ -23,17 +25,34 @@ if TYPE_CHECKING:
 _WAITING: Final = 1.0  # seconds that findings wait to be written, for then they are lost with this process
 
 
-class Kept:
-    """The findings that earlier checks have left in the user's cache; without a folder for that there are none."""
+def anything_kept(environment: Mapping[str, str]) -> bool:
+    """Tell whether an earlier check has left anything, be it true or not."""
+    place = _place(environment)
+    try:
+        return place is not None and bool(os.listdir(place))  # noqa: PTH208 - no paths are wanted
+    except OSError:
+        return False
 
-    def __init__(self, inputs: Inputs, *, wanted: bool = True) -> None:
-        place = folder(inputs.environment) if wanted else None
-        self._store = None if place is None else Batches(os.path.join(place, "check"))  # noqa: PTH118 - pathlib is slow
+
+def _place(environment: Mapping[str, str]) -> str | None:
+    place = folder(environment)
+    return None if place is None else os.path.join(place, "check")  # noqa: PTH118 - pathlib is slow
+
+
+class Kept:
+    """The findings that earlier checks have left in the user's cache; without a folder for that there are none.
+
+    `identity` is what the function of that name returns for the environment, where that is known already.
+    """
+
+    def __init__(self, inputs: Inputs, *, wanted: bool = True, identity: str | None = None) -> None:
+        place = _place(inputs.environment) if wanted else None
+        self._store = None if place is None else Batches(place)
         self._new: list[tuple[str, Record, Any]] = []
         self._since = time.monotonic()
         if self._store is not None:
             self._world = World(inputs.environment, Questions(inputs.environment).answer)
-            self._identity = identity(inputs.environment)
+            self._identity = identity or identity_now(inputs.environment)
             self._given = repr(
                 (
                     inputs.arguments,
