@@ -15,6 +15,7 @@ from orchestra.load.offsets import source
 from orchestra.load.reader import Reader
 from orchestra.location import Location, Span, displayed, point
 from orchestra.patterns import pattern
+from orchestra.witness.observing import observer
 from orchestra.witness.once import real
 
 if TYPE_CHECKING:
@@ -97,6 +98,7 @@ def _text(path: str, file: str, problems: Problems, location: Location) -> str |
     except OSError as error:
         problems.error(Code.UNREADABLE_FILE, f"cannot read {file}: {error.strerror}", location)
         return None
+    observer().read(path, content)
     if len(content) > _LARGEST:
         problems.error(Code.UNREADABLE_FILE, f"{file} is larger than 64 MiB", location)
         return None

@@ -53,12 +53,16 @@ def settled(found: Signature | None) -> bool:
     return found is not None and time.time_ns() - max(found[0], found[1]) > _TICK
 
 
-def content(path: str) -> str | None:
-    """Return a digest of a file's content, of the reason where it cannot be read; None where it is no regular file."""
+def content(path: str, found: bytes | None = None) -> str | None:
+    """Return a digest of a file's content, of the reason where it cannot be read; None where it is no regular file.
+
+    What a regular file has been `found` to hold is not read again.
+    """
     try:
-        if not stat.S_ISREG(_stat(path).st_mode):
-            return None
-        found = read(path)
+        if found is None:
+            if not stat.S_ISREG(_stat(path).st_mode):
+                return None
+            found = read(path)
     except (OSError, ValueError) as error:
         return reason(error)
     if len(found) < _CHUNK:

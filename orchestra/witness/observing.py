@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeVar
 
 from orchestra.dataclass import unguard
 from orchestra.witness import looking, origins, unknowable
+from orchestra.witness.contents import Contents
 from orchestra.witness.origins import INSTALLED, is_python, source_of
 from orchestra.witness.record import Record, question
 from orchestra.witness.variables import ObservedData
@@ -41,7 +42,7 @@ class Observer:
         self._being_aside = _Aside(self)
         self._seen: dict[str, Signature | None] = {}
         self._parts: set[Record] = set()
-        self._digests: dict[str, tuple[Signature | None, str]] = {}
+        self._contents = Contents()
         self._folders = looking.Folders().listing
         self._installed: Record = Record()
         self.ran_code, self.certain = False, True
@@ -73,6 +74,7 @@ class Observer:
         """Begin a record; `environment` is the one that counts as being outside."""
         self.record, self._seen, self.ran_code, self.certain, self._parts = Record(), {}, False, True, set()
         self._environment, self._paths = environment, set()
+        self._contents.forget()
         self._outside.shorten()
 
     def end(self) -> Record:
@@ -126,7 +128,12 @@ class Observer:
     def file(self, path: str) -> None:
         """Record that a file is read."""
         if self.active and path not in self._seen:
-            self._seen[path] = looking.signature(path)
+            self._seen[path] = self._contents.opened(path)
+
+    def read(self, path: str, content: bytes) -> None:
+        """Take what has just been read from a file, so that it need not be read again to be recorded."""
+        if path in self._seen and not self._aside:
+            self._contents.read(path, content)
 
     def answered(self, words: tuple[str, ...], answer: Callable[[], _AnswerT]) -> _AnswerT:
         """Return the answer to a question, and record it instead of what is looked at for it; it is JSON data."""
@@ -154,20 +161,7 @@ class Observer:
         if self._seen:
             with self._being_aside:
                 for path, before in self._seen.items():
-                    self._complete(record, path, before)
-
-    def _complete(self, record: Record, path: str, before: Signature | None) -> None:
-        known = self._digests.get(path)
-        digest = known[1] if known is not None and known[0] == before else looking.content(path)
-        if digest is None:
-            record.unknown = record.unknown or f"{path} is no regular file"
-        elif looking.signature(path) != before:
-            record.unknown = record.unknown or f"{path} has changed meanwhile"
-        else:
-            sure = looking.settled(before)
-            record.files[path] = (digest, before if sure else None)
-            if sure:
-                self._digests[path] = (before, digest)
+                    self._contents.complete(record, path, before)
 
     def _wrapped(self, function: Any, kind: str) -> Any:
         @wraps(function)
@@ -245,7 +239,7 @@ class Observer:
         if whole.startswith(INSTALLED) and whole.endswith(".py"):
             before = looking.signature(whole)
             with self.aside():
-                self._complete(self._installed, whole, before)
+                self._contents.complete(self._installed, whole, before)
 
     def listed(self, path: Any) -> None:
         """Record that it matters what is in a folder."""

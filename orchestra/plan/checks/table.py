@@ -12,6 +12,8 @@ from orchestra.plan.checks.nameless import check_nameless
 from orchestra.plan.checks.sections import check_sections
 from orchestra.plan.checks.topics import check_topics
 from orchestra.plan.checks.waits import check_waits
+from orchestra.witness.once import once
+from orchestra.witness.variables import ObservedEnvironment
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -71,11 +73,20 @@ _COMMON: Final = {
 
 def has_settings(resolved: Resolved, environment: Mapping[str, str]) -> bool:
     """Tell whether any process that may be a node has such a variable, or says on its command line how it logs."""
-    if any((value := environment.get(name)) and not _is_common(name, value) for name in CHECKED):
+    if _is_set(environment):
         return bool(resolved.processes)
     return any(
         name.startswith(PREFIXES) for process in resolved.processes for name in process.environment
     ) or any("--log-level" in words or "--enclave" in words for words in _words(resolved))
+
+
+def _is_set(environment: Mapping[str, str]) -> bool:
+    """Tell whether there is such a variable among the caller's; of one environment that is found out once."""
+
+    def find() -> bool:
+        return any((value := environment.get(name)) and not _is_common(name, value) for name in CHECKED)
+
+    return once(("settings of nodes",), find) if isinstance(environment, ObservedEnvironment) else find()
 
 
 def _is_common(name: str, value: str) -> bool:

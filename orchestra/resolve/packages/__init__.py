@@ -15,6 +15,7 @@ from functools import cache
 from typing import TYPE_CHECKING
 
 from orchestra.resolve.packages import ament, python, scripts
+from orchestra.witness.once import once
 
 if TYPE_CHECKING:
     from collections.abc import Mapping
@@ -137,6 +138,12 @@ def manifest_of(process: ResolvedProcess) -> str | None:
 
 def manifest_beside(share: str) -> str | None:
     """Return the `package.xml` of the package with this share folder, None where ament has installed it."""
+    if not share.startswith("/"):  # another working folder makes another one of it
+        return _beside(share)
+    return once(("manifest", share), lambda: _beside(share))
+
+
+def _beside(share: str) -> str | None:
     above = os.path.dirname(share)  # noqa: PTH120 - pathlib is slow
     return None if os.path.basename(above) == "share" else _first([share, above])  # noqa: PTH119 - as above
 
