@@ -110,7 +110,7 @@ def _process(
 ) -> Process:
     parameters = parameters_of(process, sections, problems, whole=whole)
     check_remaps(process, problems)
-    path = path_of(identity) if parameters.values or parameters.files else None
+    path = path_of(identity) if parameters.is_passed and (parameters.values or parameters.files) else None
     files = tuple(ParameterFile(path or file.path, file.content) for file in parameters.files)
     words, environment = command(process, path) if whole else (), environment_of(process)
     return new_process(

@@ -63,7 +63,7 @@ def contents(process: Process) -> dict[str, str]:
         texts[file.path] = texts.get(file.path, "") + file.content
     own = path(process)
     named = process.name is not None and process.namespace is not None
-    if process.parameters and (named or own not in texts):
+    if process.parameters and (named or own not in texts) and own in process.command:
         texts[own] = texts.get(own, "") + render(process)
     return texts
 

@@ -36,11 +36,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Parameters:
-    """What a node gets: values by name, all that was written for each, and what goes to other nodes in the process."""
+    """What a node gets: values by name, all that was written for each, and what goes to other nodes in the process.
+
+    Where they are not `is_passed` all of them are on the node's command line as it is.
+    """
 
     values: dict[str, ParameterValue] = field(default_factory=dict)
     candidates: dict[str, tuple[Candidate, ...]] = field(default_factory=dict)
     files: tuple[ParameterFile, ...] = ()
+    is_passed: bool = False
 
 
 def parameters_of(
@@ -51,22 +55,24 @@ def parameters_of(
     A surprise is reported: a value that loses although it stands last. What is not `whole` lacks what values came
     through, and what goes to other nodes.
     """
-    if process.kind == "process" or not (process.parameters or sections.given):
+    is_passed = bool(process.parameters or sections.given)
+    if process.kind == "process" or not (is_passed or process.parameter_arguments):
         return Parameters()
     full = node_name(process)
     own = full if full is not None and process.namespace is not None else EVERY_NODE
-    plain = None if sections.given else _plain(process, own, whole=whole)
+    plain = None if sections.given or process.parameter_arguments else _plain(process, own, whole=whole)
     if plain is not None:
         return plain
     settings = settings_of(sections.for_node(process, own, full), full)
     overrides = settings_of(sections.given_to(process), full)
     _report(settings, overrides, problems)
-    known = candidates.origins(process.parameters if whole else ())
+    known = candidates.origins((*process.parameter_arguments, *process.parameters) if whole else ())
     every = {**settings, **overrides}
     return Parameters(
         {name: setting.value for name, setting in every.items() if setting.value is not None},
         {name: candidates.of_parameter(settings.get(name), overrides.get(name), known) for name in every},
         sections.passed_on(process, own) if whole else (),
+        is_passed,
     )
 
 
@@ -88,7 +94,7 @@ def _plain(process: ResolvedProcess, own: str, *, whole: bool) -> Parameters | N
         through = candidates.passage(source.through)
         written[source.name] = (candidates.new_candidate(source.value, source.location, True, rule, through),)
     shared = own == EVERY_NODE and whole and values
-    return Parameters(values, written, (ParameterFile("", rendered(own, values)),) if shared else ())
+    return Parameters(values, written, (ParameterFile("", rendered(own, values)),) if shared else (), True)
 
 
 def _are_apart(sources: Sequence[ParameterSource]) -> bool:

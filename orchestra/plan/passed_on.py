@@ -44,7 +44,7 @@ class Sections:
 
         Where its full name is not known, that is only what is for every node.
         """
-        found: list[Section] = []
+        found = [section for source in node.parameter_arguments for section in self.of_file(source, full)]
         for source in node.parameters:
             if isinstance(source, InlineParameter):
                 found.append(_section(source, own))

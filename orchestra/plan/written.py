@@ -79,7 +79,7 @@ def _places(
     name: str, value: Location, node: ResolvedProcess | ResolvedComponent, resolved: Resolved
 ) -> Iterator[Written]:
     """Yield the places of everything that sets this name at this place."""
-    for source in node.parameters:
+    for source in (*getattr(node, "parameter_arguments", ()), *node.parameters):
         if isinstance(source, InlineParameter):
             if source.name == name and source.location == value:
                 yield Written(value, source.items, source.keys)

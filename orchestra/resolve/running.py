@@ -20,6 +20,7 @@ from orchestra.resolve.idle_keys import check_keys
 from orchestra.resolve.limits import limits
 from orchestra.resolve.model import (
     EnvironmentChange,
+    FileParameters,
     Kind,
     NamedSchema,
     ParameterSource,
@@ -66,6 +67,7 @@ class Program:
     arguments: tuple[str, ...] = ()
     ros_arguments: tuple[str, ...] | None = None
     parameters: tuple[ParameterSource, ...] = ()
+    parameter_arguments: tuple[FileParameters, ...] = ()
     remaps: tuple[ResolvedRemap, ...] = ()
     autostart: bool = False
     through: tuple[Read, ...] = ()
@@ -111,6 +113,7 @@ def _as_it_is(action: Running, program: Program, run: Resolution) -> ResolvedPro
         cwd=None,
         environment=dict(run.scope.changes),
         parameters=program.parameters,
+        parameter_arguments=program.parameter_arguments,
         remaps=program.remaps,
         output=None if isinstance(places, Poison) else places,
         emulate_tty=None,
@@ -158,6 +161,7 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         cwd=sound(_cwd(action, run)),
         environment=sound(_environment(action, run)) or {},
         parameters=program.parameters,
+        parameter_arguments=program.parameter_arguments,
         remaps=program.remaps,
         output=sound(places) if isinstance(places, Poison) else places,
         emulate_tty=sound(emulate_tty(action, run)),

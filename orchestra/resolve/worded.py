@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.resolve.context import POISON, Poison
 from orchestra.resolve.words import split
@@ -12,16 +12,23 @@ if TYPE_CHECKING:
 
     from orchestra.description.text import Template
     from orchestra.resolve.context import Value
+    from orchestra.resolve.model import FileParameters
     from orchestra.resolve.resolution import Resolution
+
+_SETTING: Final = ("-p", "--param", "--params-file")
 
 
 def texts(
-    argv: Template | tuple[Template, ...] | None, run: Resolution, *, for_ros: bool | None = None
+    argv: Template | tuple[Template, ...] | None,
+    run: Resolution,
+    *,
+    for_ros: bool | None = None,
+    given: list[FileParameters] | None = None,
 ) -> tuple[str, ...] | Poison:
     """Return words: a text is split as a shell would, an item of a list is one word.
 
     A text that is empty, or blank, is one empty word (launch, `ExecuteProcess._parse_cmdline`). Of a node, `for_ros`
-    tells whether all words are for rcl, or those behind `--ros-args` only.
+    tells whether all words are for rcl, or those behind `--ros-args` only; the parameters among them become `given`.
     """
     if argv is None:
         return ()
@@ -39,6 +46,10 @@ def texts(
         check_rules(words, run.problems, for_ros=for_ros)
     if for_ros is not None:
         look_at_paths(words, run, for_ros=for_ros)
+    if given is not None and any(word.text in _SETTING for word in words):
+        from orchestra.resolve.parameter_arguments import parameters_among  # noqa: PLC0415 - as above
+
+        given += parameters_among(words, run, for_ros=for_ros is True)
     return tuple(word.text for word in words) or (() if isinstance(argv, tuple) else ("",))
 
 

@@ -96,7 +96,8 @@ def _of_every_node(values: dict[str, ParameterValue]) -> Iterable[Fault]:
 
 def _is_whole(node: ResolvedProcess | ResolvedComponent) -> bool:
     """Return whether all parameters that the node is given are known: else what is missing may be among the others."""
-    return not node.faulty and not any(map(_is_lacking, node.parameters))
+    among = () if isinstance(node, ResolvedComponent) else node.parameter_arguments
+    return not node.faulty and not any(map(_is_lacking, (*node.parameters, *among)))
 
 
 def _is_lacking(source: ParameterSource) -> bool:

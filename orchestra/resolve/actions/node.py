@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from orchestra.description.actions.node import Node
     from orchestra.description.text import Template
     from orchestra.resolve.context import Read
-    from orchestra.resolve.model import Kind
+    from orchestra.resolve.model import FileParameters, Kind
     from orchestra.resolve.resolution import Resolution
     from orchestra.resolve.running import Program
 
@@ -59,7 +59,8 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
     if isinstance(name, Value) and isinstance(namespace, Poison):
         run.found.lost.add(name.text)  # its full name is not known
         name = POISON
-    arguments, ros_arguments, more = _arguments(action, run)
+    given: list[FileParameters] = []
+    arguments, ros_arguments, more = _arguments(action, run, given)
     own, whole = parameters(action.param, run)
     rules, regular = remaps(action.remap, run)
     schema = None if action.params_schema is None else params_schema(action.params_schema, run)
@@ -75,6 +76,7 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
         arguments=() if isinstance(arguments, Poison) else arguments,
         ros_arguments=None if isinstance(ros_arguments, Poison) or action.ros_args is None else ros_arguments,
         parameters=(*run.scope.parameters, *own),
+        parameter_arguments=tuple(given),
         remaps=(*run.scope.remaps, *rules),
         autostart=autostart is True,
         through=(*reads, *more),
@@ -89,15 +91,15 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
 
 
 def _arguments(
-    action: Node, run: Resolution
+    action: Node, run: Resolution, given: list[FileParameters]
 ) -> tuple[tuple[str, ...] | Poison, tuple[str, ...] | Poison, Sequence[Read]]:
-    """Return the arguments and the ROS arguments, and what was read for them."""
+    """Return the arguments and the ROS arguments, and what was read for them; parameters among them are `given`."""
     if action.args is None and action.ros_args is None:
         return (), (), ()
     with run.scope.tracing() as reads:
         arguments, ros_arguments = (
-            texts(action.args, run, for_ros=False),
-            texts(action.ros_args, run, for_ros=True),
+            texts(action.args, run, for_ros=False, given=given),
+            texts(action.ros_args, run, for_ros=True, given=given),
         )
     return arguments, ros_arguments, reads
 
