@@ -140,8 +140,7 @@ def _as_it_is(action: Running, program: Program, run: Resolution) -> ResolvedPro
 
 def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedProcess:
     """Return the process that an action starts."""
-    sound = Sound()
-    location = run.place(action)
+    sound, location = Sound(), run.place(action)
     on_exit = sound(run.word(action.on_exit, ON_EXIT))
     places = output(action.output, run, location)
     again = sound(restart(action, run))
