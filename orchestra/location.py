@@ -145,6 +145,29 @@ class Matched:
         return span
 
 
+class Places(Matched):
+    """A text of which one place after the other has been told by two offsets: what stands in it has their numbers."""
+
+    __slots__ = ("offsets",)
+
+    def __init__(self, whole: Whole) -> None:
+        self.whole = whole
+        self.offsets: list[Any] = []  # each a pair of them, or the place that has been made of it
+
+    def add(self, offsets: tuple[int, int]) -> int:
+        """Add a place; return its number."""
+        self.offsets.append(offsets)
+        return len(self.offsets) - 1
+
+    def span(self, group: int) -> Span:
+        """Return the place with a number."""
+        place = self.offsets[group]
+        if type(place) is tuple:
+            place = self.offsets[group] = stretch(self.whole, *place)
+        span: Span = place
+        return span
+
+
 class LocationOfGroup(Location):
     """The location of a group in a text that was matched; equal to any other one that says the same."""
 

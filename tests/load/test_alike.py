@@ -17,7 +17,7 @@ from orchestra.errors import Problems
 from orchestra.fields import replace
 from orchestra.load import xml_file, yaml_file
 from orchestra.load.alike import xml_items, yaml_items
-from orchestra.load.alike.learned import FEW, Forms
+from orchestra.load.alike.learned import Forms
 from orchestra.load.alike.one_by_one import actions
 from orchestra.load.entities import describe
 from orchestra.load.offsets import source
@@ -60,8 +60,11 @@ _LIKELY = st.sampled_from(
 _VALUES = st.lists(st.tuples(*[st.one_of(_LIKELY, _LIKELY, _ODD)] * 4), min_size=1, max_size=4)
 
 
-def _forgetful(module: Any, monkeypatch: pytest.MonkeyPatch) -> Forms:
-    forms = Forms()
+FEW = 4
+
+
+def _forgetful(module: Any, monkeypatch: pytest.MonkeyPatch, few: int = FEW) -> Forms:
+    forms = Forms(few)
     monkeypatch.setattr(module, "FORMS", forms)
     return forms
 
@@ -181,11 +184,11 @@ def _attack(written: str, templates: Sequence[str], items: Any, module: Any, rnd
 
 
 def _attacks(number: int, monkeypatch: pytest.MonkeyPatch) -> int:
-    """Attack each format so many times; return how often a form was tried."""
+    """Attack each format so many times, forms and what is read without any; return how often it was tried."""
     tried = 0
     for seed in range(number):
         for items in (yaml_items, xml_items):
-            _forgetful(items, monkeypatch)
+            _forgetful(items, monkeypatch, few=FEW if seed % 2 else 1_000)
         rnd = Random(seed)  # noqa: S311 - the same every time
         tried += _attack("launch:\n{}", _YAML, yaml_items, yaml_file, rnd)
         tried += _attack("<launch>{}</launch>", _XML, xml_items, xml_file, rnd)

@@ -8,7 +8,6 @@ for what its key accepts is decided by the key alone.
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
 from functools import cache
 from typing import TYPE_CHECKING, Any, Final, get_args
 
@@ -20,7 +19,7 @@ from orchestra.description.source import Keyed, Listed, Verbatim
 from orchestra.description.text import Items, Template
 from orchestra.errors import Problems
 from orchestra.fields import field
-from orchestra.load.alike.learned import Form, UnlikeError
+from orchestra.load.alike.learned import Form, Manner, UnlikeError
 from orchestra.load.alike.making import MAKING
 from orchestra.load.keys import spelled
 from orchestra.load.offsets import Source
@@ -38,19 +37,6 @@ _MOST_VALUES: Final = 100
 _TEXT, _LITERAL, _OWN = "template", "literal", ""
 # In the code that is written, a group by its offsets.
 _GROUP: Final = re.compile(r"@([0-9]+):([0-9]+)@")
-
-
-@dataclass(frozen=True, slots=True)
-class Manner:
-    """How a format writes values and ends actions.
-
-    `harmless` gives an expression for all texts that may stand in the place of one without a change of anything around
-    them, empty where there is none: the text of the file, and the offsets of the action, of the value and behind it.
-    `ending` does so for what is behind the last value.
-    """
-
-    harmless: Callable[[str, int, int, int], str]
-    ending: Callable[[str], str]
 
 
 def learned(item: Any, action: Action, whole: Source, begin: int, end: int, manner: Manner) -> Form:  # noqa: ANN401 - a tree

@@ -20,10 +20,13 @@ from orchestra.fields import field
 from orchestra.load.offsets import Source
 from orchestra.load.reader import Reader
 
-# So many of one form are read before it is learned, and so many forms are kept of each beginning and in all. What looks
-# alike may be of several forms, as with quotes and without: after four times as many the next one is learned.
-FEW: Final = 4
-_LEARNED_AT: Final = frozenset(FEW * 4**power for power in range(8))
+# So much of one form is read before it is learned, which takes as long as it saves with some 50 actions: one that takes
+# the ordinary way, for it is not plain to see what it says, counts for 8. So many forms are kept of each beginning and
+# in all. What looks alike may be of several forms, as with quotes and without: after four times as many the next one is
+# learned.
+FEW: Final = 32
+LONG: Final = 8
+_LATER: Final = 4
 _MOST_ALIKE: Final = 8
 _MOST: Final = 100
 # So many forms that have been seen too seldom are counted.
@@ -32,6 +35,19 @@ _MOST_COUNTED: Final = 2_000
 
 class UnlikeError(Exception):
     """A value is not one of those that can be told by their characters alone."""
+
+
+@dataclass(frozen=True, slots=True)
+class Manner:
+    """How a format writes values and ends actions.
+
+    `harmless` gives an expression for all texts that may stand in the place of one without a change of anything around
+    them, empty where there is none: the text of the file, and the offsets of the action, of the value and behind it.
+    `ending` does so for what is behind the last value.
+    """
+
+    harmless: Callable[[str, int, int, int], str]
+    ending: Callable[[str], str]
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,15 +62,19 @@ class Form:
 class Forms:
     """The forms of one format that are known, by how the text of an action begins."""
 
+    few: int = FEW
     known: dict[str, list[Form]] = field(default_factory=dict)
-    _counted: dict[tuple[str, ...], int] = field(default_factory=dict)
+    _counted: dict[tuple[str, ...], tuple[int, int]] = field(default_factory=dict)
 
-    def worth(self, words: tuple[str, ...]) -> bool:
+    def worth(self, words: tuple[str, ...], weight: int) -> bool:
         """Count an action of a form that is not known; tell whether it is time to learn it."""
         if len(self._counted) >= _MOST_COUNTED:
             self._counted.clear()
-        count = self._counted[words] = self._counted.get(words, 0) + 1
-        return count in _LEARNED_AT and sum(map(len, self.known.values())) < _MOST
+        count, enough = self._counted.get(words) or (0, self.few)
+        count += weight
+        due = count >= enough
+        self._counted[words] = (count, enough * _LATER if due else enough)
+        return due and sum(map(len, self.known.values())) < _MOST
 
     def keep(self, beginning: str, form: Form) -> None:
         """Keep a form; of those that begin alike the last one is tried first."""

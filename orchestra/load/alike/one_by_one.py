@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Protocol
 
 from orchestra.dataclass import dataclass
 from orchestra.description.actions import model_of
 from orchestra.description.source import Keyed
 from orchestra.errors import Problems
-from orchestra.load.alike.casting import learned
-from orchestra.load.alike.learned import Forms, UnlikeError, action_of
+from orchestra.load.alike.learned import LONG, Forms, UnlikeError, action_of
+from orchestra.load.alike.straight import Plainly, straight
 from orchestra.load.entities import action_in
 from orchestra.load.keys import spelled
 from orchestra.load.reader import Reader
@@ -18,7 +19,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from orchestra.description.entity import Action
-    from orchestra.load.alike.casting import Manner
+    from orchestra.load.alike.learned import Manner
     from orchestra.load.offsets import Source
 
 
@@ -46,6 +47,10 @@ class Format(Protocol):
         """Return the tree of the one action of a stretch; None where there is something else."""
 
     @staticmethod
+    def plainly(whole: Source, item: Item) -> Plainly | None:
+        """Return what a stretch says, where that is plain to see."""
+
+    @staticmethod
     def words(text: str) -> list[str]:
         """Return what the form of an action shows in: the same for those that are alike."""
 
@@ -70,18 +75,28 @@ def actions(written: Format, whole: Source, around: Reader) -> tuple[Action, ...
 
 
 def _read(written: Format, whole: Source, item: Item, reader: Reader) -> Action | None:
-    """Return an action in the ordinary way; learn its form if there have been some of it."""
+    """Return an action of a form that is not known, straight or in the ordinary way; that teaches it in time."""
+    plainly = written.plainly(whole, item)
+    action = None if plainly is None else straight(plainly, reader)
+    words = written.words(whole.text[item.begin : item.end]) if plainly is None else plainly.words
+    worth = written.FORMS.worth((item.beginning, *words), LONG if action is None else 1)
+    if action is not None and not worth:
+        return action
     tree = written.tree(whole, item, reader)
     if not isinstance(tree, Keyed) or any(model_of(spelled(name)) is None for name in tree):
         return None
     action = action_in(tree, reader)
     if action is None or action.faulty or len(reader.problems):
         return None
-    words = written.words(whole.text[item.begin : item.end])
-    if written.FORMS.worth((item.beginning, *words)):
-        try:
-            form = learned(tree, action, whole, item.begin, item.end, written.MANNER)
-        except UnlikeError:
-            return action
-        written.FORMS.keep(item.beginning, form)
+    if worth:
+        _learn(written, whole, item, tree, action)
     return action
+
+
+def _learn(written: Format, whole: Source, item: Item, tree: Keyed, action: Action) -> None:
+    # Here, because few files have so many of one form that it pays.
+    from orchestra.load.alike.casting import learned  # noqa: PLC0415
+
+    with suppress(UnlikeError):
+        form = learned(tree, action, whole, item.begin, item.end, written.MANNER)
+        written.FORMS.keep(item.beginning, form)

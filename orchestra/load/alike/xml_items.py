@@ -5,13 +5,14 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.load.alike.casting import Manner
-from orchestra.load.alike.learned import Forms
+from orchestra.load.alike.learned import Forms, Manner
 from orchestra.load.alike.one_by_one import Item
+from orchestra.load.alike.xml_tags import scanned
 from orchestra.load.xml_file import tree_of_action
 from orchestra.load.xml_parser import NotXmlError, parse
 
 if TYPE_CHECKING:
+    from orchestra.load.alike.straight import Plainly
     from orchestra.load.offsets import Source
     from orchestra.load.reader import Reader
 
@@ -63,6 +64,11 @@ def tree(whole: Source, item: Item, reader: Reader) -> Any | None:  # noqa: ANN4
     except NotXmlError:
         return None
     return tree_of_action(element, whole, reader)
+
+
+def plainly(whole: Source, item: Item) -> Plainly | None:
+    """Return what an element says, tag by tag."""
+    return scanned(whole, item.begin, item.end)
 
 
 def words(text: str) -> list[str]:

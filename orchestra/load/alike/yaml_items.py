@@ -10,12 +10,13 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.load.alike.casting import Manner
-from orchestra.load.alike.learned import Forms
+from orchestra.load.alike.learned import Forms, Manner
 from orchestra.load.alike.one_by_one import Item
+from orchestra.load.alike.yaml_lines import scanned
 from orchestra.load.yaml_plain import read_part
 
 if TYPE_CHECKING:
+    from orchestra.load.alike.straight import Plainly
     from orchestra.load.offsets import Source
     from orchestra.load.reader import Reader
 
@@ -67,6 +68,11 @@ def tree(whole: Source, item: Item, reader: Reader) -> Any | None:  # noqa: ANN4
     del reader
     listed = read_part(whole, item.begin, item.end, _DEPTH)
     return listed[0] if isinstance(listed, list) and len(listed) == 1 else None
+
+
+def plainly(whole: Source, item: Item) -> Plainly | None:
+    """Return what an item says, line by line."""
+    return scanned(whole, item.begin, item.end)
 
 
 def words(text: str) -> list[str]:
