@@ -34,7 +34,7 @@ def parser() -> CommandParser:
     made.add_argument("file", metavar="FILE", help="the launch file")
     made.add_argument("--to", choices=LANGUAGES, required=True, help="the language to write")
     made.add_argument(
-        "--output", default=_STREAM, metavar="FILE", help="where to write (default: -, standard output)"
+        "-o", "--output", default=_STREAM, metavar="FILE", help="where to write (default: -, standard output)"
     )
     made.add_argument("--force", action="store_true", help="write over a file that is there")
     made.add_argument(

@@ -41,7 +41,9 @@ def parser() -> CommandParser:
         help="which one (default: launch)",
     )
     made.add_argument("node", nargs="?", metavar="NODE", help="with capture: the full name of the node")
-    made.add_argument("--output", metavar="FILE", help="with capture: where to write it (default: print it)")
+    made.add_argument(
+        "-o", "--output", metavar="FILE", help="with capture: where to write it (default: print it)"
+    )
     made.add_argument("--format", choices=_FORMATS, help="with capture: how (default: json, or as FILE ends)")
     made.add_argument(
         "--interfaces", metavar="FILE", help="with capture: write the interfaces of the node there"

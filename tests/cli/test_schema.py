@@ -164,8 +164,10 @@ def test_problems_fulfil_their_schema(orchestra: Command, folder: Path) -> None:
     problems = json.loads(orchestra("check", "bad.launch.yaml", "--format", "json").stdout)
     assert len(problems) == 2
     assert [_faults("problem", problem) for problem in problems] == [[], []]
-    assert _faults("problem", {**problems[0], "severity": "fatal"})
-    assert _faults("problem", {**problems[0], "line": 0})
+    assert [_faults("problem", report) for report in (problems, [])] == [[], []]
+    for wrong in ({"severity": "fatal"}, {"line": 0}):
+        assert _faults("problem", {**problems[0], **wrong})
+        assert _faults("problem", [problems[1], {**problems[0], **wrong}])
 
 
 def test_events_of_a_run_fulfil_their_schema(orchestra: Command, everything: str, home: Path) -> None:
@@ -317,6 +319,8 @@ _PARAMETERS = [
     ("/n: {ros__parameters: {a: [x, 1]}}", "/n: {ros__parameters: {a: [], c: [x, '1']}}"),
     ("ros__parameters: {a: 1}", "/*/n: {ros__parameters: {use_sim_time: true, 1: 2, a.b: 3}}"),
     ("- a", "/ns/n: {ros__parameters: {a: $(var x), b: [$(var y), 1]}}"),
+    ("$(var n): {a: 1}", "'$(var ns)/n': {ros__parameters: {a: 1}}"),
+    ("/ns: {$(var n): 1}", "/ns: {'n_$(var m)/sub': {ros__parameters: {}}}"),
 ]
 
 

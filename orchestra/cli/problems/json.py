@@ -1,4 +1,4 @@
-"""Problems as a JSON list; `schemas/problem.schema.json` describes an element."""
+"""Problems as a JSON list; `schemas/problem.schema.json` describes it."""
 
 from __future__ import annotations
 

@@ -14,6 +14,8 @@ from orchestra.cli.schemas.records import DIALECT, Schema
 
 _PART: Final = r"(\*\*?|[A-Za-z_][A-Za-z0-9_]*)"
 _NODE: Final = rf"^(?!ros__parameters)/?{_PART}(/{_PART})*$"
+# Files may be read with `allow_substs`: what their names come to is known then.
+_WITH_SUBSTITUTION: Final = r"^(?!ros__parameters$).*\$\("
 _NAME: Final = "^."
 
 # What rcl reads as a boolean or a number and YAML 1.2 as a text; and what a launch file may put in its place.
@@ -39,7 +41,7 @@ def parameters_schema() -> Schema:
         "title": "Parameter file",
         "description": "Parameters of ROS 2 nodes: names of nodes, below each `ros__parameters` and its parameters.",
         "type": ["object", "null"],
-        "patternProperties": {_NODE: {"$ref": "#/$defs/Node"}},
+        "patternProperties": _nodes(),
         "additionalProperties": False,
         "$defs": {
             "List": _list(),
@@ -59,9 +61,13 @@ def _node() -> Schema:
         "type": "object",
         "minProperties": 1,
         "properties": {"ros__parameters": {"$ref": "#/$defs/Parameters"}},
-        "patternProperties": {_NODE: {"$ref": "#/$defs/Node"}},
+        "patternProperties": _nodes(),
         "additionalProperties": False,
     }
+
+
+def _nodes() -> Schema:
+    return {name: {"$ref": "#/$defs/Node"} for name in (_NODE, _WITH_SUBSTITUTION)}
 
 
 def _parameters() -> Schema:

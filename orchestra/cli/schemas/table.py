@@ -58,6 +58,18 @@ def _explanation() -> dict[str, Any]:
     }
 
 
+def _problem() -> dict[str, Any]:
+    listed = record_schema(tuple[Problem, ...])
+    one = {"$ref": "#/$defs/Problem"}
+    return {
+        "$schema": listed["$schema"],
+        "title": "Problem report",
+        "description": "What `orchestra check --format json` prints, a list of problems; or one of them.",
+        "anyOf": [{"type": "array", "items": one}, one],
+        "$defs": listed["$defs"],
+    }
+
+
 SCHEMAS: Final[dict[str, Callable[[], dict[str, Any]]]] = {
     "launch": _launch,
     "params": parameters_schema,
@@ -65,7 +77,7 @@ SCHEMAS: Final[dict[str, Callable[[], dict[str, Any]]]] = {
     "difference": _difference,
     "explanation": _explanation,
     "event": lambda: record_schema(Event),
-    "problem": lambda: record_schema(Problem),
+    "problem": _problem,
 }
 
 
