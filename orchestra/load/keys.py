@@ -123,7 +123,7 @@ def _near(key: str, free: frozenset[str], known: frozenset[str], mapping: Keyed)
         alike = free & mapping.elements if key in mapping.elements else free - mapping.elements
         again = {name for name in mapping.elements if isinstance(mapping.get(name), Listed)} - {key}
         near, slip = key_meant(key, alike | (again & known if key in mapping.elements else frozenset()))
-        if slip:
+        if slip or (near is not None and key in mapping.elements):
             return near, slip
     return key_meant(key, free)
 

@@ -2,7 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Final
+
 from orchestra.description.fields import FALSE_WORDS, TRUE_WORDS
+
+# What upstream takes for a condition, in lower case.
+CONDITION_WORDS: Final = frozenset({"true", "false", "1", "0"})
 
 
 def boolean(text: str) -> bool | None:

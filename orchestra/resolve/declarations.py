@@ -12,6 +12,7 @@ from orchestra.errors import Code
 from orchestra.location import is_python
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import Value
+from orchestra.resolve.mentions import glimpse
 
 if TYPE_CHECKING:
     from collections.abc import Collection
@@ -27,26 +28,22 @@ def declare(action: Arg, name: str, choices: Collection[str] | None, run: Resolu
     One that is none of the `choices` is a mistake of its own. Code in Python puts lists of declarations together, of
     which the first counts.
     """
-    text = action.default.constant if action.default is not None else None
     variable = run.scope.variables.get(name)
-    if (
-        action.default is None
-        or text is None
-        or variable is None
-        or (choices is not None and text not in choices)
-    ):
+    if variable is None or action.default is None:
         return
-    before, here = variable.settled, run.at(action.default.span)
-    if is_python(here):
-        return
+    before, here = variable.settled, run.at(action.name.span)
     if before is None or before.span.file != here.span.file or before.included_from != here.included_from:
         return
-    if (
-        variable.leaked_from is None
-        and isinstance(variable.value, Value)
-        and not _same(variable.value.text, text)
-    ):
-        message = f"this default of '{name}' never counts: it has a value before"
+    if is_python(here) or variable.leaked_from is not None or not isinstance(variable.value, Value):
+        return
+    default = glimpse(action.default, run.context, run.scope.variables)
+    if default is None or (choices is not None and default.text not in choices):
+        return
+    known = run.found.arguments.get(name)
+    if known is not None and known.default == action.default.raw:
+        return  # whoever gives another value gives it for both
+    if not _same(variable.value.text, default.text):
+        message = f"the default of '{name}' never counts: it has a value before"
         run.problems.warning(Code.SHADOWED_ARGUMENT, message, here, notes=(f"it is set at {before}",))
 
 

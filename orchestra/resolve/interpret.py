@@ -11,10 +11,11 @@ from orchestra.errors import Code
 from orchestra.fields import replace
 from orchestra.location import is_python
 from orchestra.nearest import nearest
-from orchestra.resolve.booleans import boolean
+from orchestra.resolve.booleans import CONDITION_WORDS, boolean
 from orchestra.resolve.context import Value
 from orchestra.resolve.impossible.comparisons import check_comparisons
 from orchestra.resolve.impossible.contradictions import check_contradiction, held
+from orchestra.resolve.impossible.late_settings import check_late_in_file
 from orchestra.resolve.mentions import hidden, words_in
 from orchestra.resolve.model import ResolvedSkip
 from orchestra.resolve.refusals import refuse_value
@@ -111,6 +112,8 @@ def visit_file(description: Description, run: Resolution) -> None:
         message = f"{description.file} is deprecated: {description.deprecated.constant}"
         run.problems.warning(Code.DEPRECATED, message, at)
     visit(description.actions, run)
+    if len(run.frames) == 1:
+        check_late_in_file(description.actions, run)
     if description.foreign:
         from orchestra.resolve.foreign import warn_of_foreign  # noqa: PLC0415 - few files have anything of it
 
@@ -136,6 +139,11 @@ def wanted(action: Conditional, word: str, run: Resolution) -> bool:
     value = run.evaluate(template)
     holds = boolean(value.text) if isinstance(value, Value) else None
     if isinstance(value, Value):
+        if holds is not None and value.text not in CONDITION_WORDS:
+            # Here, because only what ROS 2 would refuse needs it.
+            from orchestra.resolve.impossible.words import check_word  # noqa: PLC0415
+
+            check_word(value, run, holds=holds)
         check_comparisons(template, run)
         if "equals " in template.raw and not is_python(action.span):
             from orchestra.resolve.impossible.bare_names import check_bare_names  # noqa: PLC0415 - few conditions compare

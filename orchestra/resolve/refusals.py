@@ -63,7 +63,7 @@ def refuse_value(
     A value that came through variables is hardly anything but a slip where something near it was meant: then the place
     is that where it was written; else that where it is used, with a note where it was set.
     """
-    origin = value.location if value.verbatim else _origin(value) or set_by_code(value)
+    origin = value.location if value.verbatim else written_at(value) or set_by_code(value)
     if meant is not None and origin is not None:
         used = () if value.verbatim else (f"it is used at {value.location}",)
         forget_surprise(origin.span, problems)
@@ -77,7 +77,7 @@ def refuse_value(
     return POISON
 
 
-def _origin(value: Value) -> Location | None:
+def written_at(value: Value) -> Location | None:
     """Return where a value was written that came through variables as it is, None where it was made of parts."""
     reads = value.through
     while len(reads) == 1 and reads[0].kind == "variable" and reads[0].value == value.text:

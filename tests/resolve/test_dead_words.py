@@ -8,6 +8,7 @@ import pytest
 
 from orchestra.errors import Code
 from tests.plan.checks.told import Told, node, told
+from tests.resolve.launching import outcome
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -29,11 +30,11 @@ DEAD: dict[str, tuple[str, list[Told]]] = {
     # Arguments.
     "an argument declared twice": (
         "- arg: {name: x, default: 1}\n- arg: {name: x, default: 2}\n",
-        [(Code.SHADOWED_ARGUMENT, "2", None)],
+        [(Code.SHADOWED_ARGUMENT, "x", None)],
     ),
     "an argument that is set before": (
         "- let: {name: x, value: 1}\n- arg: {name: x, default: 2}\n",
-        [(Code.SHADOWED_ARGUMENT, "2", None)],
+        [(Code.SHADOWED_ARGUMENT, "x", None)],
     ),
     # Comparisons.
     "a value that is no choice": (
@@ -148,6 +149,16 @@ ALIVE: dict[str, str] = {
     "what is required and may end": node("a", restart="on-failure", required="true"),
     "a remap by an argument": "- arg: {name: t, default: scan}\n"
     + node("a", remap="[{from: scan, to: $(var t)}]"),
+    "settings behind what no setting counts for": "- group:\n    children:\n    - executable: {cmd: sleep}\n"
+    "    - push_ros_namespace: {namespace: a}\n    - set_parameter: {name: a, value: b}\n",
+    "settings that end with no group": "- group:\n    scoped: false\n    children:\n    "
+    + node("a")
+    + "    - push_ros_namespace: {namespace: a}\n"
+    + node("b"),
+    "settings for what comes later": "- timer:\n    period: 1.0\n    children:\n    "
+    + node("a")
+    + "- set_parameter: {name: use_sim_time, value: true}\n",
+    "nothing but settings": "- group:\n    children:\n    - set_env: {name: A, value: b}\n",
     "the ends of signals": node("a", success_exit_codes="[0, 130, -15]"),
 }
 
@@ -158,6 +169,13 @@ def test_what_may_count_is_left_alone(case: str, tmp_path: Path) -> None:
 
 
 INNER = "launch:\n- arg: {name: x, default: 1}\n- log: {message: $(var x)}\n"
+
+
+def test_what_the_caller_gives_is_no_mistake_of_the_file(tmp_path: Path) -> None:
+    twice = 2 * "- arg: {name: x, default: 'true'}\n"
+    file = f"launch:\n{twice}{_say('if: $(var x)')}{_say('if: $(env QQ_Y)')}"
+    assert outcome(tmp_path, file, "x:=yes", environment={"QQ_Y": "on"}).messages == ["hi", "hi"]
+    assert outcome(tmp_path, file, "x:=yes", environment={"QQ_Y": "on"}).faults == []
 
 
 def test_an_argument_that_an_include_gives_twice(tmp_path: Path) -> None:

@@ -2,7 +2,8 @@
 
 Files that are shared have sections for nodes that a description does not start: such are left alone. A mistake is a
 section that stands where one for a node is missing: the only one of a file, one for the same name in another
-namespace, one whose name is that of the node mistyped. What is missing without any such is told at the reference.
+namespace, one whose name is that of the node mistyped, with its words in another order or without `node`, or that of
+the node's program. What is missing without any such is told at the reference.
 """
 
 from __future__ import annotations
@@ -31,15 +32,20 @@ if TYPE_CHECKING:
 
 
 _MOST = 100
+_ANY_NODE = frozenset({"node", "ros", "ros2"})  # words that a name has or has not
 _MADE = "${run}/"  # what code of a launch file has written is nothing to show
 
 
 @dataclass(slots=True)
 class _File:
-    """A parameter file and the nodes that it is given to, by their full names; `open`: one has no known name."""
+    """A parameter file and the nodes that it is given to, by their full names; `open`: one has no known name.
+
+    `programs` are the packages and executables of those that are processes.
+    """
 
     source: FileParameters
     users: dict[str, Location] = field(default_factory=dict)
+    programs: dict[str, tuple[str | None, str]] = field(default_factory=dict)
     open: bool = False
 
 
@@ -95,6 +101,8 @@ def _files(nodes: Sequence[_Node]) -> list[_File]:
                 file.open = True
             else:
                 file.users.setdefault(name, source.location)
+                if isinstance(node, ResolvedProcess):
+                    file.programs.setdefault(name, (node.package, node.executable))
     return list(files.values())
 
 
@@ -119,6 +127,8 @@ def _check(file: _File, names: _Names, resolved: Resolved, problems: Problems, t
             continue
         served = index.has_wildcard_for(name)
         meant = _meant(name, idle, served=served, resolved=resolved) if idle and not file.open else None
+        if meant is None and idle and not served and not file.open:
+            meant = _renamed(name, file.programs.get(name, ()), idle)
         if meant is not None:
             _report(meant, name, _instead(meant, name), file.users[name], problems, told)
         elif not served:
@@ -148,6 +158,27 @@ def _meant(
             if _absolute(section.pattern).rpartition("/")[0] in ("", "/**", namespace):
                 return section
     return None
+
+
+def _renamed(
+    name: str, programs: Sequence[str | None], idle: Mapping[str, Sequence[Section]]
+) -> Section | None:
+    """Return the one section whose name has the words of a node's, or is that of its program; None for several."""
+    namespace, _, own = name.rpartition("/")
+    words = _words(own)
+    found = [
+        section
+        for last, sections in idle.items()
+        if len(idle) <= _MOST and (last in programs or _words(last) == words)
+        for section in sections
+        if _absolute(section.pattern).rpartition("/")[0] in ("", "/**", namespace)
+    ]
+    return found[0] if len(found) == 1 else None
+
+
+def _words(name: str) -> list[str]:
+    words = sorted(name.lower().split("_"))
+    return [word for word in words if word not in _ANY_NODE] or words
 
 
 def _instead(section: Section, name: str) -> str | None:

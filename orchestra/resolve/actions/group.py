@@ -5,6 +5,7 @@ from __future__ import annotations
 from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
+from orchestra.resolve.impossible.late_settings import check_late
 from orchestra.resolve.kept import kept
 from orchestra.resolve.repetition import repeated
 from orchestra.resolve.scope import Scope
@@ -29,6 +30,7 @@ def visit(action: Group, run: Resolution) -> None:
 def _scope(action: Group, run: Resolution) -> AbstractContextManager[None]:
     if run.flag(action.scoped, default=True) is False:
         return nullcontext()
+    check_late(action.children, run)
     if run.flag(action.forwarding, default=True) is False:
         return run.scoped(Scope(run.problems, run.scope.ledger, dict(run.inputs.environment)))
     return run.scope.nested()

@@ -11,6 +11,7 @@ from typing import TypeAlias
 
 from orchestra.description.text import Call, Template
 from orchestra.errors import Code
+from orchestra.location import Span
 from orchestra.resolve.booleans import boolean
 from orchestra.resolve.context import Context, Evaluated, Poison, Value, new_value
 from orchestra.resolve.refusals import refuse
@@ -24,6 +25,12 @@ def texts(call: Call, context: Context, evaluate: Evaluate) -> tuple[str, ...] |
     values = [evaluate(argument, context) for argument in call.arguments]
     found = tuple(value.text for value in values if isinstance(value, Value))
     return found if len(found) == len(values) else None
+
+
+def span_of_arguments(call: Call) -> Span:
+    """Return the place of all arguments together."""
+    first, last = call.arguments[0].span, call.arguments[-1].span
+    return Span(first.file, first.line, first.column, last.end_line, last.end_column)
 
 
 def made(call: Call, context: Context, text: str) -> Value:

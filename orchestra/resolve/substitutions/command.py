@@ -8,9 +8,11 @@ from orchestra.errors import Code
 from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON, Value
 from orchestra.resolve.refusals import refuse
-from orchestra.resolve.substitutions.arguments import made
+from orchestra.resolve.substitutions.arguments import made, span_of_arguments
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from orchestra.description.text import Call
     from orchestra.resolve.context import CommandResult, Context, Evaluated
     from orchestra.resolve.substitutions.arguments import Evaluate
@@ -26,18 +28,16 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
     that pass, `capture` appends it to the output. Upstream keeps the line break.
     """
     values = [evaluate(argument, context) for argument in call.arguments]
-    words = [value for value in values if isinstance(value, Value)]
-    if len(words) < len(values):
-        if values[0] is POISON:
-            # Here, because only what is missing needs it.
-            from orchestra.resolve.faulty_commands import look_at_files  # noqa: PLC0415
-
-            look_at_files(call.arguments[0], context, evaluate)
+    on_stderr = _on_stderr(call, values, context)
+    if on_stderr is None:
         return POISON
-    command, on_stderr = words[0].text, words[1].text if len(words) > 1 else "fail"
-    if on_stderr not in _ON_STDERR:
-        told = f"on_stderr is one of {', '.join(_ON_STDERR)}, not {on_stderr!r}"
-        return refuse(call.arguments[1], context, Code.BAD_VALUE, told, meant=nearest(on_stderr, _ON_STDERR))
+    if not isinstance(values[0], Value):
+        # Here, because only what is missing needs it.
+        from orchestra.resolve.faulty_commands import look_at_files  # noqa: PLC0415
+
+        look_at_files(call.arguments[0], context, evaluate)
+        return POISON
+    command = values[0].text
     import shlex  # noqa: PLC0415 - slow, and few launch files run commands
 
     try:
@@ -55,7 +55,7 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
         from orchestra.resolve.faulty_commands import explained  # noqa: PLC0415
 
         started = result.failure is None or not result.failure.startswith("cannot be started")
-        if explained(argv, call.arguments[0], words[0], context, started=started):
+        if explained(argv, call.arguments[0], values[0], context, started=started):
             return POISON
         told, notes = f"command {argv[0]!r} {fault}", _notes(argv, result)
         context.problems.error(Code.COMMAND_FAILED, told, context.at(call.span), notes=notes)
@@ -65,6 +65,28 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
         context.problems.warning(Code.COMMAND_FAILED, told, context.at(call.span), notes=notes)
     output = result.stdout + result.stderr if on_stderr == "capture" else result.stdout
     return made(call, context, output.removesuffix("\n"))
+
+
+def _on_stderr(call: Call, values: Sequence[Evaluated], context: Context) -> str | None:
+    """Return what becomes of standard error; None where that cannot be told, which is reported."""
+    if len(values) == 1:
+        return "fail"
+    word = values[1]
+    if not isinstance(word, Value):
+        return None
+    if word.text in _ON_STDERR:
+        return word.text
+    first, second = call.arguments
+    near = nearest(word.text, _ON_STDERR)
+    if near is not None or first.quoted:
+        told = f"on_stderr is one of {', '.join(_ON_STDERR)}, not {word.text!r}"
+        refuse(second, context, Code.BAD_VALUE, told, meant=near)
+    else:
+        told = "the words of a command are one argument: they need quotes"
+        whole, at = f"{first.raw} {second.raw}", context.at(span_of_arguments(call))
+        quote = "'" if "'" not in whole else '"'
+        context.problems.error(Code.SUBSTITUTION_SYNTAX, told, at, suggestion=f"{quote}{whole}{quote}")
+    return None
 
 
 def _fault(result: CommandResult, on_stderr: str) -> str | None:

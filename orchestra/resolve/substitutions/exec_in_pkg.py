@@ -7,11 +7,11 @@ from typing import TYPE_CHECKING
 from orchestra.errors import Code
 from orchestra.resolve.context import POISON
 from orchestra.resolve.refusals import refuse, report_missing_executable, report_missing_package
-from orchestra.resolve.substitutions.arguments import made, texts
+from orchestra.resolve.substitutions.arguments import made, span_of_arguments, texts
 
 if TYPE_CHECKING:
     from orchestra.description.text import Call
-    from orchestra.resolve.context import Context, Evaluated
+    from orchestra.resolve.context import Context, Evaluated, Poison
     from orchestra.resolve.substitutions.arguments import Evaluate
 
 
@@ -23,6 +23,8 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
     executable, package = words
     written, written_package = call.arguments
     if context.packages.prefix(package) is None:
+        if package in context.packages.executables(executable):
+            return _refuse_swapped(call, executable, context)
         return report_missing_package(package, written_package, context)
     match context.packages.executable(package, executable):
         case None:
@@ -35,3 +37,13 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
             )
             notes = (f"they are {' '.join(command)}", "a node action can start it")
             return refuse(written, context, Code.MISSING_EXECUTABLE, told, notes=notes)
+
+
+def _refuse_swapped(call: Call, package: str, context: Context) -> Poison:
+    """Report a package that stands before its executable, as it does everywhere else."""
+    first, last = call.arguments
+    told = f"{package!r} is a package: its executable stands before it here"
+    instead = None if first.quoted or last.quoted else f"{last.raw} {first.raw}"
+    at = context.at(span_of_arguments(call))
+    context.problems.error(Code.MISSING_PACKAGE, told, at, suggestion=instead)
+    return POISON

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from hypothesis import HealthCheck, given, settings
 
@@ -25,6 +25,16 @@ _NEVER = {
     Code.NEVER_READY,
     Code.MISSING_EXECUTABLE,
 }
+_LAST: Actions = [{"node": {"exec": "sleep"}}]
+
+
+def _followed(actions: Actions) -> Actions:
+    """Return actions with a node behind all others, so that each setting counts for something."""
+    return [{name: _with_node(content) for name, content in action.items()} for action in actions] + _LAST
+
+
+def _with_node(content: dict[str, Any]) -> dict[str, Any]:
+    return {**content, "children": _followed(content["children"])} if "children" in content else content
 
 
 @given(descriptions, inner_actions)
@@ -34,7 +44,7 @@ _NEVER = {
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],
 )
 def test_what_has_no_mistake_is_left_alone(tmp_path: Path, written: Actions, inner: Actions) -> None:
-    for name, content in (("main.launch.yaml", written), ("inner.launch.yaml", inner)):
+    for name, content in (("main.launch.yaml", _followed(written)), ("inner.launch.yaml", inner)):
         (tmp_path / name).write_text(json.dumps({"launch": content}), "utf-8")
     problems = Problems()
     collect(str(tmp_path / "main.launch.yaml"), inputs_from([], environment={"PATH": "/bin"}), problems)

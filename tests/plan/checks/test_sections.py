@@ -72,6 +72,21 @@ MISSED: dict[str, tuple[str, str, list[Told]]] = {
         _section("/**") + _section("talker"),
         [(_CODE, "talker", "/**/talker")],
     ),
+    "its words in another order": (
+        node("ekf_node_map", param=_FILE) + node("ekf_node_odom", param=_FILE),
+        _section("ekf_node_odom") + _section("ekf_map_node"),
+        [(_CODE, "ekf_map_node", "ekf_node_map")],
+    ),
+    "without the word node": (
+        node("joy_node", param=_FILE) + node("teleop", param=_FILE),
+        _section("joy") + _section("teleop"),
+        [(_CODE, "joy", "joy_node")],
+    ),
+    "named after the program": (
+        node("camera", param=_FILE) + node("teleop", param=_FILE),
+        _section("/sleep") + _section("teleop"),
+        [(_CODE, "/sleep", "/camera")],
+    ),
     "nothing near among several": (
         node("camera", param=_FILE),
         _section("usb_cam") + _section("lidar"),
@@ -121,6 +136,14 @@ FINE: dict[str, tuple[str, str]] = {
     "near names that belong together": (
         node("front_lidar", param=_FILE) + node("camera1", param=_FILE),
         _section("/**") + _section("rear_lidar") + _section("camera2") + _section("camera_l"),
+    ),
+    "two sections with the same words": (
+        node("joy_node", param=_FILE) + node("teleop", param=_FILE),
+        _section("joy") + _section("joy_ros") + _section("teleop"),
+    ),
+    "the program's name beside a wildcard": (
+        node("camera", param=_FILE),
+        _section("/**") + _section("sleep"),
     ),
     "a node whose name is not known": (
         "- node: {exec: sleep, param: [{from: p.yaml}]}\n",

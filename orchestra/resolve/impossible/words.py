@@ -1,0 +1,48 @@
+"""Words that are read as true or false here, as in parameters, and that ROS 2 refuses in a condition."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from orchestra.errors import Code
+from orchestra.resolve.booleans import CONDITION_WORDS
+from orchestra.resolve.command_line import COMMAND_LINE
+from orchestra.resolve.refusals import forget_surprise, written_at
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Iterator
+
+    from orchestra.resolve.context import Read, Value
+    from orchestra.resolve.resolution import Resolution
+
+
+def check_word(value: Value, run: Resolution, *, holds: bool) -> None:
+    """Tell that `yes` and its like are no condition elsewhere; what the caller gives is nothing to mend in a file."""
+    if value.text.strip().lower() in CONDITION_WORDS or any(
+        _is_of_the_caller(read) for read in _all(value.through)
+    ):
+        return
+    at = value.location if value.verbatim else written_at(value)
+    meant = "true" if holds else "false"
+    message = f"'{value.text}' is no condition for ROS 2, which takes true, false, 1 and 0"
+    notes = [] if at is None or at == value.location else [f"it is used at {value.location}"]
+    if at is not None:
+        forget_surprise(at.span, run.problems)
+    else:
+        notes.append(f"did you mean '{meant}'?")
+    suggestion = None if at is None else meant
+    run.problems.warning(
+        Code.BAD_CONDITION, message, at or value.location, suggestion=suggestion, notes=notes
+    )
+
+
+def _is_of_the_caller(read: Read) -> bool:
+    return read.kind == "environment" or (
+        read.location is not None and read.location.span.file == COMMAND_LINE
+    )
+
+
+def _all(reads: Iterable[Read]) -> Iterator[Read]:
+    for read in reads:
+        yield read
+        yield from _all(read.through)
