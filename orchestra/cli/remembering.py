@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import sys
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
@@ -32,7 +32,6 @@ class Memory:
     def __init__(self, kept: Store, name: str) -> None:
         self._store = kept
         self._name = name
-        self._aside = ExitStack()
 
     @contextmanager
     def watching(self) -> Iterator[None]:
@@ -49,7 +48,7 @@ class Memory:
             yield
         finally:
             sys.stdout, sys.stderr = before
-            self._aside.enter_context(watched.aside())  # for good: this process does nothing else
+            watched.rest()
 
     def keep(self, document: bytes, told: str) -> Callable[[], None] | None:
         """Return what keeps a plan for later launches; None where that cannot be."""

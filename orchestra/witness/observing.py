@@ -38,7 +38,7 @@ class Observer:
         self.scratch: str | None = None
         self.foreign: set[str] = set()
         self.code: set[str] = set()
-        self._aside = 0  # how many times it is told to record nothing
+        self._aside = self._resting = 0  # how often it is told to record nothing
         self._being_aside = _Aside(self)
         self._seen: dict[str, Signature | None] = {}
         self._parts: set[Record] = set()
@@ -74,6 +74,7 @@ class Observer:
         """Begin a record; `environment` is the one that counts as being outside."""
         self.record, self._seen, self.ran_code, self.certain, self._parts = Record(), {}, False, True, set()
         self._environment, self._paths = environment, set()
+        self._aside, self._resting = self._aside - self._resting, 0
         self._contents.forget()
         self._outside.shorten()
 
@@ -109,6 +110,10 @@ class Observer:
         if part not in self._parts and self.record is not None and not self._aside:
             self._parts.add(part)
             self.record.depend(part)
+
+    def rest(self) -> None:
+        """Record nothing any more, until another record is begun."""
+        self._aside, self._resting = self._aside + 1 - self._resting, 1
 
     def aside(self) -> AbstractContextManager[None]:
         """Record nothing for a while: what is looked at decides nothing, or is recorded in another way."""

@@ -8,6 +8,21 @@ from orchestra.witness.observing import Observer
 from orchestra.witness.origins import OURS
 
 
+def test_after_a_record_nothing_is_recorded_until_another_one_is_begun() -> None:
+    """A check that follows a plan in one process, as tests have it, kept findings that depended on nothing."""
+    watching = Observer()
+    watching.begin({"A": "1", "B": "2"})
+    watching.variable("A")
+    watching.rest()
+    watching.rest()
+    watching.variable("B")
+    assert watching.end().variables == {"A": "1"}
+    watching.begin({"A": "1", "B": "2"})
+    watching.variable("B")
+    assert watching.active
+    assert watching.end().variables == {"B": "2"}
+
+
 def test_bytecode_that_is_written_meanwhile_is_no_code_of_ours() -> None:
     """It has another name until it is complete, which is gone when a plan is kept with what made it."""
     watching = Observer()
