@@ -9,6 +9,7 @@ from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from orchestra.cli.look.finding import Finding
+from orchestra.cli.look.garbage import Garbage
 from orchestra.cli.look.kept import Kept
 from orchestra.cli.look.pool import Lost, Pool
 from orchestra.cli.look.sources import NOWHERE, is_source, shared
@@ -19,6 +20,7 @@ from orchestra.errors import Code, Problem, Problems
 from orchestra.location import displayed, point
 from orchestra.patterns import late
 from orchestra.settings.settle import comments_in, unused
+from orchestra.witness.observing import observer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -130,12 +132,14 @@ class _Looking:
 
     def __init__(self, targets: Sequence[Target], looker: Looker, kept: Kept, scratch: str) -> None:
         self._targets, self._looker, self._kept = targets, looker, kept
+        self._garbage = Garbage()
         looker.watch(os.path.realpath(scratch))
 
     def turn(self, piece: int) -> Done:
         """Return what is found in one of the files."""
         target = self._targets[piece]
         finding, record = self._looker.look(target)
+        self._garbage.left_by(code=observer().ran_code)
         self._kept.keep(target, finding, record)
         return Done(finding.as_data(), last=self._looker.is_spent)
 

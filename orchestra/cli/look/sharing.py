@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Final, NamedTuple
 
 from orchestra.compat.seam import connection, is_connected
 from orchestra.errors import Problems
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from orchestra.witness.record import Record, Signature
 
 
+_MOST: Final = 128  # files: to keep all of a large tree takes longer than to read some of them twice
+
+
 class _Loaded(NamedTuple):
     description: Description
     problems: tuple[Problem, ...]
@@ -29,7 +32,7 @@ class _Loaded(NamedTuple):
 
 
 class SharedLoader:
-    """Loads launch files; what is written in XML or YAML once, however many files include it.
+    """Loads launch files; what is written in XML or YAML once for the files that soon after it include it, too.
 
     `names` gives what a description names. `named` collects that for all that has been loaded since it was cleared.
     """
@@ -51,6 +54,7 @@ class SharedLoader:
             known = self._read(path, ending)
         if known is None:
             return self._load(path, problems, chain, ending)
+        self._keep((path, ending), known)
         observer().depend(known.record)
         self.named |= known.named
         problems.extend(
@@ -74,9 +78,15 @@ class SharedLoader:
             named = set() if description is None else self._names(description)
         if description is None or before is None or _is_extended():
             return None
-        loaded = _Loaded(description, tuple(found), record, before, frozenset(named))
-        self._known[path, ending] = loaded
-        return loaded
+        return _Loaded(description, tuple(found), record, before, frozenset(named))
+
+    def _keep(self, key: tuple[str, str | None], loaded: _Loaded) -> None:
+        """Keep what was used last, and let go of what was not used for longest."""
+        known = self._known
+        known.pop(key, None)
+        known[key] = loaded
+        if len(known) > _MOST:
+            del known[next(iter(known))]
 
 
 def _is_extended() -> bool:
