@@ -6,16 +6,21 @@ from typing import TYPE_CHECKING, Any, Self
 
 from orchestra.compat.described import described
 from orchestra.compat.launch.substitution import Substitution
+from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.performed import Concatenated
 from orchestra.compat.text import normalized
 from orchestra.compat.wrong import WrongType
+from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
 
     from orchestra.compat.place import Step
     from orchestra.compat.text import Sub
+
+# What gives an absolute path without a slash at its end.
+_FOLDERS = frozenset({"dirname", "find-pkg-prefix", "find-pkg-share"})
 
 
 class PathJoinSubstitution(ParsedSubstitution):
@@ -49,8 +54,23 @@ class PathJoinSubstitution(ParsedSubstitution):
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
         return [[item] for item in self.substitutions]
 
+    def _raw(self) -> str:
+        """Return the path as launch files in YAML and XML have it: with slashes, where to join is no more than that."""
+        first, *others = self.substitutions
+        if getattr(first, "_name", None) not in _FOLDERS or not all(map(_follows, others)):
+            return super()._raw()
+        texts = [item.text for item in others if isinstance(item, TextSubstitution)]
+        if any(text[-1] == "/" for text in texts[:-1]):
+            return super()._raw()
+        return "/".join((first._raw(), *map(escaped, texts)))
+
     def _paths(self) -> Sequence[tuple[Step, ...]]:
         return [("substitutions", index) for index in range(len(self.substitutions))]
+
+
+def _follows(item: Substitution) -> bool:
+    """Return whether a component is a text that may as well follow a slash."""
+    return type(item) is TextSubstitution and item.text[:1] not in ("", "/")
 
 
 def _component(item: Sub) -> Substitution:
