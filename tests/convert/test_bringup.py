@@ -13,6 +13,7 @@ import pytest
 from orchestra.convert.converting import convert
 from orchestra.errors import Problems
 from orchestra.formatting.formatted import formatted
+from orchestra.pipeline import collect, inputs_from
 from tests.convert.turning import others, round_trip, same_everywhere, seen, turned
 
 if TYPE_CHECKING:
@@ -114,3 +115,17 @@ def test_what_is_written_has_the_form_that_formatting_gives(language: str, tmp_p
 
 def test_every_language_is_written(tmp_path: Path) -> None:
     assert others(tmp_path / "a.launch.yaml") == ["xml", "python"]
+
+
+def test_a_path_in_a_package_is_told_as_it_was(tmp_path: Path) -> None:
+    """In defaults, and in the name of what a condition leaves out, which is never evaluated."""
+    path, name = tmp_path / "a.launch.yaml", "$(find-pkg-share bringup)/worlds/$(var w)/a b.yaml"
+    told = ["$(find-pkg-share bringup)/worlds/a b.yaml", "$(dirname)/maps/", name]
+    arguments = "".join(f"  - arg: {{name: a{index}, default: {text}}}\n" for index, text in enumerate(told))
+    left_out = "  - include: {if: false, file: $(find-pkg-share gone)/launch/a.yaml}\n"
+    path.write_text(f"launch:\n  - arg: {{name: w, default: maze}}\n{arguments}{left_out}")
+    for file in (path, turned(path, "python", _ENVIRONMENT)):
+        plan = collect(str(file), inputs_from((), environment=_ENVIRONMENT), Problems())
+        assert plan is not None
+        assert [item.default for item in plan.arguments] == ["maze", *told]
+        assert [item.name for item in plan.skipped] == ["$(find-pkg-share gone)/launch/a.yaml"]

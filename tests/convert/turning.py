@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from pathlib import Path
 
 _PLACES = {"location", "provenance", "line", "column", "end_line", "end_column", "problems"}
-_SPELLED = {"expression"}
+_SPELLED = {"default", "expression"}
 
 
 @dataclass(frozen=True)
