@@ -30,7 +30,11 @@ PACKAGES: Final = (
 )
 # Modules of one class each, easily taken for the package of many: `launch.substitution` for `launch.substitutions`.
 _FEW: Final = frozenset(
-    f"launch.{name}" for name in ("action", "condition", "event", "event_handler", "substitution")
+    f"launch.{name}"
+    for name in (
+        *("action", "condition", "event", "event_handler", "launch_description_source"),
+        "substitution",
+    )
 )
 
 

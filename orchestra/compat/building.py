@@ -84,7 +84,8 @@ def condition_fields(condition: Any, span: Span) -> dict[str, Any]:
     """Return the field of a model for a condition. Raises `TypeError` for what is none."""
     if isinstance(condition, Condition):
         return condition._fields(span)
-    if callable(getattr(condition, "evaluate", None)):  # one that derives from nothing, as upstream
+    is_object = not isinstance(condition, type)
+    if is_object and callable(getattr(condition, "evaluate", None)):  # it derives from nothing, as upstream
         return Condition(predicate=condition.evaluate)._fields(span)
     told_so = f"a condition is made by IfCondition or UnlessCondition, this is {told(condition)}"
     raise WrongType(told_so, condition, at=span)

@@ -9,9 +9,10 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.compat.explanation import in_their_words
 from orchestra.compat.given import path_of, value_at, without
 from orchestra.compat.keywords import keyword_meant, parameters_of, shown
-from orchestra.compat.literals import argument, keyword_span
+from orchestra.compat.literals import argument, call_at, keyword_span
 from orchestra.compat.reported import ReportedError
-from orchestra.compat.rewritten import named, rewritten
+from orchestra.compat.rewritten import Rewritten, all_listed, named, rewritten
+from orchestra.compat.syntax_trees import called_by
 from orchestra.compat.wrong import WrongValue
 from orchestra.errors import Code, Problem, Severity
 
@@ -29,6 +30,11 @@ _AMOUNTS: Final = (
     "sigkill_timeout",
     "sigterm_timeout",
 )  # numbers are right in them
+_TRUTHS: Final = ("prepend", "respawn")
+_WORDS: Final = ("cwd", "name", "namespace", "output")  # a truth value is none of them in another form
+_NO_TEXTS: Final = ("condition", "launch_arguments")
+# What takes one list and hardly anything else without its name.
+_TAKE_A_LIST: Final = ("Command", "GroupAction", "LaunchDescription", "PathJoinSubstitution")
 _Parameter = inspect.Parameter
 
 
@@ -49,6 +55,7 @@ class FaultyCall:
         words, named = given
         self.given = (*words, *named.values())
         self.kind = _owner(type(made), constructor)
+        self.name = _public_name(type(made), way[0])
         self.parameters = {item.name: item for item in parameters_of(self.kind)}
         own = list(inspect.signature(constructor).parameters.values())[1:]
         by_place = [item.name for item in own if item.kind is _Parameter.POSITIONAL_OR_KEYWORD]
@@ -85,7 +92,9 @@ class FaultyCall:
         return self._wrong(error)
 
     def _surplus(self, index: int) -> bool:
-        name = self.kind.__name__
+        name = self.name
+        if name in _TAKE_A_LIST:
+            return self._listed()
         message = f"{name} takes {index or 'no'} argument{'s' * (index != 1)} without a name"
         note = f"it is written {name}({shown(self.parameters)})"
         at = self._at((f"*{index}",))
@@ -98,11 +107,23 @@ class FaultyCall:
         self._take_by_order(index)
         return True
 
+    def _listed(self) -> bool:
+        """Take words without a name for the items of the list that is wanted."""
+        name, words = next(iter(self.parameters)), self.given[: len(self.given) - len(self.named) + 1]
+        span, meant = all_listed(self.places[0])
+        message = f"{self.name} takes one list, not {len(words)} arguments"
+        self._tell(Code.WRONG_TYPE, message, span, meant)
+        self.surplus = None
+        self.named[name] = self.original[name] = list(words)
+        return True
+
     def _named(self, index: int, at: Span) -> str | None:
         """Return the only word that is one too many with the name that it lacks, None where it may mean another."""
         left = [name for name in self.parameters if name not in self.named]
         word = self.given[index]
         is_another = word is None or (index > 0 and _is_entity(type(word)))
+        if left and _is_unfit(left[0], word):
+            return None
         if len(self.given) != len(self.named) + 1 or not left or is_another or at == self.places[0].span:
             return None
         return named(self.places[0].file, at, left[0])
@@ -110,15 +131,16 @@ class FaultyCall:
     def _take_by_order(self, index: int) -> None:
         """Give a word without a name that is one too many to the first argument that has to be named."""
         left = [name for name in self.parameters if name not in self.named]
-        if left:
-            self.named[left[0]] = self.given[index]
+        if left and not _is_unfit(left[0], self.given[index]):
+            self.named[left[0]] = self.original[left[0]] = self.given[index]
+            self.told.add((left[0],))  # where it stands as another one is told
 
     def _unknown(self, names: list[str]) -> bool:
         for name in names:
             meant = keyword_meant(name, self.parameters, self.named)
             spans = (keyword_span(place, name) for place in (*self.places, *self.way))
             span = next((span for span in spans if span is not None), None)
-            message = f"{self.kind.__name__} has no argument '{name}'"
+            message = f"{self.name} has no argument '{name}'"
             if span is None:  # it comes out of a mapping that is made elsewhere
                 notes = () if meant is None else (f"did you mean '{meant}'?",)
                 self._tell(Code.UNKNOWN_KEY, message, self.places[0].span, notes=notes)
@@ -132,13 +154,16 @@ class FaultyCall:
 
     def _missing(self, names: list[str]) -> bool:
         if not self.found:
-            message = f"{self.kind.__name__} needs {' and '.join(names)}"
+            message = f"{self.name} needs {' and '.join(names)}"
             self._tell(Code.MISSING_KEY, message, self.places[-1].span)
         self.is_lost = True
         return True
 
     def _wrong(self, error: Exception) -> bool:
         path = path_of(error, self.original, self.told)
+        if path in self.told:
+            self.is_lost = True
+            return True
         if path is None:
             return False
         code = error.code if isinstance(error, WrongValue) else Code.WRONG_TYPE
@@ -146,7 +171,7 @@ class FaultyCall:
         at = self._at(path, whole=suggestion is None and code is not Code.NOT_A_CHOICE)
         message = in_their_words(" ".join(str(error).split()))
         if suggestion is None and path[0] not in _AMOUNTS:
-            suggestion = rewritten(self.places[0].file, at, value_at(path, self.original), message)
+            suggestion = self._rewritten(path, at, message)
         self._tell(code, message, at, suggestion)
         self.told.add(path)
         name = str(path[0])
@@ -155,6 +180,14 @@ class FaultyCall:
         needed = name.startswith("*") or self.parameters[name].default is _Parameter.empty
         self.is_lost = needed and name not in self.named
         return True
+
+    def _rewritten(self, path: tuple[Step, ...], at: Span, message: str) -> str | None:
+        value = value_at(path, self.original)
+        if path[0] in _TRUTHS and isinstance(value, int):
+            return Rewritten(repr(bool(value)))
+        if path[0] in _WORDS and isinstance(value, bool):
+            return None
+        return rewritten(self.places[0].file, at, value, message)
 
     def _at(self, path: tuple[Step, ...], *, whole: bool = True) -> Span:
         """Return where a value stands, or the smallest expression that it comes out of."""
@@ -176,8 +209,21 @@ class FaultyCall:
             self.found.append(Problem(code, Severity.ERROR, message, span, (), suggestion, notes))
 
 
+def _is_unfit(name: str, word: Any) -> bool:
+    """Return whether a word cannot be what an argument of a name is given."""
+    return name in _NO_TEXTS and isinstance(word, str | int | float)
+
+
 def _is_entity(kind: type[Any]) -> bool:
     return callable(getattr(kind, "visit", None))
+
+
+def _public_name(made: type[Any], place: Place) -> str:
+    """Return the name of a class as users know it: as they write it, or of that of ours which theirs derives from."""
+    ours = next(kind for kind in made.__mro__ if kind.__module__.startswith("orchestra.compat."))
+    call = call_at(place)
+    written = None if call is None else called_by(call)
+    return written if written is not None and written.lower() == ours.__name__.lower() else ours.__name__
 
 
 def _owner(made: type[Any], constructor: Callable[..., None]) -> type[Any]:

@@ -3,16 +3,21 @@
 from __future__ import annotations
 
 import re
+from inspect import Parameter, signature
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
+
+from orchestra.compat.forms_of_sets import as_list, as_pair, with_colon
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
 _Form: TypeAlias = "Callable[[str, Any], str | None]"
 _TWO: Final = 2
+_OPEN: Final = (Parameter.VAR_KEYWORD, Parameter.VAR_POSITIONAL)
 _TRUE: Final = frozenset({"1", "on", "t", "true", "y", "yes"})
 _UNTRUE: Final = frozenset({"0", "f", "false", "n", "no", "off"})
+_VARIABLE: Final = re.compile(r"""LaunchConfiguration\((?:variable_name=)?(["']\w+["'])\)""")
 _DECIMAL: Final = re.compile(r"-?\d+(\.\d*)?(e-?\d+)?")
 _PLAIN: Final = re.compile(r"[\w./:=@%+, -]+")
 _CALLED: Final = re.compile(r"([\w.]+)\(.*\)")
@@ -29,12 +34,14 @@ _TAKING: Final = {
 def form_meant(source: str, value: Any, message: str) -> str | None:
     """Return what was meant by an expression that has come to a value; None where a message has no such remedy."""
     if isinstance(value, type) and _is_ours(value) and source.rpartition(".")[2] == value.__name__:
-        return f"{source}()"
+        return f"{source}()" if _needs_nothing(value) else None
     return next((form(source, value) for part, form in _FORMS.items() if part in message), None)
 
 
 def _as_text(source: str, value: Any) -> str | None:
     """Return a number or a truth value as a text of a launch file."""
+    if isinstance(value, set):
+        return as_list(source)
     if type(value) not in (bool, int, float):
         return None
     if source != repr(value):
@@ -77,6 +84,8 @@ def _items(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the othe
 
 def _mapping(source: str, value: Any) -> str | None:
     """Return pairs as a dictionary."""
+    if isinstance(value, set):
+        return with_colon(source)
     try:
         plain = dict(value)
     except (TypeError, ValueError):
@@ -87,6 +96,8 @@ def _mapping(source: str, value: Any) -> str | None:
 
 def _words(source: str, value: Any) -> str | None:
     """Return a text with the words of a command line as a list of them."""
+    if isinstance(value, set):
+        return as_list(source)
     if isinstance(value, str):
         if source[1:-1] == value:
             return repr(value.split()) if _PLAIN.fullmatch(value) else None
@@ -115,6 +126,8 @@ def _remappings(source: str, value: Any) -> str | None:
 
 def _pair(source: str, value: Any) -> str | None:
     """Return a remapping of the command line, or a list of two names, as that of a launch file."""
+    if isinstance(value, set | dict):
+        return as_pair(source)
     if not isinstance(value, str):
         is_list = isinstance(value, list) and len(value) == _TWO and source[:1] + source[-1:] == "[]"
         return f"({source[1:-1]})" if is_list else None
@@ -129,7 +142,54 @@ def _one_of_many(source: str, value: Any) -> str:
 
 
 def _parameters(source: str, value: Any) -> str | None:
-    return None if isinstance(value, tuple) else _one_of_many(source, value)
+    """Return parameters as a list of dictionaries and files."""
+    if isinstance(value, tuple):
+        return _brackets(source)
+    return _one_of_many(source, value)
+
+
+def _brackets(source: str) -> str:
+    """Return a tuple as a list."""
+    if source[:1] + source[-1:] == "()":
+        return f"[{source[1:-1].strip().removesuffix(',')}]"
+    return f"list({source})"
+
+
+def _listed(source: str, value: Any) -> str | None:
+    """Return the words that are a text or a tuple as a list."""
+    return _brackets(source) if isinstance(value, tuple) else _words(source, value)
+
+
+def _choices(source: str, value: Any) -> str | None:
+    """Return a text with choices as a list of them."""
+    return repr(re.split(r"[\s,|/]+", value.strip())) if source[1:-1] == value else None
+
+
+def _pairs(source: str, value: Any) -> str | None:
+    """Return a set of a name and its value as a dictionary."""
+    return with_colon(source) if isinstance(value, set) else None
+
+
+def _pairs_of(source: str, value: Any) -> str | None:
+    """Return the same as the pairs of a dictionary."""
+    made = _pairs(source, value)
+    return None if made is None else f"{made}.items()"
+
+
+def _name_of_variable(source: str, value: Any) -> str | None:
+    """Return the name of the variable that stands in place of the name alone."""
+    found = _VARIABLE.fullmatch(source)
+    return _as_text(source, value) if found is None else found[1]
+
+
+def _ending(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the others
+    """Return the action that is called by a word."""
+    return "Shutdown()" if value == "shutdown" else None
+
+
+def _event(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the others
+    """Return the event that has the name of an action."""
+    return f"launch.events.{source.rpartition('.')[2]}" if source[:1].isupper() else None
 
 
 def _actions(source: str, value: Any) -> str | None:
@@ -166,12 +226,19 @@ def _nothing(source: str, value: Any) -> str | None:
     return "[]" if value is None and source == "None" else None
 
 
+def _needs_nothing(kind: type[Any]) -> bool:
+    """Return whether objects of a class can be made without arguments."""
+    parameters = list(signature(kind.__init__).parameters.values())[1:]
+    return not any(item.default is item.empty and item.kind not in _OPEN for item in parameters)
+
+
 def _is_ours(kind: type[Any]) -> bool:
     """Return whether a class is one of the launch language."""
     return kind.__module__.startswith("orchestra.compat.")
 
 
 _FORMS: Final[dict[str, _Form]] = {
+    "the name of a launch argument is a text": _name_of_variable,
     " is a text, this is": _as_text,
     "expected a text": _as_text,
     " is True or False": _as_truth,
@@ -190,6 +257,12 @@ _FORMS: Final[dict[str, _Form]] = {
     "this is one of them: ": _one_of_many,
     "parameters are a list of dictionaries and files, not ": _parameters,
     "'parameters' of a Node is a list, not ": _parameters,
+    "'ros_arguments' of a Node is a list, not ": _listed,
+    "choices of a launch argument are a list": _choices,
+    " are pairs, this is a set": _pairs_of,
+    "this is a set": _pairs,
+    "a list of actions, not 'shutdown'": _ending,
+    "the event is launch.events": _event,
     "a name and its value are expected": _name_and_value,
     "is a list, this is": _actions,
     "are a list, this is": _actions,

@@ -10,13 +10,17 @@ from orchestra.errors import Code, Problem, Severity
 if TYPE_CHECKING:
     from orchestra.compat.place import Place
 
-# By the name of a class, its own or one that it derives from: whoever has such an object has imported it.
-_USES: Final = {
+# By the name of a class, its own or one that it derives from: what takes such an object, and what may help else.
+_TAKERS: Final = {
     "BaseEventHandler": "RegisterEventHandler(...) takes it",
-    "ComposableNode": "ComposableNodeContainer(...) and LoadComposableNodes(...) load it",
+    "ComposableNode": "the composable_node_descriptions of a container take it",
+    "Condition": "the condition of an action is one",
     "Event": "EmitEvent(event=...) takes it",
+    "Substitution": "an action takes it as a text",
     "LaunchDescriptionSource": "IncludeLaunchDescription(...) takes it",
     "function": "OpaqueFunction(function=...) calls it",
+}
+_HELP: Final = {
     "list": "a * before it makes its items part of the list around it",
     "str": "IncludeLaunchDescription(...) includes a launch file",
     "tuple": "a * before it makes its items part of the list around it",
@@ -40,7 +44,7 @@ def refuse_entity(value: Any, place: Place) -> None:
 
 def misplaced(value: Any) -> tuple[str, tuple[str, ...]]:
     """Return what to say of something that is no action: a message, and notes that may help."""
-    uses = (_USES.get(kind.__name__) for kind in type(value).__mro__)
-    return f"an action is expected here, this is {told(value)}", tuple(
-        use for use in uses if use is not None
-    )[:1]
+    kinds = [kind.__name__ for kind in type(value).__mro__]
+    taker = next((f": {_TAKERS[kind]}" for kind in kinds if kind in _TAKERS), "")
+    helping = tuple(_HELP[kind] for kind in kinds if kind in _HELP)
+    return f"an action is expected here, this is {told(value)}{taker}", helping[:1]

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.forms_meant import form_meant
 from orchestra.compat.source_text import text_at
-from orchestra.compat.syntax_trees import node_span, tree_of
+from orchestra.compat.syntax_trees import called_by, node_span, tree_of
 from orchestra.fields import replace
 
 if TYPE_CHECKING:
@@ -43,12 +43,30 @@ def rewritten(file: str, span: Span, value: Any, message: str) -> Rewritten | No
     source = _short(file, span)
     if source is None:
         return None
-    is_pair = isinstance(value, list) or (isinstance(value, str) and ":=" in value)
+    is_pair = isinstance(value, dict | list | set) or (isinstance(value, str) and ":=" in value)
     if "a remapping is a tuple" in message and not is_pair:
         return _apart(file, span, source)
-    meant = form_meant(source, value, message)
+    meant = form_meant(source, value, message) or _loaded(file, source, message)
     is_given = source in _arguments_around(file, span)  # then the mistake may be where the function is called
     return None if meant is None or is_given else Rewritten(meant)
+
+
+def _loaded(file: str, source: str, message: str) -> str | None:
+    """Return the action that loads a component which stands by itself, where the file has one container for it."""
+    tree = tree_of(file) if "composable_node_descriptions" in message else None
+    # Here, because only mistakes need it.
+    import ast  # noqa: PLC0415
+
+    containers = [
+        node.targets[0].id
+        for node in (() if tree is None else tree.nodes)
+        if isinstance(node, ast.Assign)
+        and isinstance(node.targets[0], ast.Name)
+        and called_by(node.value) == "ComposableNodeContainer"
+    ]
+    if len(containers) != 1:
+        return None
+    return f"LoadComposableNodes(target_container={containers[0]}, composable_node_descriptions=[{source}])"
 
 
 def _apart(file: str, span: Span, source: str) -> Rewritten | None:
@@ -62,6 +80,21 @@ def named(file: str, span: Span, name: str) -> Rewritten | None:
     """Return an argument with the name that it lacks."""
     source = _short(file, span)
     return None if source is None else Rewritten(f"{name}={source}")
+
+
+def all_listed(place: Place) -> tuple[Span, Rewritten | None]:
+    """Return where the arguments without a name of a call stand, and the list of them; else the whole call."""
+    # Here, because only mistakes need it.
+    import ast  # noqa: PLC0415
+
+    tree = tree_of(place.file)
+    call = None if tree is None else tree.expression(place.file, place.span)
+    if not isinstance(call, ast.Call) or not call.args:
+        return place.span, None
+    first, last = (node_span(place.file, call.args[index], quotes=True) for index in (0, -1))
+    code = f"[{', '.join(map(ast.unparse, call.args))}]"
+    span = replace(first, end_line=last.end_line, end_column=last.end_column)
+    return span, Rewritten(code) if len(code) <= _MOST else None
 
 
 def last_comma(file: str, span: Span) -> Span | None:

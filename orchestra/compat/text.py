@@ -5,7 +5,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
+from collections.abc import Set as AbstractSet
 from typing import TYPE_CHECKING, Any, TypeAlias
 
 from orchestra.compat.launch.substitution import Substitution
@@ -27,7 +28,7 @@ def normalized(subs: Sub) -> list[Substitution]:
         return [text_of(subs)]
     if isinstance(subs, Substitution):
         return [subs]
-    if type(subs) is not list and not isinstance(subs, Iterable):
+    if type(subs) is not list and (not isinstance(subs, Iterable) or _is_unordered(subs)):
         raise WrongType(_wrong(subs), subs)
     return [item if isinstance(item, Substitution) else _one(item) for item in subs]
 
@@ -57,6 +58,11 @@ def template(subs: Sub, span: Span, *, quoted: bool = False) -> Template:
     if len(parts) == 1:
         span = parts[0].span
     return new_template(parts, raw, span, quoted)
+
+
+def _is_unordered(subs: Any) -> bool:
+    """Return whether several things have no order in which they could be joined, or have names."""
+    return isinstance(subs, Mapping) or (isinstance(subs, AbstractSet) and len(subs) > 1)
 
 
 def _one(item: Any) -> Substitution:

@@ -5,16 +5,17 @@ from __future__ import annotations
 import builtins
 import re
 import sys
-from importlib import import_module
 from pathlib import Path
 from pkgutil import iter_modules
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat.borrowed import PACKAGES, ROOM
+from orchestra.compat.borrowed import ROOM
 from orchestra.compat.explanation import Explanation
 from orchestra.compat.rewritten import arguments_around, in_quotes
 from orchestra.compat.seam import connection
 from orchestra.compat.source_text import word_in
+from orchestra.compat.syntax_trees import tree_of
+from orchestra.compat.whereabouts import class_meant, exporting, importing, package_meant
 from orchestra.errors import HERE
 from orchestra.nearest import is_one_slip, is_slip, nearest
 
@@ -36,15 +37,18 @@ def unbound(error: NameError, frame: FrameType, place: Place) -> Explanation | N
     """Explain a name that nobody has defined or imported."""
     if not error.name:
         return None
-    exporting = _exporting(error.name)
-    meant = None if exporting else _meant(error.name, frame, place)
-    alike = meant is not None and is_slip(error.name, meant) and meant.islower() == error.name.islower()
-    if not exporting and not alike:
-        meant = in_quotes(place, error.name) or meant
-    notes = tuple(f"to have it, write: from {package} import {error.name}" for package in exporting[:1])
-    return Explanation(
-        f"there is no name '{error.name}' here", span=place.span, suggestion=meant, notes=notes
-    )
+    message = f"there is no name '{error.name}' here"
+    meant = None if exporting(error.name) else _meant(error.name, frame, place)
+    if meant is not None and is_slip(error.name, meant) and meant.islower() == error.name.islower():
+        return Explanation(message, span=place.span, suggestion=meant)
+    instead = importing(error.name) or class_meant(error.name) or in_quotes(place, error.name) or meant
+    notes = () if instead is None else _imports(instead)
+    return Explanation(message, span=place.span, suggestion=instead, notes=notes)
+
+
+def _imports(name: str) -> tuple[str, ...]:
+    """Return that a class has to be imported, where it is one of the launch language."""
+    return tuple(f"to have it, write: from {package} import {name}" for package in exporting(name)[:1])
 
 
 def _meant(name: str, frame: FrameType, place: Place) -> str | None:
@@ -81,14 +85,15 @@ def no_attribute(error: AttributeError, place: Place) -> Explanation | None:
 
 def _no_name(name: str, module: ModuleType, place: Place) -> Explanation:
     module_name = module.__name__.removeprefix(f"{ROOM}.")
-    elsewhere = [package for package in _exporting(name) if package != module_name]
+    elsewhere = [package for package in exporting(name) if package != module_name]
     other = word_in(place.file, place.span, module_name)
     if elsewhere and other is not None and is_slip(module_name, elsewhere[0]):
         return Explanation(f"{module_name} has no '{name}'", span=other, suggestion=elsewhere[0])
-    notes = tuple(f"it is in {package}" for package in elsewhere[:1])
-    meant = None if elsewhere else nearest(name, _public(getattr(module, "__all__", dir(module))))
-    span = word_in(place.file, place.span, name)
-    return Explanation(f"{module_name} has no '{name}'", span=span, suggestion=meant, notes=notes)
+    meant = nearest(name, _public(getattr(module, "__all__", dir(module))))
+    span, told = word_in(place.file, place.span, name), f"{module_name} has no '{name}'"
+    if elsewhere:
+        told, meant = f"{told}: it is in {elsewhere[0]}", importing(name)
+    return Explanation(told, span=span, suggestion=meant)
 
 
 def _no_module(name: str, place: Place) -> Explanation:
@@ -101,11 +106,25 @@ def _no_module(name: str, place: Place) -> Explanation:
         return Explanation(f"there is no Python module '{name}' here", span=span, notes=(_BESIDE,))
     if not parent and (meant is None or not (is_one_slip(last, meant) or last == f"{meant}s")):
         meant = _installed(last)
-    full = None if meant is None else f"{parent}.{meant}".lstrip(".")
-    if parent or meant is not None:
+    full = package_meant(name, _imported(name, place)) or (
+        None if meant is None else f"{parent}.{meant}".lstrip(".")
+    )
+    if parent or full is not None:
         return Explanation(f"there is no Python module '{name}' here", span=span, suggestion=full)
     severity, _, _ = connection().missing_package(name)  # modules come with packages
     return Explanation(f"there is no Python module '{name}' {HERE}", span=span, severity=severity)
+
+
+def _imported(module: str, place: Place) -> list[str]:
+    """Return the names that the import at a place is to have from a module."""
+    # Here, because only mistakes need it.
+    import ast  # noqa: PLC0415
+
+    tree = tree_of(place.file)
+    for node in () if tree is None else tree.nodes:
+        if isinstance(node, ast.ImportFrom) and (node.module, node.lineno) == (module, place.span.line):
+            return [item.name for item in node.names]
+    return []
 
 
 def _installed(name: str) -> str | None:
@@ -121,12 +140,6 @@ def _installed(name: str) -> str | None:
 def _is_beside(place: Place, module: str) -> bool:
     folder = Path(place.file).parent
     return (folder / f"{module}.py").is_file() or (folder / module / "__init__.py").is_file()
-
-
-def _exporting(name: str) -> list[str]:
-    """Return the packages of the launch language that export a name."""
-    modules = {package: import_module(f"{ROOM}.{package}") for package in PACKAGES}
-    return [package for package, module in modules.items() if name in getattr(module, "__all__", ())]
 
 
 def _public(names: Iterable[str]) -> list[str]:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from collections.abc import Set as AbstractSet
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.explanation import told
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.place import Key, ValueOf, within
 from orchestra.compat.text import Sub, template
@@ -35,8 +37,10 @@ def optional(value: Any, span: Span) -> Template | None:
 
 def words(given: Any, name: str) -> list[Any]:
     """Return the words of a command line as a list. Raises `TypeError` for one text, which is not taken apart."""
-    if isinstance(given, str | Substitution | Mapping) or not isinstance(given, Iterable):
-        raise TypeError(f"{name} is a list of words, not {given!r}")
+    if isinstance(given, str | Substitution | Mapping | AbstractSet) or not isinstance(given, Iterable):
+        raise TypeError(
+            f"{name} is a list of words, not {told(given) if isinstance(given, AbstractSet) else repr(given)}"
+        )
     return list(given)
 
 
@@ -49,11 +53,11 @@ def _pair(item: tuple[Sub, Sub], span: Span, index: int) -> Pair:
     try:
         name, value = item
     except (TypeError, ValueError):
-        told = f"a name and its value are expected, not {item!r}: ('name', 'value')"
-        raise WrongType(told, item, at=within(span, index)) from None
+        told_so = f"a name and its value are expected, not {item!r}: ('name', 'value')"
+        raise WrongType(told_so, item, at=within(span, index)) from None
     try:
         at, value_at = within(span, Key(index)), within(span, ValueOf(index))
         return Pair.made(span, {"name": template(name, at), "value": template(value, value_at)})
     except TypeError as error:
-        told = f"{name if isinstance(name, str) else 'a name'}: {error}"
-        raise WrongType(told, value, at=within(span, ValueOf(index))) from None
+        told_so = f"{name if isinstance(name, str) else 'a name'}: {error}"
+        raise WrongType(told_so, value, at=within(span, ValueOf(index))) from None

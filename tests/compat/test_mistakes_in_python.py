@@ -104,9 +104,10 @@ _CALLS = {
         note="it is written Node(executable=..., package=...)",
     ),
     "two arguments instead of a list": Mistake(
-        "return LaunchDescription(Node(**TALKER), «Node(**TALKER)»)",
-        "LaunchDescription takes 1 argument without a name",
+        "return LaunchDescription(«Node(**TALKER), Node(**TALKER)»)",
+        "LaunchDescription takes one list, not 2 arguments",
         Code.WRONG_TYPE,
+        suggestion="[Node(**TALKER), Node(**TALKER)]",
     ),
 }
 
@@ -123,8 +124,8 @@ _NAMES = {
     ),
     "a name that is in another package": Mistake(
         "from launch_ros.actions import «ComposableNode»\ndef generate_launch_description(): ...",
-        "launch_ros.actions has no 'ComposableNode'",
-        note="it is in launch_ros.descriptions",
+        "launch_ros.actions has no 'ComposableNode': it is in launch_ros.descriptions",
+        suggestion="from launch_ros.descriptions import ComposableNode",
     ),
     "a module": Mistake(
         "from «launch_ros.action» import Node\ndef generate_launch_description(): ...",
@@ -153,7 +154,7 @@ _NAMES = {
         "from launch import LaunchDescription\ndef generate_launch_description():\n"
         "    return LaunchDescription([«Node»(executable='a')])",
         "there is no name 'Node' here",
-        note="to have it, write: from launch_ros.actions import Node",
+        suggestion="from launch_ros.actions import Node",
     ),
 }
 
@@ -210,20 +211,17 @@ _ENTITIES = {
         "an action is expected here, this is an OnShutdown",
         Code.WRONG_TYPE,
         suggestion="RegisterEventHandler(OnShutdown(on_shutdown=[]))",
-        note="RegisterEventHandler(...) takes it",
     ),
     "a source": Mistake(
         "[«PythonLaunchDescriptionSource('b.launch.py')»]",
         "an action is expected here, this is a PythonLaunchDescriptionSource",
         Code.WRONG_TYPE,
         suggestion="IncludeLaunchDescription(PythonLaunchDescriptionSource('b.launch.py'))",
-        note="IncludeLaunchDescription(...) takes it",
     ),
     "a component": Mistake(
         "[GroupAction([LogInfo(msg='a'), «ComposableNode(package='demo', plugin='P')»])]",
         "an action is expected here, this is a ComposableNode",
         Code.WRONG_TYPE,
-        note="ComposableNodeContainer(...) and LoadComposableNodes(...) load it",
     ),
     "nothing, added later": Mistake(
         "ld = LaunchDescription()\nld.add_action(«None»)\nreturn ld",

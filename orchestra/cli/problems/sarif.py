@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 _BREAKS = ["\r\n", "\n", "\r", "\x85", "\u2028", "\u2029"]  # as `sources` counts lines
+_LINES = ("from ", "import ")  # suggestions that are lines of their own, and stand in place of nothing
 _SCHEMA = "https://docs.oasis-open.org/sarif/sarif/v2.1.0/errata01/os/schemas/sarif-schema-2.1.0.json"
 
 
@@ -64,7 +65,7 @@ def _result(problem: Problem) -> dict[str, Any]:
             {**_place(span), "message": {"text": "included from here"}}
             for span in dict.fromkeys(problem.included_from)  # no two of them may be equal
         ]
-    if problem.span and problem.suggestion is not None:
+    if problem.span and problem.suggestion is not None and not problem.suggestion.startswith(_LINES):
         result["fixes"] = [_fix(problem.span, problem.suggestion)]
     return result
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.explanation import told
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.text import Sub, normalized, template
 from orchestra.compat.values import optional, written
@@ -39,6 +40,8 @@ class DeclareLaunchArgument(ModelledAction):
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
+        if not isinstance(name, str):
+            raise WrongType(f"the name of a launch argument is a text, this is {told(name)}", path=("name",))
         self.__name = name
         self.__default_value = None if default_value is None else normalized(_text(default_value))
         self.__choices = None if choices is None else list(choices)
@@ -50,8 +53,10 @@ class DeclareLaunchArgument(ModelledAction):
         if isinstance(default_value, int | float):
             from orchestra.compat.remarks import remark_of_value  # noqa: PLC0415 - only mistakes need it
 
-            told = f"the default of a launch argument is a text, this is {default_value!r}: ROS 2 refuses it"
-            remark_of_value(told, default_value, self._place, "default_value")
+            message = (
+                f"the default of a launch argument is a text, this is {default_value!r}: ROS 2 refuses it"
+            )
+            remark_of_value(message, default_value, self._place, "default_value")
 
     @property
     def name(self) -> str:
@@ -111,7 +116,7 @@ def _check(name: str, default: Any, choices: list[str] | None, given: Any) -> No
         )
     if not choices:
         raise WrongRuntime(f"the launch argument '{name}' has no choice at all", path=("choices",))
-    if isinstance(default, str) and default not in choices:
+    if isinstance(default, str) and default not in map(str, choices):
         raise WrongRuntime(
             f"the default '{default}' of the launch argument '{name}' is none of {choices}",
             code=Code.NOT_A_CHOICE,

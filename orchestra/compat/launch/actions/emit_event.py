@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
-from orchestra.compat.launch.action import ModelledAction
+from orchestra.compat.explanation import told
+from orchestra.compat.launch import events
+from orchestra.compat.launch.action import Action, ModelledAction
 from orchestra.compat.launch.event import Event
 from orchestra.compat.wrong import WrongRuntime
 from orchestra.description.actions.emit_event import EmitEvent as EmitEventModel
@@ -24,7 +26,7 @@ class EmitEvent(ModelledAction):
     def __init__(self, *, event: Any, **kwargs: Any) -> None:
         super().__init__(**kwargs)
         if not (isinstance(event, Event) or (isinstance(event, type) and issubclass(event, Event))):
-            raise WrongRuntime(f"EmitEvent takes a launch.Event, not {event!r}", path=("event",))
+            raise WrongRuntime(_refusal(event), path=("event",))
         self.__event = event
         self.__emitted = event() if isinstance(event, type) else event
 
@@ -35,3 +37,12 @@ class EmitEvent(ModelledAction):
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         return EmitEventModel.at(self._place.span, event=self.__emitted, **common)
+
+
+def _refusal(event: Any) -> str:
+    """Return what to say of something that is no event."""
+    if isinstance(event, Action):
+        name = type(event).__name__
+        also = f": the event is launch.events.{name}" if hasattr(events, name) else ""
+        return f"EmitEvent takes an event, this is the action {name} of launch.actions{also}"
+    return f"EmitEvent takes a launch.Event, not {told(event)}"

@@ -55,8 +55,7 @@ class IncludeLaunchDescription(ModelledAction):
         if not isinstance(source, LaunchDescriptionSource):
             source = AnyLaunchDescriptionSource(source)
         self.__launch_description_source = source
-        if callable(launch_arguments):
-            raise WrongType("the launch_arguments are a method: it is not called", path=("launch_arguments",))
+        _check(launch_arguments)
         given = launch_arguments.items() if isinstance(launch_arguments, Mapping) else launch_arguments
         if given is not launch_arguments:
             from orchestra.compat.refused_upstream import tell_no_pairs  # noqa: PLC0415 - only mistakes need it
@@ -141,6 +140,19 @@ class IncludeLaunchDescription(ModelledAction):
         if self.condition is None:
             raise error
         return OpaqueAction.at(self._place.span, **{**common, "target": _Refused(error)})
+
+
+def _check(arguments: Any) -> None:
+    """Raise `WrongType` for what can be seen to be no pairs of names and values."""
+    told_so = None
+    if callable(arguments):
+        told_so = "the launch_arguments are a method: it is not called"
+    elif isinstance(arguments, set) and any(isinstance(item, str) for item in arguments):
+        told_so = "the launch_arguments are pairs, this is a set: a dictionary has a colon"
+    elif isinstance(arguments, tuple) and any(isinstance(item, str) for item in arguments):
+        told_so = f"the launch_arguments are a list of pairs, this is one of them: {arguments!r}"
+    if told_so is not None:
+        raise WrongType(told_so, path=("launch_arguments",))
 
 
 class _Refused(LaunchDescriptionEntity):

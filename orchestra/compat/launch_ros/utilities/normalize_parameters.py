@@ -53,6 +53,10 @@ def _one(item: Any) -> Any:
         return item
     if isinstance(item, list | tuple) and any(isinstance(part, Mapping) for part in item):
         raise WrongType("parameters are dictionaries and files, this is a list in the list", item)
+    if isinstance(item, set) and len(item) > 1:
+        raise WrongType(
+            "parameters are dictionaries and files, this is a set: a dictionary has a colon", item
+        )
     if not isinstance(item, str | Substitution | os.PathLike | bytes | Iterable):
         raise TypeError(f"parameters are dictionaries and files, not {item!r}")
     return ParameterFile(item)

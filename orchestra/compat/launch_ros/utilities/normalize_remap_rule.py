@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.explanation import told
 from orchestra.compat.text import normalized
 from orchestra.compat.wrong import WrongType
 
@@ -17,9 +18,14 @@ _SIDES = 2
 def normalize_remap_rule(remap_rule: Any) -> tuple[tuple[Substitution, ...], tuple[Substitution, ...]]:
     """Return the two sides of a rule. Raises `TypeError` for anything but a pair in a tuple, as upstream."""
     if not isinstance(remap_rule, tuple) or len(remap_rule) != _SIDES:
-        raise TypeError(f"a remapping is a tuple of two names, not {remap_rule!r}")
+        raise TypeError(f"a remapping is a tuple of two names, not {_shown(remap_rule)}")
     source, target = remap_rule
     return tuple(normalized(source)), tuple(normalized(target))
+
+
+def _shown(rule: Any) -> str:
+    """Return what stands in place of a rule; a set has no order of its own."""
+    return told(rule) if isinstance(rule, set) else repr(rule)
 
 
 def normalize_remap_rules(
@@ -29,11 +35,11 @@ def normalize_remap_rules(
     if not isinstance(remap_rules, Iterable):
         raise WrongType(f"remappings are a list of tuples of two names, not {remap_rules!r}", remap_rules)
     if isinstance(remap_rules, Mapping):
-        told = "remappings are a list of tuples of two names, not a dict: list(its.items()) is one"
-        raise WrongType(told, remap_rules)
+        told_so = "remappings are a list of tuples of two names, not a dict: list(its.items()) is one"
+        raise WrongType(told_so, remap_rules)
     if _is_one_rule(remap_rules):
-        told = f"remappings are a list of tuples of two names, this is one of them: {remap_rules!r}"
-        raise WrongType(told, remap_rules)
+        told_so = f"remappings are a list of tuples of two names, this is one of them: {remap_rules!r}"
+        raise WrongType(told_so, remap_rules)
     return tuple(normalize_remap_rule(rule) for rule in remap_rules)
 
 
