@@ -60,6 +60,8 @@ def _actions(text: str | None) -> Any:
 LOST: Final = {
     "OpaqueFunction(function=lambda context: [])": "only Python code knows what this OpaqueFunction of <lambda>() does",
     "RegisterEventHandler(OnProcessExit(target_action=node, on_exit=[node])), node": "only Python has event handlers (OnProcessExit); near to it is `depends_on` with `condition: exited` on what follows",
+    "RegisterEventHandler(OnProcessExit(target_action=node, on_exit=[EmitEvent(event=ShutdownEvent())])), node": "only Python has event handlers (OnProcessExit); near to it is `on_exit: shutdown` on the process",
+    "RegisterEventHandler(OnProcessExit(target_action=node, on_exit=[Shutdown()])), node": "only Python has event handlers (OnProcessExit); near to it is `on_exit: shutdown` on the process",
     "LogInfo(msg=Own())": "only Python code knows what this Own comes to",
     "LogInfo(msg='a', condition=IfCondition(Own()))": "only Python code knows what this Own comes to",
     "GroupAction([PushEnvironment()])": "only Python has PushEnvironment",
