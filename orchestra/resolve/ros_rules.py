@@ -73,7 +73,7 @@ def _check_in_vain(words: Sequence[Value], problems: Problems) -> None:
 def _check_joined(words: Sequence[Value], problems: Problems) -> None:
     """Report options and what belongs to them in one word of a list, which nothing takes apart: `['-d a.rviz']`."""
     for word in words:
-        if is_python(word.location) and _SEVERAL.fullmatch(word.text):
+        if _SEVERAL.fullmatch(word.text) and is_python(word.location):
             # Here, because only mistakes need it.
             from orchestra.compat.rewritten import Rewritten  # noqa: PLC0415
 

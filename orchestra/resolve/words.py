@@ -23,7 +23,7 @@ from orchestra.resolve.evaluate import evaluate, perform
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from orchestra.description.text import Call, Template
+    from orchestra.description.text import Call, Piece, Template
     from orchestra.resolve.context import Context
 
 _BLANKS: Final = " \t\r\n"
@@ -46,12 +46,10 @@ def split(argv: Template | tuple[Template, ...], context: Context) -> tuple[Valu
 
 
 def _split(template: Template, context: Context) -> tuple[Value, ...] | Poison:
-    if type(template) is MatchedTemplate and template.constant is not None and _BARE.fullmatch(template.raw):
-        span = template.span
-        return tuple(
-            new_value(found[0], context.at(inside(span, *found.span())))
-            for found in _WORD.finditer(template.raw)
-        )
+    if type(template) is MatchedTemplate and _BARE.fullmatch(template.raw):
+        bare = _bare(template, context)
+        if bare is not None:
+            return bare
     splitter = _Splitter()
     poisoned = template.faulty
     for part in template.parts:
@@ -75,6 +73,46 @@ def _split(template: Template, context: Context) -> tuple[Value, ...] | Poison:
         Value(word.text, context.at(word.span), through=tuple(word.reads), raw=word.raw)
         for word in splitter.words
     )
+
+
+def _bare(template: MatchedTemplate, context: Context) -> tuple[Value, ...] | None:
+    """Return the words of a text in which nothing escapes and only variables are substituted; else None."""
+    raw, span = template.raw, template.span
+    if template.constant is not None:
+        return tuple(
+            new_value(found[0], context.at(inside(span, *found.span()))) for found in _WORD.finditer(raw)
+        )
+    names = None if template.pieces is None else template.pieces.variables
+    known = None if names is None else context.variables.known(names)
+    if template.pieces is None or known is None:
+        return None
+    words: list[Value] = []
+    for text, begin, end, reads in _words_of(template.pieces.pieces, *known):
+        at = context.at(inside(span, begin, end))
+        words.append(new_value(text, at, through=reads, raw=raw[begin:end]))
+    return tuple(words)
+
+
+def _words_of(
+    pieces: Sequence[Piece], values: Sequence[str], reads: Sequence[Read]
+) -> list[tuple[str, int, int, tuple[Read, ...]]]:
+    """Return each word with the offsets at which it stands, and what was read for it."""
+    words: list[tuple[str, int, int, tuple[Read, ...]]] = []
+    at, number, last = 0, 0, -1
+    nothing: tuple[Read, ...] = ()
+    for piece in pieces:
+        if isinstance(piece, str):
+            found = [(word[0], at + word.start(), at + word.end(), nothing) for word in _WORD.finditer(piece)]
+            at += len(piece)
+        else:
+            found = [(values[number], at, at + piece.length, (reads[number],))]
+            at, number = at + piece.length, number + 1
+        if found and found[0][1] == last:  # behind the word before it without a blank
+            (text, begin, _, noted), (more, _, end, others) = words.pop(), found[0]
+            found[0] = (text + more, begin, end, noted + others)
+        words += found
+        last = found[-1][2] if found else -1
+    return words
 
 
 def _as_written(part: Call | Opaque) -> str | None:

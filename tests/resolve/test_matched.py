@@ -17,7 +17,7 @@ from orchestra.plan import codec
 if TYPE_CHECKING:
     from pathlib import Path
 
-_HEAD = "launch:\n- arg: {name: a, default: '1'}\n- let: {name: c, value: $(var a)x}\n- let: {name: ok, value: true}\n- include: {file: b.launch.yaml}\n"
+_HEAD = "launch:\n- arg: {name: a, default: '1'}\n- let: {name: c, value: $(var a)x}\n- let: {name: ok, value: true}\n- let: {name: empty, value: ''}\n- include: {file: b.launch.yaml}\n"
 _TEMPLATES = (
     "- node:\n    exec: /bin/true\n    name: {0}\n    namespace: {1}\n    args: {2}\n    ros_args: {2}\n    param:\n"
     "    - {{name: x, value: {3}}}\n    - {{name: y.{0}, value: '{3}'}}\n    - {{name: z, value: [{3}, 1]}}\n"
@@ -36,6 +36,10 @@ _ARGUMENTS = (
     "x  y",
     "-a",
     "$(var c) --b",
+    "$(var c)$(var a) x$(var a)y  $(var c)",
+    "$(var a) $(var leaked)",
+    "$(var empty) z",
+    "$(var c)$(var none 2)",
     "$(var leaked)",
     "it's",
     'q"r s"',
@@ -56,6 +60,8 @@ _SCALARS = (
     "1e3",
     "-3",
     "$(find-pkg-share no)",
+    "$(eval \"'$(var a)' == '1'\")",
+    "$(eval '$(var a) < 2')",
     "$(var leaked)",
 )
 

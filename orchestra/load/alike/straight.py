@@ -18,6 +18,7 @@ from orchestra.description.core import PydanticCustomError, ValidationError
 from orchestra.description.entity import Action, Entity, matched_entity
 from orchestra.description.fields import AnyValue, Argv, Literal, Text
 from orchestra.description.marks import Instance, NotEmpty, Plain, Told
+from orchestra.description.source import Written
 from orchestra.description.text import Items
 from orchestra.load.alike.learned import UnlikeError
 from orchestra.load.alike.making import literal, template
@@ -25,9 +26,10 @@ from orchestra.load.keys import spelled
 from orchestra.location import Places
 
 if TYPE_CHECKING:
+    from orchestra.description.text import Template
     from orchestra.load.reader import Reader
 
-# A text, the number of its place, and whether it is in quotes.
+# A text, the number of its place, and whether it is in quotes. One with escapes in it is `Written`.
 Scalar: TypeAlias = tuple[str, int, bool]
 
 
@@ -168,9 +170,16 @@ def _refused(written: Any, places: Places, reader: Reader) -> Any:  # noqa: ANN4
 
 def _text(written: Any, places: Places, reader: Reader) -> Any:  # noqa: ANN401 - a tree, a text
     if type(written) is not tuple:
-        raise UnlikeError
+        return _escaped(written, reader)
     text, at, quoted = written
     return template(text, places, at, quoted, reader)
+
+
+def _escaped(written: Any, reader: Reader) -> Template:  # noqa: ANN401 - a tree
+    """Return a text that does not stand in the file as it reads."""
+    if type(written) is not Written:
+        raise UnlikeError
+    return reader.template(written)
 
 
 def _literal(written: Any, places: Places, reader: Reader) -> Any:  # noqa: ANN401 - as above
@@ -185,7 +194,7 @@ def _text_or_list(written: Any, places: Places, reader: Reader) -> Any:  # noqa:
         text, at, quoted = written
         return template(text, places, at, quoted, reader)
     if type(written) is not Series:
-        raise UnlikeError
+        return _escaped(written, reader)
     return Items([_text(item, places, reader) for item in written.items], places.span(written.at))
 
 

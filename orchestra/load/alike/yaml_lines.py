@@ -9,11 +9,14 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.description.source import Written
 from orchestra.load.alike.learned import UnlikeError
 from orchestra.load.alike.straight import Keys, Plainly, Series
-from orchestra.location import Places
+from orchestra.load.offsets import spans_of
+from orchestra.location import Places, stretch
 
 if TYPE_CHECKING:
+    from orchestra.load.alike.straight import Scalar
     from orchestra.load.offsets import Source
 
 _DEEPEST: Final = 20
@@ -29,8 +32,9 @@ _PLAIN: Final = (
 )
 _FLOW: Final = r"""[!"$-+\--9;->@-Z\\^-z|~]"""
 _IN_FLOW: Final = rf"(?!(?:~|[nN]ull|NULL)[ ,\]}}])(?:[{_BEGUN}]|-(?=[{_BEGUN}-])){_FLOW}*+(?: ++{_FLOW}++)*+"
-_DOUBLE: Final = r'"([ !#-\[\]-~]*+)"'
-_SINGLE: Final = r"'([ -&(-~]*+)'"
+# With the escapes of quotes and of what escapes, as expressions have them.
+_DOUBLE: Final = r'''"((?:[ !#-\[\]-~]++|\\["\\])*+)"'''
+_SINGLE: Final = r"'((?:[ -&(-~]++|'')*+)'"
 _REST: Final = rf" *+(?:(?<![^ \n]){_COMMENT})?+(?:\n|\Z)"
 _VALUE: Final = rf"{_DOUBLE}|{_SINGLE}"
 _LINE: Final = re.compile(
@@ -39,9 +43,10 @@ _LINE: Final = re.compile(
 _BEHIND: Final = re.compile(_REST)
 _ITEM: Final = re.compile(rf" *+(?:{_VALUE}|({_IN_FLOW})|([\[{{]))")
 _PAIR: Final = re.compile(rf" *+({_KEY}): ++(?:([\[{{])|(?:{_VALUE}|({_IN_FLOW})) *+([,\]}}]))")
+_ESCAPED: Final = re.compile(r'\\(["\\])')
 _NEXT: Final = re.compile(r" *+([,\]}])")
 # The groups of a line.
-_INDENT, _DASH, _NAME, _BARE, _OPEN, _ODD = 1, 2, 3, 6, 7, 8
+_INDENT, _DASH, _NAME, _IN_DOUBLE, _IN_SINGLE, _BARE, _OPEN, _ODD = range(1, 9)
 # Those of an item and of a pair in brackets.
 _PLAIN_IN_ITEM, _OPEN_IN_ITEM, _PLAIN_IN_PAIR = 3, 4, 5
 
@@ -64,9 +69,10 @@ def scanned(whole: Source, begin: int, end: int) -> Plainly | None:
 class _Scan:
     """Goes through lines; `line` is the number of the next one. `words` are the keys, and what else shows the form."""
 
-    __slots__ = ("end", "line", "lines", "places", "text", "words")
+    __slots__ = ("end", "line", "lines", "places", "text", "whole", "words")
 
     def __init__(self, whole: Source, lines: list[re.Match[str]], end: int) -> None:
+        self.whole = whole
         self.text = whole.text
         self.lines = lines
         self.line = 0
@@ -93,8 +99,7 @@ class _Scan:
                 values[key] = (plain, len(places), False)
                 places.append(line.span(_BARE))
             elif double is not None or single is not None:
-                values[key] = (double or single or "", len(places), True)
-                places.append(line.span(line.lastindex))  # type: ignore[arg-type]  # there is one
+                values[key] = self.quoted(line, _IN_DOUBLE if single is None else _IN_SINGLE)
             else:
                 self.line = number
                 values[key] = self.inner(line, opening is not None, column, depth)
@@ -151,10 +156,24 @@ class _Scan:
         end = self.end if self.line == count else lines[self.line].end(_INDENT)
         return Series(items, self.places.add((begin, end)), head)
 
-    def scalar(self, found: re.Match[str], plain: bool) -> tuple[str, int, bool]:
+    def scalar(self, found: re.Match[str], plain: bool) -> Scalar | Written:
         """Return the text of the last group."""
         group: Any = found.lastindex
-        return found[group], self.places.add(found.span(group)), not plain
+        return (
+            (found[group], self.places.add(found.span(group)), False) if plain else self.quoted(found, group)
+        )
+
+    def quoted(self, found: re.Match[str], group: int) -> Scalar | Written:
+        """Return the text of a group, which stands in quotes."""
+        text, (begin, end) = found[group], found.span(group)
+        style = self.text[end]
+        if ("\\" if style == '"' else "'") not in text:
+            return text, self.places.add((begin, end)), True
+        begin, end = begin - 1, end + 1
+        value = _ESCAPED.sub(r"\1", text) if style == '"' else text.replace("''", "'")
+        return Written(
+            value, stretch(self.whole, begin, end), spans_of(self.whole, begin, end, value, style), True
+        )
 
     def opened(self, line: re.Match[str], head: int | None) -> Keys | Series:
         """Return what stands in brackets behind a key, or behind a dash, up to the end of the line."""
@@ -185,7 +204,7 @@ class _Scan:
             found = _PAIR.match(text, at, end)
             if found is None:
                 raise UnlikeError
-            key, opening, double, single, plain, following = found.groups()
+            key, opening, _, single, plain, following = found.groups()
             if key in values:
                 raise UnlikeError
             words.append(key)
@@ -194,8 +213,7 @@ class _Scan:
                 values[key] = (plain, len(places), False)
                 places.append(found.span(_PLAIN_IN_PAIR))
             elif opening is None:
-                values[key] = (double or single or "", len(places), True)
-                places.append(found.span(_PLAIN_IN_PAIR - (1 if double is None else 2)))
+                values[key] = self.quoted(found, _PLAIN_IN_PAIR - (2 if single is None else 1))
             else:
                 places.append(found.span(1))
                 values[key], at = self.flow(at - 1, opening, len(places) - 1, depth + 1)

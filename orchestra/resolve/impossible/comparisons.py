@@ -12,7 +12,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
-from orchestra.description.text import Call, Opaque, Words, new_words
+from orchestra.description.text import Call, MatchedTemplate, Opaque, Words, new_words
 from orchestra.errors import Code
 from orchestra.location import Span
 from orchestra.nearest import nearest
@@ -45,6 +45,10 @@ class _Side:
 
 def check_comparisons(template: Template, run: Resolution) -> None:
     """Report the comparisons in a condition that are always true or always false."""
+    if type(template) is MatchedTemplate and (
+        template.pieces is None or template.pieces.variables is not None
+    ):
+        return  # of words and variables
     for part in _parts(template):
         if isinstance(part, Call) and part.name in _EQUALITIES and len(part.arguments) > 1:
             one, other = (_side(argument, run) for argument in part.arguments[:2])

@@ -14,6 +14,7 @@ from orchestra.errors import Code
 from orchestra.resolve.context import POISON
 from orchestra.resolve.python.environ import put_environment
 from orchestra.resolve.substitutions.arguments import made, texts
+from orchestra.resolve.substitutions.constant_expressions import of_constants
 
 if TYPE_CHECKING:
     from orchestra.description.text import Call
@@ -27,6 +28,9 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
     if words is None:
         return POISON
     expression, modules = words[0].strip(), words[1] if len(words) > 1 else "math"
+    known = of_constants(expression) if len(words) == 1 else None
+    if known is not None:
+        return made(call, context, known)
     names: dict[str, object] = {}
     try:
         with warnings.catch_warnings(record=True) as doubts:
