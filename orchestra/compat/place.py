@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.dataclass import dataclass
 from orchestra.fields import field
-from orchestra.location import FIELDS, Span, displayed, stretch
+from orchestra.location import FIELDS, Matched, Span, displayed, stretch
 from orchestra.witness.once import real
 
 if TYPE_CHECKING:
@@ -126,6 +126,28 @@ class Argument(Span):
     def inside(self, *steps: Way) -> Argument:
         """Return the place of something that the argument holds."""
         return self.place.at(*self.path, *steps)
+
+
+class Arguments(Matched):
+    """The arguments of a call: what they hold has a place by its path, which is made when somebody asks for it."""
+
+    __slots__ = ("place",)
+
+    def __init__(self, place: Place) -> None:
+        self.place = place
+        self._spans = {}
+
+    @property
+    def whole(self) -> Instructions:  # type: ignore[override] # nobody sets it
+        """The text, another object each time: two arguments of a call have no offsets to be told apart by."""
+        return Instructions(self.place._code)
+
+    def span(self, group: Any) -> Span:
+        """Return the place of an argument, or of what it holds, by its path."""
+        span = self._spans.get(group)
+        if span is None:
+            span = self._spans[group] = argument(self.place, group)
+        return span
 
 
 _new = object.__new__

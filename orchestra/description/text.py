@@ -210,10 +210,13 @@ class MatchedTemplate(Template):
         """What is concatenated, each part with its place."""
         made = self._parts
         if made is None:
-            pieces = (self.raw,) if self.pieces is None else self.pieces.pieces
-            made = _placed(pieces, self.span)
+            made = self._words() if self.pieces is None else _placed(self.pieces.pieces, self.span)
             object.__setattr__(self, "_parts", made)
         return made
+
+    def _words(self) -> tuple[Part, ...]:
+        """Return the literal words that all of it is."""
+        return (new_words(self.raw, self.span),) if self.raw else ()
 
     def __eq__(self, other: object) -> bool:
         return self.ordinary == getattr(other, "ordinary", other)

@@ -14,8 +14,8 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.compat.launch.actions.execute_local import OVERRIDE
 from orchestra.compat.launch.actions.execute_process import ExecuteProcess
 from orchestra.compat.launch_ros.plain_parameters import parameters
-from orchestra.compat.launch_ros.plain_texts import UnusualError, copied, entity, plain_text
-from orchestra.compat.place import Key, Place, ValueOf, argument, standing
+from orchestra.compat.launch_ros.plain_texts import UnusualError, copied, divisible, entity, plain_text
+from orchestra.compat.place import Arguments, Key, Place, ValueOf, standing
 from orchestra.description.actions.node import Node as NodeModel
 from orchestra.description.outputs import OUTPUTS
 from orchestra.description.parts import Pair, Remap
@@ -141,12 +141,12 @@ def _says_output(environ: Any) -> bool:
 
 def plain(given: dict[str, Any], place: Place) -> Plain | None:
     """Return what a node is made of that is constructed from keywords at a place; None where one is not usual."""
-    fields = _NOTHING.copy()
+    fields, call = _NOTHING.copy(), Arguments(place)
     kept = given.copy()
     try:
         for name, value in given.items():
             if value is not None:
-                _READ[name](name, value, place, fields, kept)
+                _READ[name](name, value, call, fields, kept)
             elif name not in _OPTIONAL:
                 return None
     except (KeyError, UnusualError):
@@ -157,69 +157,79 @@ def plain(given: dict[str, Any], place: Place) -> Plain | None:
 def _word(field: str) -> Callable[..., None]:
     """Return what reads a text."""
 
-    def read(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
-        fields[field] = plain_text(value, place, (name,))
+    def read(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+        fields[field] = plain_text(value, call, (name,))
         if type(value) is list:
             kept[name] = list(value)
 
     return read
 
 
+def _prefix(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    """Read the words before the command, which a text is taken apart into."""
+    if type(value) is str:
+        fields["launch_prefix"] = divisible(value, call.span((name,)))
+    else:
+        _read_prefix(name, value, call, fields, kept)
+
+
 def _words(field: str, *, empty: Any) -> Callable[..., None]:
     """Return what reads a list of texts, of which each is a word."""
 
-    def read(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    def read(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
         if type(value) is not list:
             raise UnusualError
         fields[field] = (
-            tuple([plain_text(item, place, (name, index)) for index, item in enumerate(value)]) or empty
+            tuple([plain_text(item, call, (name, index)) for index, item in enumerate(value)]) or empty
         )
         kept[name] = copied(value)
 
     return read
 
 
-def _flag(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+def _flag(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
     del kept
     if value is True:
-        fields[name] = plain_text("true", place, (name,))
+        fields[name] = plain_text("true", call, (name,))
     elif value is not False:
         raise UnusualError
     elif name == "emulate_tty":
-        fields[name] = plain_text("false", place, (name,))
+        fields[name] = plain_text("false", call, (name,))
 
 
-def _delay(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+def _delay(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
     del kept
     if type(value) not in _NUMBERS or value < 0 or not math.isfinite(value):
         raise UnusualError
-    fields[name] = plain_text(repr(value), place, (name,))
+    fields[name] = plain_text(repr(value), call, (name,))
 
 
-def _output(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+def _output(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
     del kept
     if type(value) is str and value not in OUTPUTS:
         raise UnusualError
-    fields[name] = made = plain_text(value, place, (name,))
+    fields[name] = made = plain_text(value, call, (name,))
     if type(value) is not str and made.constant is not None:
         raise UnusualError
 
 
-def _condition(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+def _condition(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
     """Leave a condition to the visit."""
 
 
-def _environment(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+def _environment(
+    name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]
+) -> None:
     if type(value) is not dict:
         raise UnusualError
-    span = argument(place, (name,))
+    span, keys, texts = call.span((name,)), Arguments(call.place), Arguments(call.place)
     fields["env"] = tuple(
         [
             entity(
                 Pair,
                 {
-                    "name": plain_text(key, place, (name, Key(index))),
-                    "value": plain_text(text, place, (name, ValueOf(index))),
+                    "name": plain_text(key, keys, (name, Key(index))),
+                    "value": plain_text(text, texts, (name, ValueOf(index))),
                 },
                 span,
             )
@@ -230,22 +240,22 @@ def _environment(name: str, value: Any, place: Place, fields: dict[str, Any], ke
 
 
 def _read_parameters(
-    name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]
+    name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]
 ) -> None:
-    fields["param"], kept[name] = parameters(name, value, place)
+    fields["param"], kept[name] = parameters(name, value, call)
 
 
-def _remaps(name: str, value: Any, place: Place, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+def _remaps(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
     if type(value) is not list:
         raise UnusualError
-    span = argument(place, (name,))
+    span = call.span((name,))
     made, own = [], []
     for index, rule in enumerate(value):
         if type(rule) is not tuple or len(rule) != _SIDES:
             raise UnusualError
         source, target = rule
-        from_ = plain_text(source, place, (name, index, 0))
-        to = plain_text(target, place, (name, index, 1))
+        from_ = plain_text(source, call, (name, index, 0))
+        to = plain_text(target, call, (name, index, 1))
         made.append(entity(Remap, {"from_": from_, "to": to}, span))
         own.append(rule if type(source) is type(target) is str else copied(rule))
     fields["remap"] = tuple(made)
@@ -253,6 +263,7 @@ def _remaps(name: str, value: Any, place: Place, fields: dict[str, Any], kept: d
 
 
 _SIDES: Final = 2
+_read_prefix: Final = _word("launch_prefix")
 _OVERRIDE: Final = OVERRIDE.encode()
 # What a node has as long as it is plain: its place, its condition, and what it is made of.
 _OF_PLAIN: Final = 3
@@ -268,7 +279,7 @@ _READ: Final[dict[str, Callable[..., None]]] = {
     "name": _word("name"),
     "namespace": _word("namespace"),
     "exec_name": _word("exec_name"),
-    "prefix": _word("launch_prefix"),
+    "prefix": _prefix,
     "cwd": _word("cwd"),
     "parameters": _read_parameters,
     "remappings": _remaps,

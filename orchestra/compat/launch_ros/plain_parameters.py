@@ -18,12 +18,12 @@ from orchestra.description.text import new_constant, new_template, new_words
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
-    from orchestra.compat.place import Place
+    from orchestra.compat.place import Arguments
     from orchestra.description.text import Part
     from orchestra.location import Span
 
 
-def parameters(name: str, value: Any, place: Place) -> tuple[tuple[Param, ...], list[Any]]:
+def parameters(name: str, value: Any, call: Arguments) -> tuple[tuple[Param, ...], list[Any]]:
     """Return the parts of the model for a list of parameters, and a copy of the list."""
     if type(value) is not list:
         raise UnusualError
@@ -32,11 +32,11 @@ def parameters(name: str, value: Any, place: Place) -> tuple[tuple[Param, ...], 
     for index, item in enumerate(value):
         path = (name, index)
         if type(item) is dict:
-            span = argument(place, path)
+            span = call.span(path)
             own.append(_entries(item, ((), "", ""), span, made))
         else:
-            file = plain_text(item, place, path)
-            made.append(entity(Param, {**_NO_PARAMETER, "from_": file}, argument(place, path)))
+            file = plain_text(item, call, path)
+            made.append(entity(Param, {**_NO_PARAMETER, "from_": file}, call.span(path)))
             own.append(copied(item))
     return tuple(made), own
 

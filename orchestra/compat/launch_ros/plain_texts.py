@@ -6,15 +6,14 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.calls import CallSubstitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
-from orchestra.compat.place import argument
 from orchestra.description.model import Model
-from orchestra.description.text import Template, new_template, new_words
+from orchestra.description.text import Template, matched_words, new_template, new_words
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from orchestra.compat.place import Place, Way
+    from orchestra.compat.place import Arguments, Way
     from orchestra.description.text import Part
     from orchestra.location import Span
 
@@ -31,17 +30,23 @@ def whole_text(value: Any) -> Template:
     return made
 
 
-def plain_text(value: Any, place: Place, path: tuple[Way, ...]) -> Template:
-    """Return a text, a substitution, or several of both."""
+def plain_text(value: Any, call: Arguments, path: tuple[Way, ...]) -> Template:
+    """Return a text, a substitution, or several of both, which an argument of a call holds."""
     kind = type(value)
     if kind is TextSubstitution:
         value, kind = value.text, str
+    if kind is str and "$" not in value and "\\" not in value:
+        return matched_words(value, False, call, path)  # type: ignore[arg-type] # its groups are paths
     if kind is str:
-        span = argument(place, path)
-        return new_template((new_words(value, span),) if value else (), escaped(value), span)
+        return divisible(value, call.span(path))
     if kind is list or kind is tuple:
-        return joined(value, argument(place, path))
+        return joined(value, call.span(path))
     return whole_text(value)
+
+
+def divisible(text: str, span: Span) -> Template:
+    """Return a text that may be taken apart: its words know where they stand."""
+    return new_template((new_words(text, span),) if text else (), escaped(text), span)
 
 
 def joined(items: Any, span: Span) -> Template:
