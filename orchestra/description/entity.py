@@ -15,6 +15,7 @@ from orchestra.description.conflict import Conflict
 from orchestra.description.core import PydanticCustomError, ValidationError
 from orchestra.description.fields import Flag
 from orchestra.description.model import Model, field
+from orchestra.description.remaining import sound_values
 from orchestra.description.source import Keyed
 from orchestra.description.text import Template
 from orchestra.errors import Problem
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
     from orchestra.description.structure import Schema, Schemas
 
 REPORTED = "reported"
+_CONDITIONS = ("if", "unless")
+_HOLDING = frozenset({"children", "file"})  # the keys of what holds other actions
 
 _EntityT = TypeVar("_EntityT", bound="Entity")
 
@@ -210,20 +213,41 @@ class Entity(Model):
         known = cls.known_keys()
         mapping = data if data.keys() <= known else reader.keys(known, data, cls.required_beside(data))
         faulty = mapping.lossy
+        values = dict(mapping)
         try:
-            entity = handler(cls.completed(dict(mapping)))
+            entity = handler(cls.completed(values))
         except ValidationError as error:
-            faulty = True
-            wrong = reader.faults(mapping, _details(error))
-            required = cls.required_beside(mapping)
-            entity = _without(wrong, mapping, required, lambda values: handler(cls.completed(values)))
+            faulty, details = True, _details(error)
+            wrong = reader.faults(mapping, details)
+            values = sound_values(mapping, wrong, details)
+            entity = cls._again(values, mapping, handler)
         if (conflict := entity.conflict()) is not None:
-            if not faulty:
+            certain = len(conflict.keys) > 1 and mapping.keys() >= set(conflict.keys)
+            if not faulty or (certain and (conflict.keys == _CONDITIONS or not mapping.lossy)):
                 reader.conflict(mapping, conflict)
-            raise PydanticCustomError(REPORTED, "reported")
+            faulty = True
+            entity = cls._again(cls._parted(values, conflict, mapping.head), mapping, handler)
+            if entity.conflict() is not None:
+                raise PydanticCustomError(REPORTED, "reported")
         _set_beside(entity, {"span": mapping.head, "faulty": True} if faulty else {"span": mapping.head})
         data.read = entity
         return entity
+
+    @classmethod
+    def _again(cls, values: dict[str, Any], mapping: Keyed, handler: Callable[[Any], Self]) -> Self:
+        """Read the entity again without what has been reported; what it cannot be without is not known."""
+        unknown = Template((), "", mapping.head, faulty=True)
+        needed = dict.fromkeys(cls.required_beside(mapping), unknown)
+        try:
+            return handler(cls.completed({**needed, **values}))
+        except ValidationError:
+            raise PydanticCustomError(REPORTED, "reported") from None
+
+    @classmethod
+    def _parted(cls, values: dict[str, Any], conflict: Conflict, head: Span) -> dict[str, Any]:
+        """Return the values that are left where keys that cannot stand together have been taken out."""
+        del head
+        return {key: value for key, value in values.items() if key not in conflict.keys}
 
 
 class Conditional(Entity):
@@ -238,7 +262,15 @@ class Conditional(Entity):
         """Return a conflict between the two conditions."""
         if self.if_ is None or self.unless is None:
             return None
-        return Conflict("`if` and `unless` cannot stand on one action", ("if", "unless"))
+        return Conflict("`if` and `unless` cannot stand on one action", _CONDITIONS)
+
+    @classmethod
+    def _parted(cls, values: dict[str, Any], conflict: Conflict, head: Span) -> dict[str, Any]:
+        """Return what is left without two conditions: of what holds others nobody knows whether it is carried out."""
+        left = super()._parted(values, conflict, head)
+        if conflict.keys == _CONDITIONS and not cls.known_keys().isdisjoint(_HOLDING):
+            left["if"] = Template((), "", head, faulty=True)
+        return left
 
 
 class Action(Conditional):
@@ -262,18 +294,3 @@ def _sound(entity: _EntityT) -> _EntityT:
 
 def _details(error: ValidationError) -> Sequence[ErrorDetails]:
     return error.errors(include_url=False)
-
-
-def _without(
-    wrong: set[str],
-    mapping: Keyed,
-    required: frozenset[str],
-    handler: Callable[[Any], _EntityT],
-) -> _EntityT:
-    """Read the entity again without the keys whose faults have been reported."""
-    values = {key: value for key, value in mapping.items() if key not in wrong}
-    unknown = Template((), "", mapping.head, faulty=True)
-    try:
-        return handler({**dict.fromkeys(required, unknown), **values})
-    except ValidationError:
-        raise PydanticCustomError(REPORTED, "reported") from None

@@ -144,7 +144,10 @@ def _seconds_of(text: str) -> str | None:
     if _is_duration(pointed):
         return pointed
     found = _WITH_UNIT.fullmatch(pointed)
-    return None if found is None else f"{float(found[1]) * _UNITS[found[2][:2].lower()]:g}"
+    if found is None:
+        return None
+    seconds = f"{float(found[1]) * _UNITS[found[2][:2].lower()]:g}"
+    return f"{seconds}.0" if seconds.isdigit() else seconds
 
 
 def _is_integer(text: str) -> bool:

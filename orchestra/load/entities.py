@@ -14,6 +14,7 @@ from orchestra.fields import field
 from orchestra.load.elements import Tagged, beginning_of, emptied
 from orchestra.load.exposed import ADDED_BY, exposed_action, exposes_action
 from orchestra.load.keys import action_meant, as_written, spelled
+from orchestra.load.pairs import written_mapping
 from orchestra.load.reader import Reader
 
 if TYPE_CHECKING:
@@ -63,14 +64,19 @@ class _Builder:
     reader: Reader
     lost: set[str] = field(default_factory=set)
 
-    def actions(self, items: Any, head: Span) -> tuple[Action, ...]:  # noqa: ANN401 - a tree
-        """Return the actions of a list."""
+    def actions(
+        self,
+        items: Any,  # noqa: ANN401 - a tree
+        head: Span,
+        around: frozenset[str] = frozenset(),
+    ) -> tuple[Action, ...]:
+        """Return the actions of a list; `around` are the keys that may stand beside it."""
         if not isinstance(items, Listed):
             self._wrong(f"expected a list of actions, found {kind_of(items)}", beginning_of(items, head))
             return ()
         built = []
         for item in self._apart(items):
-            action = self._action(item)
+            action = self._action(item, around)
             if action is None or action.faulty:
                 self.lost.update(texts_in(item))
                 self.lost.update(_repeated_for(item))
@@ -88,14 +94,13 @@ class _Builder:
             keyed.put("children", content, at)
             content = keyed
         if not isinstance(content, Keyed):
-            wanted = "a list of actions" if nested else "a mapping"
-            self._wrong(f"expected {wanted}, found {kind_of(content)}", beginning_of(content, at))
+            self._no_mapping(content, at, model)
             return None
         if nested and "children" not in content:
             content = self._listed(content, model.known_keys())
         content = self.reader.keys(model.known_keys(), content, model.required_beside(content))
         if nested and "children" in content:
-            children = self.actions(content["children"], content.keys_at["children"])
+            children = self.actions(content["children"], content.keys_at["children"], model.known_keys())
             content = _with_children(content, children)
         return content
 
@@ -108,7 +113,7 @@ class _Builder:
         except ValidationError:  # every fault has been reported through the reader
             return None
 
-    def _action(self, item: Any) -> Action | None:  # noqa: ANN401 - a tree
+    def _action(self, item: Any, around: frozenset[str]) -> Action | None:  # noqa: ANN401 - a tree
         if not isinstance(item, Keyed):
             found = kind_of(item)
             self._wrong(
@@ -121,7 +126,7 @@ class _Builder:
         at = item.keys_at[name]
         if model_of(spelled(name)) is None and exposes_action(name):
             return exposed_action(name, content, at, self.reader.problems, self.reader.included_from)
-        model, certain = self._model(name, at)
+        model, certain = self._model(name, at, around)
         if model is None:
             return None
         content = self.content(content, at, model)
@@ -191,7 +196,7 @@ class _Builder:
         )
         return name, content
 
-    def _model(self, name: str, at: Span) -> tuple[type[Action] | None, bool]:
+    def _model(self, name: str, at: Span, around: frozenset[str]) -> tuple[type[Action] | None, bool]:
         """Return the model of an action, and whether it is certain to be meant."""
         model = model_of(spelled(name))
         if model is not None:
@@ -202,13 +207,27 @@ class _Builder:
             )
             self.reader.error(Code.UNKNOWN_ACTION, message, at)
             return None, False
+        if spelled(name) in around:
+            message = (
+                f"'{name}' is a key, not an action: it stands beside 'children', the list of the actions"
+            )
+            self.reader.error(Code.UNKNOWN_ACTION, message, at)
+            return None, False
         near, slip = action_meant(name)
         instead = as_written(near, name) if near is not None and slip else near
         self.reader.error(Code.UNKNOWN_ACTION, f"unknown action '{name}'", at, suggestion=instead)
         return (model_of(near) if near is not None and slip else None), False
 
-    def _wrong(self, message: str, span: Span) -> None:
-        self.reader.error(Code.WRONG_TYPE, message, span)
+    def _no_mapping(self, content: Any, at: Span, model: type[Entity]) -> None:  # noqa: ANN401 - a tree
+        nested, instead = "children" in model.known_keys(), None
+        if isinstance(content, Written) and not content.null and not nested:
+            instead = written_mapping(model.known_keys(), model.required_keys(), content)
+        wanted = "a list of actions" if nested else "a mapping"
+        told = f"expected {wanted}, found {kind_of(content)}"
+        self._wrong(told, beginning_of(content, at), instead)
+
+    def _wrong(self, message: str, span: Span, instead: str | None = None) -> None:
+        self.reader.error(Code.WRONG_TYPE, message, span, suggestion=instead)
 
 
 def _with_children(content: Keyed, children: tuple[Action, ...]) -> Keyed:

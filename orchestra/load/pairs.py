@@ -1,4 +1,4 @@
-"""Mappings from names to values, where a list that has a mapping for each is wanted: how that is written."""
+"""Mappings and texts where a list that has a mapping for each name is wanted: how that is written."""
 
 from __future__ import annotations
 
@@ -15,10 +15,19 @@ _LONGEST: Final = 100
 # The keys of a pair, and the lists that are made of such pairs.
 _NAMED: Final = ("name", "value")
 _RULE: Final = ("from", "to")
+_DECLARED: Final = ("name", "default")
+_PROGRAM: Final = ("pkg", "exec")
 _LISTS: Final = {
     **dict.fromkeys(("arg", "env", "env_only", "extra_arg", "keep", "let", "param"), _NAMED),
     "remap": _RULE,
 }
+# What joins a name and a value: on a command line, in a shell, in words.
+_JOINTS: Final = {
+    _NAMED: pattern(r"([^\s:=]+)\s*:?=\s*(\S.*)"),
+    _RULE: pattern(r"(\S+?)\s*(?::=|=|->|:)\s*(\S+)"),
+}
+_PATH: Final = pattern(r"(?:\$\([^()]*\)|[\w./~-])+\.ya?ml")
+_SPECIAL: Final = pattern(r"[,{}\[\]#]|: |:$|^[ &*!|>%@`'\"?-]|^$| $")
 _OF_TEXTS: Final = ("choices", "success_exit_codes")
 _ITEM: Final = pattern(r"[\w./-]+")
 
@@ -33,6 +42,60 @@ def written_list(key: str, content: Any) -> str | None:  # noqa: ANN401 - a tree
             f"{key}: [{{{', '.join(f'{name}: {_value(content[name])}' for name in pair)}}}]", _LONGEST
         )
     return shortened(f"{key}: [{_items(content, pair)}]", _LONGEST)
+
+
+def written_so(key: str, content: Any) -> str | None:  # noqa: ANN401 - a tree
+    """Return the list that stands for a mapping or for a text behind a key; None where that is not clear."""
+    if key not in _LISTS:
+        return None
+    if isinstance(content, Written):
+        item = None if content.null else written_pair(key, content)
+        return f"[{item}]" if item is not None else None
+    written = written_list(key, content)
+    return None if written is None or "..." in written or "…" in written else written.removeprefix(f"{key}: ")
+
+
+def written_pair(key: str, text: Written) -> str | None:
+    """Return the item of a list that a text was meant to be, as `a:=b` is a name and its value, else None."""
+    pair = _LISTS.get(key)
+    if key == "param" and _PATH.fullmatch(text.text):
+        return f"{{from: {_plain(text.text)}}}"
+    return None if pair is None else _parted(text.text, pair)
+
+
+def written_mapping(known: AbstractSet[str], required: AbstractSet[str], text: Written) -> str | None:
+    """Return the mapping with such keys that a text was meant to be, None where that is not clear."""
+    for pair in (_NAMED, _RULE, _DECLARED):
+        if required <= set(pair) <= known and (written := _parted(text.text, pair)) is not None:
+            return written
+    words = text.text.split()
+    if known >= set(_PROGRAM):
+        return f"{{pkg: {words[0]}, exec: {words[1]}}}" if len(words) == len(_PROGRAM) else None
+    if len(required) != 1 or "\n" in text.text:
+        return None
+    (key,) = required
+    return f"{{{key}: {_value(text)}}}"
+
+
+def _parted(text: str, pair: tuple[str, str]) -> str | None:
+    found = None if "\n" in text else _JOINTS[_RULE if pair == _RULE else _NAMED].fullmatch(text.strip())
+    return None if found is None else f"{{{pair[0]}: {_plain(found[1])}, {pair[1]}: {_plain(found[2])}}}"
+
+
+def extent(content: Any) -> Span | None:  # noqa: ANN401 - a tree
+    """Return the place of a value of a YAML file from its first character to its last."""
+    span: Span = content.span
+    if isinstance(content, Written) or span.line == span.end_line:
+        return span
+    if type(content) is not Keyed or not content:
+        return None
+    ends = [extent(value) for value in content.values()]
+    last = ends[-1]
+    first = min(content.keys_at.values())
+    in_braces = span < first
+    if last is None or in_braces:
+        return span if in_braces else None
+    return Span(first.file, first.line, first.column, last.end_line, last.end_column)
 
 
 def written_as_list(key: str, content: Any) -> str | None:  # noqa: ANN401 - a tree
@@ -91,6 +154,15 @@ def _value(value: Any) -> str:  # noqa: ANN401 - a tree
         return f"[{', '.join(map(_value, value))}]"
     if not isinstance(value, Written):
         return "..."
-    if value.quoted or any(character in value.text for character in ",:{}[]#"):
-        return "'" + value.text.replace("'", "''") + "'"
-    return value.text
+    return _quoted(value.text) if value.quoted else _plain(value.text)
+
+
+def _plain(text: str) -> str:
+    """Return a text as it is written in a flow mapping, in quotes where it needs them."""
+    return _quoted(text) if _SPECIAL.search(text) else text
+
+
+def _quoted(text: str) -> str:
+    if '"' in text or "\\" in text:
+        return "'" + text.replace("'", "''") + "'"
+    return f'"{text}"'

@@ -15,7 +15,7 @@ from orchestra.load.braces import warn_of_braces
 from orchestra.load.elements import beginning_of, noun
 from orchestra.load.grammar import parse_template, sound_template, unescaped
 from orchestra.load.keys import known_keys
-from orchestra.load.pairs import written_as_list, written_list
+from orchestra.load.pairs import extent, written_as_list, written_list, written_pair, written_so
 from orchestra.location import Location, Span
 from orchestra.patterns import pattern
 
@@ -154,15 +154,34 @@ class Reader:
             message = "expected at least one item, found none"
         else:
             message = error["msg"]
-        suggestion = error.get("ctx", {}).get("suggestion") or written_as_list(str(place[-1]), error["input"])
-        instead = written_list(str(place[-1]), error["input"]) if kind in _LISTS else None
-        notes = () if instead is None else (f"it is written {instead}",)
+        key = str(place[-1])
+        suggestion = error.get("ctx", {}).get("suggestion") or written_as_list(key, error["input"])
         head, value = _way(mapping, place)
         if kind == STRAY_KEY:
             self.error(Code.UNKNOWN_KEY, message, head, suggestion=suggestion)
             return
-        at = beginning_of(value, head)
+        at, notes = beginning_of(value, head), list[str]()
+        if suggestion is None and type(mapping) is Keyed:
+            at, suggestion = _instead(place, value, at)
+        if (
+            kind in _LISTS
+            and suggestion is None
+            and (instead := written_list(key, error["input"])) is not None
+        ):
+            notes.append(f"it is written {instead}")
         self.error(Code.WRONG_TYPE, message, at, suggestion=suggestion, notes=notes)
+
+
+def _instead(place: tuple[int | str, ...], value: Any, at: Span) -> tuple[Span, str | None]:  # noqa: ANN401 - a tree
+    """Return what to point at for a value that is no list or no item of one, and how it is written; of XML nothing."""
+    if isinstance(place[-1], str):
+        instead = written_so(place[-1], value)
+    elif isinstance(value, Written) and len(place) > 1:
+        instead = written_pair(str(place[-2]), value)
+    else:
+        instead = None
+    whole = None if instead is None else extent(value)
+    return (at, None) if whole is None else (whole, instead)
 
 
 def _among_texts(mapping: Keyed, error: ErrorDetails) -> str | None:

@@ -30,7 +30,6 @@ _COLON = pattern(r":(?:\s|$)|\s#", re.MULTILINE)
 _ANCHOR = pattern(r"&([^\s,\[\]{}]+)")
 _ALIAS = pattern(r"\*([^\s,\[\]{}]*)")
 _CONTROL = pattern("[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-_QUOTES: Final = ("'", '"')
 _CLOSERS: Final = {"[": "]", "{": "}"}
 
 
@@ -78,7 +77,7 @@ def _tab(failure: Failure) -> Fault:
     begin = failure.whole.lines[failure.line_of(failure.at) - 1]
     first = failure.text.find("\t", begin, failure.at + 1)
     at = first if first >= 0 else failure.at
-    return failure.fault("a tab cannot indent", at, at + 1)
+    return failure.fault("a tab cannot indent: YAML takes spaces", at, at + 1)
 
 
 def _ended(failure: Failure) -> Fault | None:
@@ -268,7 +267,7 @@ def _offset(mark: Any, whole: Source) -> int:  # noqa: ANN401 - a mark of either
 
 def _in_quotes(text: str) -> str | None:
     return next(
-        (f"{quote}{text}{quote}" for quote in _QUOTES if quote not in text and "\\" not in text), None
+        (f"{quote}{text}{quote}" for quote in ('"', "'") if quote not in text and "\\" not in text), None
     )
 
 

@@ -3,13 +3,33 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.location import is_file
 from orchestra.nearest import nearest
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Sequence
+
+_WORD: Final = pattern(r"[a-z0-9]{2,}")
+# Words that say only of what kind a file is.
+_GENERAL: Final = frozenset(
+    {
+        "bringup",
+        "config",
+        "default",
+        "file",
+        "launch",
+        "main",
+        "param",
+        "parameters",
+        "params",
+        "robot",
+        "settings",
+        "test",
+    }
+)
 
 
 def near_path(path: Path, written: str) -> str | None:
@@ -38,6 +58,22 @@ def near_names(path: Path) -> tuple[tuple[str, str], ...]:
             changes.append((name, near))
         there /= near
     return tuple(changes)
+
+
+def related_names(path: Path) -> tuple[tuple[str, str], ...]:
+    """Return the name of a file that is not there with the one in its folder that says the same in part; else nothing.
+
+    Such is `ekf.yaml` for `ekf_params.yaml`: less than a near name, for a file that must be there all the same.
+    """
+    try:
+        names = [entry.name for entry in path.parent.iterdir() if entry.is_file()]
+    except (OSError, ValueError):
+        return ()
+    wanted = _said(path.name)
+    shared = {name: len(wanted & _said(name)) for name in names if Path(name).suffix == path.suffix != ""}
+    most = max(shared.values(), default=0)
+    best = [name for name, number in shared.items() if number == most]
+    return ((path.name, best[0]),) if most and len(best) == 1 else ()
 
 
 def rewritten(written: str, changes: Iterable[tuple[str, str]]) -> str:
@@ -92,6 +128,11 @@ def _near(folder: Path, name: str, *, is_last: bool) -> str | None:
     meant = stem if stem in stems else nearest(stem, stems)
     alike = [other for other in names if _stem(other) == meant]
     return nearest(name, alike) or min(alike, default=None)
+
+
+def _said(name: str) -> set[str]:
+    """Return the words of a file's name that say what it is about."""
+    return {word for word in _WORD.findall(_stem(name).lower()) if word not in _GENERAL}
 
 
 def _stem(name: str) -> str:

@@ -11,7 +11,8 @@ from orchestra.description.source import shortened
 from orchestra.description.substitutions import SIGNATURES
 from orchestra.errors import Code, Problems, Severity
 from orchestra.fields import replace
-from orchestra.location import displayed
+from orchestra.load.encodings import UndecodableError, decoded
+from orchestra.location import Location, displayed, point
 from orchestra.patterns import pattern
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import FileParameters
@@ -27,7 +28,7 @@ from orchestra.witness.once import once, real
 if TYPE_CHECKING:
     from orchestra.description.text import Template
     from orchestra.errors import Problem
-    from orchestra.location import Location
+    from orchestra.location import Span
     from orchestra.resolve.rcl.sections import Section
     from orchestra.resolve.resolution import Resolution
 
@@ -111,11 +112,11 @@ def read_file(
 
     With `substitute`, `$(...)` in it is evaluated; with `plain`, it may be one without sections.
     """
-    text = _text(path, location, run)
+    chain = (location.span, *location.included_from)
+    text = _text(path, location, chain, run)
     if text is None:
         return None
     file = once(("displayed", path, os.getcwd()), lambda: displayed(path, real))  # noqa: PTH109 - pathlib is slow
-    chain = (location.span, *location.included_from)
     back: Back | None = None
     reads: Reads = ()
     if substitute:
@@ -165,10 +166,13 @@ def _read(text: str, file: str, *, bare: bool) -> tuple[tuple[Section, ...], boo
     return *read_kept(text, file, found), tuple(found)
 
 
-def _text(path: str, location: Location, run: Resolution) -> str | None:
+def _text(path: str, location: Location, chain: tuple[Span, ...], run: Resolution) -> str | None:
     try:
-        return once(("parameters", path), lambda: Path(path).read_bytes().decode("utf-8-sig"))
-    except (OSError, UnicodeDecodeError) as error:
+        return once(("parameters", path), lambda: decoded(Path(path).read_bytes()))
+    except OSError as error:
         message = f"cannot read the parameter file {displayed(path)}: {error}"
         run.problems.error(Code.UNREADABLE_FILE, message, location)
-        return None
+    except UndecodableError as error:
+        at = Location(point(displayed(path, real), error.line, error.column), chain)
+        run.problems.error(Code.PARAMETER_SYNTAX, str(error), at)
+    return None

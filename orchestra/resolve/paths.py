@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
 from orchestra.location import displayed, is_file, is_python
-from orchestra.resolve.near_paths import exists, near_names, near_path, rewritten
+from orchestra.resolve.near_paths import exists, near_names, near_path, related_names, rewritten
 from orchestra.resolve.refusals import refuse_value
 
 if TYPE_CHECKING:
@@ -83,7 +83,7 @@ def file_below(
         path = Path(folder) / _expanded(value.text)
         folder_there = exists(path)
         message = f"there is no {what} {displayed(str(path))}" + (": it is a folder" if folder_there else "")
-        changes = () if folder_there else near_names(path)
+        changes = () if folder_there else near_names(path) or related_names(path)
         _refuse_path(value, value.text if written is None else written, changes, message, run)
     return found
 

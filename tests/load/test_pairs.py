@@ -14,13 +14,13 @@ if TYPE_CHECKING:
 
 LISTS = [
     ("param: {rate: 2.0}", "param: [{name: rate, value: 2.0}]"),
-    ("param: {rate: 2.0, id: 'a'}", "param: [{name: rate, value: 2.0}, {name: id, value: 'a'}]"),
+    ("param: {rate: 2.0, id: 'a'}", 'param: [{name: rate, value: 2.0}, {name: id, value: "a"}]'),
     (
         "param: {limits: {max: 3, names: [a, 'b, c']}}",
-        "param: [{name: limits, param: [{name: max, value: 3}, {name: names, value: [a, 'b, c']}]}]",
+        'param: [{name: limits, param: [{name: max, value: 3}, {name: names, value: [a, "b, c"]}]}]',
     ),
     ("param: {words: it's so}", "param: [{name: words, value: it's so}]"),
-    ("param: {words: 'it''s: so'}", "param: [{name: words, value: 'it''s: so'}]"),
+    ("param: {words: 'it''s: so'}", 'param: [{name: words, value: "it\'s: so"}]'),
     ("remap: {scan: /scan}", "remap: [{from: scan, to: /scan}]"),
     ("env: {LEVEL: high}", "env: [{name: LEVEL, value: high}]"),
     ("remap: {a: {b: c}}", "remap: [{from: a, to: ...}]"),
@@ -31,9 +31,18 @@ LISTS = [
 def test_a_mapping_in_the_place_of_a_list_is_shown_as_the_list(
     tmp_path: Path, written: str, meant: str
 ) -> None:
-    (problem,) = outcome(tmp_path, f"launch:\n- node: {{exec: a, name: n, {written}}}").problems
+    text = f"launch:\n- node: {{exec: a, name: n, {written}}}"
+    (problem,) = outcome(tmp_path, text).problems
     assert (problem.code, problem.message) == (Code.WRONG_TYPE, "expected a list, found a mapping")
-    assert problem.notes == (f"it is written {meant}",)
+    if "..." in meant:
+        assert (problem.notes, problem.suggestion) == ((f"it is written {meant}",), None)
+    else:
+        key, _, instead = meant.partition(": ")
+        assert (problem.notes, problem.suggestion) == ((), instead)
+        span = problem.span
+        assert span is not None
+        line = text.splitlines()[span.line - 1]
+        assert f"{key}: {line[span.column - 1 : span.end_column - 1]}" == written
 
 
 @pytest.mark.parametrize(("written", "meant"), LISTS[:1] + LISTS[5:7])
@@ -59,6 +68,50 @@ def test_a_name_in_the_place_of_a_key_is_told_once(
     first, *others = outcome(tmp_path, f"launch:\n- {action}", environment={"PATH": "/bin"}).problems
     assert (first.code, first.notes, first.suggestion) == (Code.UNKNOWN_KEY, notes, suggestion)
     assert not others
+
+
+@pytest.mark.parametrize(
+    ("written", "instead"),
+    [
+        ("remap: [scan:=/scan]", "{from: scan, to: /scan}"),
+        ("remap: ['/a -> /b']", "{from: /a, to: /b}"),
+        ("remap: scan:=/scan", "[{from: scan, to: /scan}]"),
+        ("param: [use_sim_time:=true]", "{name: use_sim_time, value: true}"),
+        ("param: [$(dirname)/a.yaml]", "{from: $(dirname)/a.yaml}"),
+        ("param: a.yaml", "[{from: a.yaml}]"),
+        ("param: [rate]", None),
+        ("env: [A=b c]", "{name: A, value: b c}"),
+        ("env: ['A=b, c']", '{name: A, value: "b, c"}'),
+        ("env: A", None),
+    ],
+)
+def test_a_text_in_the_place_of_a_pair_is_shown_as_one(
+    tmp_path: Path, written: str, instead: str | None
+) -> None:
+    (problem,) = outcome(tmp_path, f"launch:\n- node: {{exec: a, name: n, {written}}}").problems
+    assert (problem.code, problem.suggestion) == (Code.WRONG_TYPE, instead)
+
+
+@pytest.mark.parametrize(
+    ("action", "instead"),
+    [
+        ("let: a:=b", "{name: a, value: b}"),
+        ("set_env: A=b", "{name: A, value: b}"),
+        ("set_remap: a:=b", "{from: a, to: b}"),
+        ("set_parameter: a:=b", "{name: a, value: b}"),
+        ("arg: a:=b", "{name: a, default: b}"),
+        ("arg: world", "{name: world}"),
+        ("node: demo talker", "{pkg: demo, exec: talker}"),
+        ("node: talker", None),
+        ("executable: 'echo a, b'", '{cmd: "echo a, b"}'),
+        ("timer: 5.0", None),
+    ],
+)
+def test_a_text_in_the_place_of_an_action_is_shown_as_one(
+    tmp_path: Path, action: str, instead: str | None
+) -> None:
+    (problem,) = outcome(tmp_path, f"launch:\n- {action}", environment={"PATH": "/bin"}).problems
+    assert (problem.code, problem.suggestion) == (Code.WRONG_TYPE, instead)
 
 
 def test_a_slip_is_told_as_one(tmp_path: Path) -> None:

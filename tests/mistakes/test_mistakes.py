@@ -16,11 +16,13 @@ if TYPE_CHECKING:
     from tests.mistakes.corpus import Case
 
 _MAIN: Final = {"yaml": "main.launch.yaml", "xml": "main.launch.xml", "parameters": "params.yaml"}
-_CASES: Final = [
-    pytest.param(case, id=f"{kind}: {case.title}")
+_FOUND: Final = [
+    (kind, case)
     for kind, main in _MAIN.items()
-    for case in cases(Path(__file__).with_name(f"{kind}.txt"), main)
+    for path in sorted(Path(__file__).parent.glob(f"{kind}*.txt"))
+    for case in cases(path, main)
 ]
+_CASES: Final = [pytest.param(case, id=f"{kind}: {case.title}") for kind, case in _FOUND]
 
 
 @pytest.fixture(scope="module")
@@ -49,8 +51,7 @@ def test_a_byte_order_mark_and_the_line_ends_of_windows_move_nothing(
 def test_every_case_has_a_mistake_and_a_name_of_its_own() -> None:
     names = [param.id for param in _CASES]
     assert len(names) == len(set(names))
-    for kind, main in _MAIN.items():
-        assert all(case.mistakes for case in cases(Path(__file__).with_name(f"{kind}.txt"), main))
+    assert all(case.mistakes for _, case in _FOUND)
 
 
 def test_the_documentation_lists_all_codes() -> None:

@@ -100,7 +100,7 @@ def test_a_file_may_hold_several_documents() -> None:
         ("/n:\n  ros__parameters: {'': 1}\n", "2:21", "a key must not be empty"),
         ("/n:\n  ros__parameters: {x: &a 1, y: *a}\n", "2:33", "aliases ('*a')"),
         ("/n: &a\n  ros__parameters: {}\n/m:\n  <<: *a\n", "4:7", "aliases"),
-        ("/n:\n  ros__parameters: {x: [[1], [2]]}\n", "2:25", "a list of lists"),
+        ("/n:\n  ros__parameters: {x: [[1], [2]]}\n", "2:24", "a list of lists"),
         ("/n:\n  ros__parameters: {[1]: 2}\n", "2:21", "a list cannot be a key"),
         ("/n:\n  ros__parameters: {? {a: 1} : 2}\n", "2:23", "a mapping cannot be a key"),
         ("/ns:\n  /n:\n    ros__parameters: {}\n", "2:3", "'/ns//n' cannot be the name of a node"),

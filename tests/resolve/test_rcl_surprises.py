@@ -19,8 +19,8 @@ def _told(value: str) -> list[tuple[int, int, str | None]]:
 @pytest.mark.parametrize(
     ("value", "instead"),
     [
-        ("y", "'y'"),
-        ("N", "'N'"),
+        ("y", '"y"'),
+        ("N", '"N"'),
         ("on", "true"),
         ("Off", "false"),
         ("yes", "true"),
@@ -35,9 +35,9 @@ def _told(value: str) -> list[tuple[int, int, str | None]]:
         ("1_000", "1000"),
         ("0o17", "15"),
         ("0b11", "3"),
-        ("null", "'null'"),
-        ("~", "'~'"),
-        ("99999999999999999999", "'99999999999999999999'"),
+        ("null", '"null"'),
+        ("~", '"~"'),
+        ("99999999999999999999", '"99999999999999999999"'),
     ],
 )
 def test_a_value_that_is_read_otherwise_is_told_with_what_to_write(value: str, instead: str) -> None:
@@ -86,4 +86,4 @@ def test_a_value_that_is_read_as_it_says_is_fine(value: str) -> None:
 
 
 def test_of_a_list_the_first_is_told() -> None:
-    assert _told("[y, n]") == [(9, 10, "'y'")]
+    assert _told("[y, n]") == [(9, 10, '"y"')]

@@ -17,6 +17,7 @@ from orchestra.cli.look.standing import Standing
 from orchestra.declared.alone import check_common
 from orchestra.errors import HERE, Code, Problems
 from orchestra.fields import replace
+from orchestra.load.encodings import UndecodableError, decoded
 from orchestra.location import Location, displayed, point
 from orchestra.resolve.mentions import files_named
 from orchestra.resolve.python.environ import put_environment
@@ -126,10 +127,13 @@ class Looker:
         problems = Problems()
         file = displayed(path, real)
         try:
-            text = Path(path).read_bytes().decode("utf-8-sig")
-        except (OSError, UnicodeDecodeError) as error:
+            text = decoded(Path(path).read_bytes())
+        except OSError as error:
             message = f"cannot read the parameter file {file}: {error}"
             problems.error(Code.UNREADABLE_FILE, message, Location(point(file)))
+        except UndecodableError as error:
+            at = Location(point(file, error.line, error.column))
+            problems.error(Code.PARAMETER_SYNTAX, str(error), at)
         else:
             check_common(read_parameter_file(text, file, problems, template=True), problems)
         settle(problems, str(Path(path).absolute()), self._inputs.severity)

@@ -27,7 +27,7 @@ def report_duplicates(sections: Sequence[Section], problems: Problems) -> None:
             slot = slots.put(entry)
             if displaced is not None:
                 _report_displaced(entry, displaced, slot, problems)
-            elif earlier is not None and entry.value is not None:
+            elif earlier is not None and entry.value is not None and earlier.key != entry.key:
                 _report_duplicate(section.pattern, entry, earlier, slot, problems)
 
 

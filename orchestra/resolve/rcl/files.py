@@ -16,9 +16,11 @@ from orchestra.errors import Code, Problems
 from orchestra.load.offsets import source
 from orchestra.location import Location, Span
 from orchestra.resolve.rcl.duplicates import report_duplicates
-from orchestra.resolve.rcl.reader import Reader, Unreadable
+from orchestra.resolve.rcl.nesting import NESTED, as_text
+from orchestra.resolve.rcl.opened import Unreadable
+from orchestra.resolve.rcl.reader import Reader
 from orchestra.resolve.rcl.strays import SECTION_KEY
-from orchestra.resolve.rcl.surprises import report_surprises
+from orchestra.resolve.rcl.surprises import BREAK, report_surprises
 from orchestra.resolve.rcl.values import LOADER
 
 if TYPE_CHECKING:
@@ -93,6 +95,9 @@ def _read(
     except Unreadable:
         reader.lost = True  # it has reported why it cannot go on
     sections = reader.sections()
+    if any(problem.message == NESTED for problem in found):
+        lines = BREAK.split(text)
+        found.amend(lambda problem: as_text(problem, lines))
     problems.extend(found)
     report_duplicates(sections, problems)
     report_surprises(sections, text, problems)

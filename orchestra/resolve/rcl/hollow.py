@@ -50,7 +50,7 @@ class Hollow:
         if tag is None and not listed and not event.style and self.open:
             self.open[-1].empty.append((parameter.name, parameter.key))
             return
-        self._tell(parameter.name, at if listed or tag else parameter.key, tag and f"'{tag}'")
+        self._tell(parameter.name, at if listed or tag else parameter.key, tag and f'"{tag}"')
 
     def end(self, event: yaml.Event, depth: int, at: Callable[[yaml.Event, yaml.Event], Location]) -> None:
         """Take the end of a mapping so deep; `at` gives the place from one event to another."""

@@ -44,7 +44,7 @@ def wanted_type(values: Sequence[Scalar], odd: int) -> type:
     return Counter(type(value) for value in values if type(value) is not own).most_common(1)[0][0]
 
 
-def in_place(text: str, wanted: type, *, quoted: bool, quote: str = "'") -> str | None:
+def in_place(text: str, wanted: type, *, quoted: bool, quote: str = '"') -> str | None:
     """Return how an item is written with another type, None where it has no such reading.
 
     `text` is its text without quotes; a text is put in `quote`.

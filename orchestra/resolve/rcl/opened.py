@@ -11,6 +11,10 @@ from orchestra.resolve.rcl.sections import Entry
 from orchestra.values import Scalar
 
 
+class Unreadable(Exception):  # noqa: N818 - no fault of the program
+    """What follows cannot be made sense of; why has been reported."""
+
+
 @dataclass(slots=True)
 class OpenParameter:
     """The key that was read last: rcl's name for it, and the name under which it looks for its slot."""
@@ -32,12 +36,13 @@ class OpenSection:
 
 @dataclass(slots=True)
 class OpenList:
-    """A list that is being read; `items` is None once an inner list has ended. `written` are their events.
+    """A list that is being read so deep; `items` is None once an inner list has ended. `written` are their events.
 
     `inner` is the place of the first list inside it, `mapping` that of the first mapping.
     """
 
     start: yaml.Event
+    depth: int
     items: list[Scalar] | None = field(default_factory=list)
     written: list[yaml.Event] = field(default_factory=list)
     sound: bool = True

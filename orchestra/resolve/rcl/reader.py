@@ -12,7 +12,8 @@ from orchestra.fields import field, replace
 from orchestra.location import Location, Span
 from orchestra.resolve.rcl.hollow import Hollow
 from orchestra.resolve.rcl.joined import Joined, joined
-from orchestra.resolve.rcl.opened import OpenList, OpenParameter, OpenSection
+from orchestra.resolve.rcl.nesting import NESTED, Nesting
+from orchestra.resolve.rcl.opened import OpenList, OpenParameter, OpenSection, Unreadable
 from orchestra.resolve.rcl.patterns import instead, pattern_fault
 from orchestra.resolve.rcl.sections import Entry, Section
 from orchestra.resolve.rcl.strays import SECTION_KEY, Key, Strays, is_misspelt_section, is_section
@@ -21,13 +22,8 @@ from orchestra.resolve.rcl.values import scalar, span_of_events, terminated
 if TYPE_CHECKING:
     from orchestra.values import ParameterValue
 
-_NESTED = "a parameter cannot be a list of lists"
 _BELOW = f"stands below one that has '{SECTION_KEY}' itself, which rcl cannot read: write its full name apart"
 _NO_KEY, _NO_DOCUMENT = "a key must not be empty", "rcl does not take an empty document"
-
-
-class Unreadable(Exception):  # noqa: N818 - no fault of the program
-    """What follows cannot be made sense of; why has been reported."""
 
 
 @dataclass(slots=True)
@@ -60,10 +56,12 @@ class Reader:
     lost: bool = False  # not all sections are what the file means
     strays: Strays = field(init=False)
     hollow: Hollow = field(init=False)
+    nesting: Nesting = field(init=False)
     found: list[OpenSection] = field(default_factory=list)
 
     def __post_init__(self) -> None:
-        self.strays, self.hollow = Strays(self.problems), Hollow(self.problems)
+        told = self.problems
+        self.strays, self.hollow, self.nesting = Strays(told), Hollow(told), Nesting(told)
 
     def sections(self) -> tuple[Section, ...]:
         """Return the sections read so far."""
@@ -73,7 +71,10 @@ class Reader:
 
     def take(self, event: yaml.Event) -> None:
         """Go on by one event. Raises `Unreadable` where there is no going on."""
-        if isinstance(event, yaml.ScalarEvent):
+        within = self.nesting.open or (self.expects_key and self.lists)
+        if within and self.nesting.leaves_out(event, self.lists, self.depth, self.at):
+            pass
+        elif isinstance(event, yaml.ScalarEvent):
             (self.key if self.expects_key else self.value)(event)
         elif isinstance(event, yaml.MappingStartEvent):
             self.open_mapping(event)
@@ -91,8 +92,6 @@ class Reader:
         name = terminated(event.value)
         if not name:
             raise self.unreadable(_NO_KEY if self.depth else _NO_DOCUMENT, event)
-        if self.lists and self.lists[-1].items is None:
-            raise self.unreadable(_NESTED, event, self.lists[0].inner)
         beside = not self.inside and self.strays.key(Key(name, self.at(event), self.depth), self.keys)
         if self.inside:
             self.parameter_key(name, event)
@@ -137,7 +136,7 @@ class Reader:
         slot = self.group.text if self.group.count else name
         whole = f"{slot}.{name}" if self.group.count else name
         said = ".".join([*self.keys[self.node_depth + 1 :], name])
-        if whole != said:
+        if whole != said and not self.lists:
             self.surprise(f"rcl reads this as the parameter '{whole}', not '{said}'", self.at(event))
         elif is_section(name):
             self.surprise(f"'{name}' stands inside itself: rcl reads '{whole}'", self.at(event))
@@ -219,8 +218,6 @@ class Reader:
 
     def open_list(self, event: yaml.SequenceStartEvent) -> None:
         """Take the beginning of a list; to rcl an inner list is a new beginning of the outer one."""
-        if self.expects_key and self.lists:
-            raise self.unreadable(_NESTED, event, self.lists[0].inner)
         if self.expects_key:
             what = "a list cannot be a key" if self.depth else "a parameter file must be a mapping"
             raise self.unreadable(what, event)
@@ -232,7 +229,7 @@ class Reader:
             self.lists[0].inner = self.lists[0].inner or self.at(event)
             if self.lists[-1].items:
                 self.flush(event)
-        self.lists.append(OpenList(event))
+        self.lists.append(OpenList(event, self.depth))
 
     def close_list(self, event: yaml.SequenceEndEvent) -> None:
         """Take the end of a list."""
@@ -243,7 +240,7 @@ class Reader:
         if self.lists:
             self.lists[-1].items = None
         elif closed.inner is not None:
-            self.surprise(f"{_NESTED}; rcl takes one of the inner lists", closed.inner)
+            self.surprise(f"{NESTED}; rcl takes one of the inner lists", closed.inner)
         self.expects_key = True
 
     def flush(self, event: yaml.Event) -> None:

@@ -39,7 +39,7 @@ _NOT_PLAIN: Final = ("'", '"', "!", "&", "|", ">", "")
 _NUMERIC: Final = frozenset("0123456789.+-tTfF")
 _TYPESET: Final = frozenset("\u201c\u201d\u201e\u2018\u2019\u201a\u00ab\u00bb")
 _OPENING: Final = {"]": "[", "}": "{"}
-_BREAK: Final = pattern("\r\n|[\r\n\x85\u2028\u2029]")
+BREAK: Final = pattern("\r\n|[\r\n\x85\u2028\u2029]")
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,7 +54,7 @@ def report_surprises(sections: Sequence[Section], text: str, problems: Problems)
     """Report what is surprising about the values in the text of a file; in a list the first."""
     from orchestra.resolve.rcl.oddities import report_oddities  # noqa: PLC0415 - only files have them
 
-    lines = _BREAK.split(text)
+    lines = BREAK.split(text)
     report_oddities(sections, lines, problems)
     for section in sections:
         for entry in section.entries:
@@ -103,7 +103,7 @@ def plainly(text: str, value: ParameterValue, *, quotes: bool) -> str | None:
     if isinstance(value, tuple):
         return None
     if ":" in text or (isinstance(value, bool) and text in _LETTERS):
-        return f"'{text}'" if quotes else None
+        return f'"{text}"' if quotes else None
     if isinstance(value, bool):
         return str(value).lower()
     zeros = _ZEROS.fullmatch(text)
@@ -127,8 +127,8 @@ def _of_boolean(text: str, value: bool) -> Surprise | None:
     word = str(value).lower()
     if text.lower() == word:
         return None
-    instead = f"'{text}'" if text in _LETTERS else word
-    meaning = "in quotes it is a text" if text in _LETTERS else f"write {word}, or '{text}' for a text"
+    instead = f'"{text}"' if text in _LETTERS else word
+    meaning = "in quotes it is a text" if text in _LETTERS else f'write {word}, or "{text}" for a text'
     return Surprise(f"'{text}' is read as the boolean {word}: {meaning}", instead)
 
 
@@ -139,7 +139,7 @@ def _of_text(text: str) -> Surprise | None:
         told = f"the quotes of '{shortened(text)}' are part of the text: YAML knows only ' and \""
         return Surprise(told, f'"{text[1:-1]}"' if '"' not in text and "\\" not in text else None)
     if text in _NULLS:
-        return Surprise(f"'{text}' is read as a text: no parameter is without a value", f"'{text}'")
+        return Surprise(f"'{text}' is read as a text: no parameter is without a value", f'"{text}"')
     if _GROUPED.fullmatch(text):
         return Surprise(f"'{text}' is read as a text: numbers have no '_' here", text.replace("_", ""))
     if prefixed := _PREFIXED.fullmatch(text):
@@ -180,14 +180,14 @@ def _of_number(text: str, value: float) -> Surprise | None:
     zeros = _ZEROS.fullmatch(text)
     if zeros is not None and str(value) != f"{zeros['sign'].strip('+')}{zeros['digits']}":
         how = "in base 8" if isinstance(value, int) else "as no whole number"
-        message = f"'{text}' is read as {value}: a number that begins with 0 is read {how}"
+        message = f"'{text}' is read as {value}: a number that begins with 0 is read {how}, as a text it is \"{text}\""
         return Surprise(message, f"{zeros['sign']}{zeros['digits']}")
     if isinstance(value, float) and _WHOLE.fullmatch(text) and zeros is None:
-        return Surprise(f"'{text}' is read as the float {value}: it does not fit into 64 bits", f"'{text}'")
+        return Surprise(f"'{text}' is read as the float {value}: it does not fit into 64 bits", f'"{text}"')
     word = _NO_NUMBER.fullmatch(text)
     if word is not None and not _AS_YAML.fullmatch(text):
         instead = f"{word['sign'] if word['word'].lower() != 'nan' else ''}.{word['word'].lower()[:3]}"
         return Surprise(
-            f"'{text}' is read as the float {value}: write {instead}, or '{text}' for a text", instead
+            f"'{text}' is read as the float {value}: write {instead}, or \"{text}\" for a text", instead
         )
     return None
