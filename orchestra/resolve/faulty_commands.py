@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from orchestra.description.text import Template
 from orchestra.errors import HERE, Code, Severity
 from orchestra.location import displayed, is_python
-from orchestra.nearest import is_slip, nearest
+from orchestra.nearest import is_one_slip, is_slip, nearest
 from orchestra.resolve.context import Value
 from orchestra.resolve.misspelt import misspelt
 from orchestra.resolve.near_paths import near_names, near_path
@@ -51,13 +51,15 @@ def look_at_files(written: Template, context: Context, evaluate: Evaluate) -> No
 def report_program(name: str, at: Span, context: Context) -> None:
     """Report a program that is not on the PATH.
 
-    Where nothing will be started it may be on another machine: then it is told once, and no error, unless the name is a
-    slip for one that is here.
+    Where nothing will be started it may be on another machine: then it is told once, and no error, unless one slip
+    explains the name. A PATH has a thousand short names: `socat` is no slip for `cat`, nor `gzserver` for `serialver`.
     """
-    meant = nearest(name, _programs(context.environment.get("PATH", os.defpath)))
+    known = set(_programs(context.environment.get("PATH", os.defpath)))
+    slip = nearest(name, (program for program in known if is_one_slip(name, program)))
     weight = context.weights.package
-    if weight is Severity.ERROR or (meant is not None and is_slip(name, meant)):
+    if weight is Severity.ERROR or slip is not None:
         told = f"there is no program {name!r} on the PATH"
+        meant = slip or nearest(name, known)
         context.problems.error(Code.MISSING_EXECUTABLE, told, context.at(at), suggestion=meant)
         return
     if f"program {name}" not in context.elsewhere:

@@ -119,3 +119,25 @@ def test_how_much_a_note_weighs_can_be_said(orchestra: Command, folder: Path) ->
         found = orchestra(".", "--severity", f"ORC030={level}", "--format", "json")
         told = "".join(problem["severity"] for problem in json.loads(found.stdout))
         assert (found.returncode, told or "off") == (status, level)
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("qqsocat", ("note", None)),  # words of their own, which a thousand programs may be near
+        ("qqgzserver", ("note", None)),
+        ("qqxarco", ("error", "qqxacro")),
+        ("qqxacr", ("error", "qqxacro")),
+    ],
+)
+def test_a_program_is_a_slip_only_for_one_that_a_single_slip_turns_into_it(
+    orchestra: Command, folder: Path, tmp_path: Path, name: str, told: tuple[str, str | None]
+) -> None:
+    programs = tmp_path / "programs"
+    programs.mkdir()
+    for program in ("qqcat", "qqserialver", "qqxacro"):
+        (programs / program).touch(0o755)
+    (folder / "a.launch.yaml").write_text(f"launch: [log: {{message: $(command '{name} a.urdf')}}]\n")
+    found = orchestra(".", "--format", "json", PATH=f"{programs}:/usr/bin:/bin")
+    (problem,) = json.loads(found.stdout)
+    assert (problem["code"], problem["severity"], problem["suggestion"]) == ("ORC031", *told)
