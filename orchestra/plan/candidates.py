@@ -107,6 +107,12 @@ def _touch(one: Span, other: Span) -> bool:
 
 def of_parameter(below: Setting | None, above: Setting | None, known: Origins) -> tuple[Candidate, ...]:
     """Return all values of one parameter: those of the description, then those of the command line, which win."""
+    if (
+        above is None and below is not None and len(below.written) == 1 and below.written[0].won
+    ):  # as nearly always
+        entry = below.written[0].entry
+        through = behind(entry.location, known)
+        return (new_candidate(entry.value, entry.location, True, below.rule, through),)
     written = [
         new_candidate(
             item.value,

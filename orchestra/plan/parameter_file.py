@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from orchestra.plan.model import Process
     from orchestra.values import ParameterValue, Scalar
@@ -47,9 +47,13 @@ def render(process: Process) -> str:
 
 def rendered(node: str, parameters: Mapping[str, ParameterValue]) -> str:
     """Return the text of a parameter file with one section. Raises like `render`."""
-    lines = [f"{_key(node, _PLAIN_PATTERN)}:", f"  ros__parameters:{'' if parameters else ' {}'}"]
-    lines += [_entry(name, value) for name, value in parameters.items()]
-    return "\n".join(lines) + "\n"
+    return with_lines(node, [line(name, value) for name, value in parameters.items()])
+
+
+def with_lines(node: str, parameters: Sequence[str]) -> str:
+    """Return the text of a parameter file with one section, of the lines of its parameters. Raises like `render`."""
+    head = (f"{_key(node, _PLAIN_PATTERN)}:", f"  ros__parameters:{'' if parameters else ' {}'}")
+    return "\n".join([*head, *parameters, ""])
 
 
 def contents(process: Process) -> dict[str, str]:
@@ -90,7 +94,8 @@ def _percent(found: re.Match[str]) -> str:
     return "".join(f"%{byte:02X}" for byte in found[0].encode())
 
 
-def _entry(name: str, value: ParameterValue) -> str:
+def line(name: str, value: ParameterValue) -> str:
+    """Return what the file says of one parameter. Raises like `render`."""
     try:
         key, text = _key(name, _PLAIN_NAME), _value(value)
     except ValueError as error:

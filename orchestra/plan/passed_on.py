@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING
 
 from orchestra.plan.ids import node_name
 from orchestra.plan.model import ParameterFile
-from orchestra.plan.parameter_file import rendered
+from orchestra.plan.parameter_file import line, with_lines
 from orchestra.resolve.model import InlineParameter
 from orchestra.resolve.rcl.indexed import Indexed, absolute
-from orchestra.resolve.rcl.sections import Section, entry
-from orchestra.resolve.rcl.table import tabulated
+from orchestra.resolve.rcl.sections import Entry, Section, entry
+from orchestra.resolve.rcl.table import flat, tabulated
 
 if TYPE_CHECKING:
     from collections.abc import Container, Iterable, Sequence
@@ -34,6 +34,9 @@ class Sections:
         self._files: dict[int, Indexed] = {}
         self._others: dict[int, _Others] = {}
         self._passed_on: dict[tuple[object, ...], tuple[ParameterFile, ...]] = {}
+        self._lines: dict[
+            tuple[str, int], tuple[Entry, str]
+        ] = {}  # an entry is kept: no other gets its identity
 
     @cached_property
     def _nodes(self) -> set[str | None]:
@@ -74,8 +77,28 @@ class Sections:
         if key not in self._passed_on:
             every = [section for item in sources for section in self._of(item, own, name, known=known)]
             every += self._kept(self.given, name, known=known)
-            self._passed_on[key] = _files(every)
+            self._passed_on[key] = self._rendered(every)
         return self._passed_on[key]
+
+    def _rendered(self, sections: Sequence[Section]) -> tuple[ParameterFile, ...]:
+        texts = []
+        for pattern, entries in _winners(sections):
+            lines = [
+                self._line(name, entry)
+                for name, entry in entries
+                if entry is not None and entry.value is not None
+            ]
+            if lines:
+                texts.append(with_lines(absolute(pattern), lines))
+        return (ParameterFile("", "".join(texts)),) if texts else ()
+
+    def _line(self, name: str, entry: Entry) -> str:
+        """Return the line of an entry; most are passed on to many nodes."""
+        known = self._lines.get((name, id(entry)))
+        if known is None:
+            assert entry.value is not None  # noqa: S101 - asked by the caller
+            known = self._lines[name, id(entry)] = (entry, line(name, entry.value))
+        return known[1]
 
     def _of(
         self, source: InlineParameter | FileParameters, own: str, name: str | None, *, known: bool
@@ -128,14 +151,13 @@ def _section(source: InlineParameter, own: str) -> Section:
     return Section(EVERY_NODE if source.everywhere else own, (item,), source.location)
 
 
-def _files(sections: Iterable[Section]) -> tuple[ParameterFile, ...]:
-    texts = []
-    for pattern, slots in tabulated(sections).items():
-        values = {
-            slot.name: slot.entry.value
-            for slot in slots
-            if slot.entry is not None and slot.entry.value is not None
-        }
-        if values:
-            texts.append(rendered(absolute(pattern), values))
-    return (ParameterFile("", "".join(texts)),) if texts else ()
+def _winners(sections: Sequence[Section]) -> Iterable[tuple[str, Iterable[tuple[str, Entry | None]]]]:
+    """Return what counts of sections by pattern and name."""
+    plain = flat(sections)
+    if plain is not None:
+        return [(pattern, entries.items()) for pattern, entries in plain.items()]
+    table = tabulated(sections)
+    return [
+        (pattern, {slot.name: slot.entry for slot in slots if slot.entry is not None}.items())
+        for pattern, slots in table.items()
+    ]

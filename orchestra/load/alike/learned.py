@@ -21,11 +21,11 @@ from orchestra.load.offsets import Source
 from orchestra.load.reader import Reader
 
 # So much of one form is read before it is learned, which takes as long as it saves with some 50 actions; one that takes
-# the ordinary way, for it is not plain to see what it says, counts for 4. So many forms are kept of each beginning and
+# the ordinary way, for it is not plain to see what it says, counts for 8. So many forms are kept of each beginning and
 # in all. What looks alike may be of several forms, as with quotes and without: after four times as many the next one is
 # learned.
-FEW: Final = 12
-LONG: Final = 4
+FEW: Final = 24
+LONG: Final = 8
 _LATER: Final = 4
 _MOST_ALIKE: Final = 8
 _MOST: Final = 100

@@ -71,12 +71,18 @@ _Read: TypeAlias = Callable[[Any, Places, "Reader"], Any]
 
 @dataclass(frozen=True, slots=True)
 class _Model:
-    """How a model is read: its fields where nothing is written, by key what reads them, and the keys that must be."""
+    """How a model is read: its fields where nothing is written, by key what reads them, and the keys that must be.
 
-    unwritten: Mapping[str, Any]
+    `texts` are the keys of texts, `parts` those of entities. `fit` has sets of keys, without such parts, that do not
+    contradict each other.
+    """
+
+    unwritten: dict[str, Any]
     fields: Mapping[str, tuple[str, _Read]]
     required: frozenset[str]
-    conflicts: bool
+    texts: frozenset[str]
+    parts: frozenset[str]
+    fit: set[tuple[str, ...]]
 
 
 def straight(plainly: Plainly, reader: Reader) -> Action | None:
@@ -104,16 +110,27 @@ def _entity(model: type[Entity], written: Any, places: Places, reader: Reader) -
     if type(written) is not Keys:
         raise UnlikeError
     how = _how(model)
-    values, fields, keys = dict(how.unwritten), how.fields, written.values
-    if not how.required <= keys.keys():
-        raise UnlikeError
+    values, fields, texts, keys = how.unwritten.copy(), how.fields, how.texts, written.values
     for key, value in keys.items():
-        field = fields.get(key) or _field(key, fields, keys)
-        values[field[0]] = field[1](value, places, reader)
+        if key in texts and type(value) is tuple:
+            text, at, quoted = value
+            values[fields[key][0]] = template(text, places, at, quoted, reader)
+            continue
+        name, read = fields.get(key) or _field(key, fields, keys)
+        values[name] = read(value, places, reader)
     entity = matched_entity(model, values, places, written.head)
-    if how.conflicts and entity.conflict() is not None:
-        raise UnlikeError
+    together = tuple(keys)
+    if together not in how.fit:
+        _check(entity, together, how)
     return entity
+
+
+def _check(entity: Entity, together: tuple[str, ...], how: _Model) -> None:
+    """Refuse an entity that lacks a key, or has some that cannot stand together."""
+    if not how.required <= set(together) or entity.conflict() is not None:
+        raise UnlikeError
+    if how.parts.isdisjoint(together):
+        how.fit.add(together)
 
 
 def _field(key: str, fields: Mapping[str, Any], beside: Mapping[str, Any]) -> Any:  # noqa: ANN401 - a name and a function
@@ -129,12 +146,9 @@ def _how(model: type[Entity]) -> _Model:
     entries = model.model_fields
     unwritten = {name: None if entry.is_required() else entry.default for name, entry in entries.items()}
     fields = {entry.alias or name: (name, _reading(entry.annotation)) for name, entry in entries.items()}
-    return _Model(unwritten, fields, model.required_keys(), _has_conflicts(model))
-
-
-def _has_conflicts(model: type[Entity]) -> bool:
-    """Return whether keys of a model may contradict each other, be each of them right."""
-    return model.conflict is not Entity.conflict
+    texts = frozenset(key for key, (_, read) in fields.items() if read in (_text, _text_or_list))
+    parts = frozenset(key for key, (_, read) in fields.items() if getattr(read, "func", None) is _entity)
+    return _Model(unwritten, fields, model.required_keys(), texts, parts, set())
 
 
 def _reading(annotation: Any) -> _Read:  # noqa: ANN401 - a type

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING
 from orchestra.dataclass import dataclass
 from orchestra.resolve.rcl.patterns import matches
 from orchestra.resolve.rcl.sections import Entry, Section
-from orchestra.resolve.rcl.table import kind_of, tabulated
+from orchestra.resolve.rcl.table import flat, kind_of, tabulated
 from orchestra.values import ParameterValue
 
 if TYPE_CHECKING:
@@ -58,9 +58,13 @@ class Setting:
 def effective(sections: Iterable[Section], full_name: str) -> dict[str, Setting]:
     """Return the parameters of the node by name, given all sections in the order of its command line."""
     matching = [section for section in sections if matches(section.pattern, full_name)]
-    winners = _plain_winners(matching)
-    if winners is None:
-        winners = {}
+    winners: dict[str, tuple[str, Entry | None]] = {}
+    plain = flat(matching)
+    if plain is not None:
+        for pattern, entries in plain.items():
+            for name, entry in entries.items():
+                winners[name] = (pattern, entry)
+    else:
         for pattern, slots in tabulated(matching).items():
             for slot in slots:
                 winners[slot.name] = (pattern, slot.entry)
@@ -70,21 +74,6 @@ def effective(sections: Iterable[Section], full_name: str) -> dict[str, Setting]
             if entry.name in written and not entry.opens:
                 written[entry.name].append((section.pattern, entry))
     return {name: _setting(name, *winners[name], written[name]) for name in winners}
-
-
-def _plain_winners(sections: Iterable[Section]) -> dict[str, tuple[str, Entry | None]] | None:
-    """Return the pattern and the value that count for each name, where nothing can take another's slot.
-
-    That is so where all is flat and each pattern has a name once. None where it takes rcl's table to tell.
-    """
-    table: dict[str, dict[str, Entry]] = {}
-    for section in sections:
-        slots = table.setdefault(section.pattern, {})
-        for entry in section.entries:
-            if entry.slot != entry.name or entry.opens or entry.value is None or entry.name in slots:
-                return None
-            slots[entry.name] = entry
-    return {name: (pattern, entry) for pattern, slots in table.items() for name, entry in slots.items()}
 
 
 def _setting(name: str, pattern: str, winner: Entry | None, written: list[tuple[str, Entry]]) -> Setting:

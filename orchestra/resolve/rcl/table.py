@@ -12,12 +12,11 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from orchestra.dataclass import dataclass
 from orchestra.fields import field
-from orchestra.resolve.rcl.sections import Entry
+from orchestra.resolve.rcl.sections import Entry, Section
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Collection, Iterable, Iterator
 
-    from orchestra.resolve.rcl.sections import Section
     from orchestra.values import ParameterValue
 
 _WORDS: Final[dict[type, str]] = {bool: "boolean", int: "integer", float: "float", str: "text"}
@@ -76,6 +75,61 @@ def tabulated(sections: Iterable[Section]) -> Table:
         for entry in section.entries:
             slots.put(entry)
     return table
+
+
+def flat(sections: Iterable[Section]) -> dict[str, dict[str, Entry]] | None:
+    """Return the same by pattern and name, where each name has one value and none can take another's slot.
+
+    None where it takes the table to tell. What is nested is so too, as long as nobody else has its names.
+    """
+    found: dict[str, dict[str, Entry]] = {}
+    taken: dict[str, set[str]] = {}
+    for section in sections:
+        alone = _alone(section)
+        if alone is None:
+            return None
+        entries, names = alone
+        known = taken.get(section.pattern)
+        if known is None:
+            found[section.pattern], taken[section.pattern] = dict(entries), set(names)
+        elif known.isdisjoint(names):
+            found[section.pattern].update(entries)
+            known.update(names)
+        else:
+            return None
+    return found
+
+
+_Alone: TypeAlias = "tuple[dict[str, Entry], Collection[str]] | None"
+# By their identities, for it takes long to tell whether two are equal: each is here, so that no other gets its own.
+_KNOWN: Final[dict[int, tuple[Section, _Alone]]] = {}
+_MOST_KNOWN: Final = 1_000
+
+
+def _alone(section: Section) -> _Alone:
+    """Return the entries of a section by name, and all names that it takes; None where some may be in the way."""
+    if len(section.entries) == 1:  # as those of values that are given alone
+        (entry,) = section.entries
+        plain = entry.slot == entry.name and not entry.opens and entry.value is not None
+        return ({entry.name: entry}, (entry.name,)) if plain else None
+    known = _KNOWN.get(id(section))
+    if known is None:
+        if len(_KNOWN) >= _MOST_KNOWN:
+            _KNOWN.clear()
+        known = _KNOWN[id(section)] = (section, _looked_through(section))
+    return known[1]
+
+
+def _looked_through(section: Section) -> _Alone:
+    written = [entry for entry in section.entries if not entry.opens]
+    slots = [slot for slots in tabulated((section,)).values() for slot in slots]
+    entries = {slot.name: slot.entry for slot in slots}
+    if not len(written) == len(slots) == len(entries):
+        return None
+    if any(entry.value is None or entries.get(entry.name) is not entry for entry in written):
+        return None
+    names = {name for entry in section.entries for name in (entry.name, entry.slot)}
+    return {name: entry for name, entry in entries.items() if entry is not None}, names
 
 
 def counting(values: Iterable[ParameterValue]) -> ParameterValue | None:
