@@ -26,6 +26,6 @@ def command(process: ResolvedProcess, parameter_file: str | None) -> tuple[str, 
         words += ["-r", f"__ns:={process.namespace.text}"]
     if parameter_file is not None:
         words += ["--params-file", parameter_file]
-    for rule in process.remaps:
+    for rule in process.remaps[process.remaps_among_words :]:
         words += ["-r", f"{rule.source.text}:={rule.target.text}"]
     return tuple(words)

@@ -131,7 +131,8 @@ class ResolvedProcess:
 
     `conditional` tells that a condition, which is true, stands on it or around it. `faulty` marks a process of which
     something has been reported: what follows from it is not reported again. `parameter_arguments` are what the node's
-    own arguments say of its parameters, on the command line before `parameters`. Without `inherit_environment` it gets
+    own arguments say of its parameters, on the command line before `parameters`, and so
+    many of the first `remaps` stand there. Without `inherit_environment` it gets
     nothing but `environment`. `stdin` is the place that says that it reads what is typed. `through` was
     read to make the words of its command line. `share` is the share folder of its package, where that is here. `origin`
     is the object of a Python launch file that made it, `around` are those that it came out of, this one included.
@@ -167,6 +168,7 @@ class ResolvedProcess:
     conditional: bool
     faulty: bool
     parameter_arguments: tuple[FileParameters, ...] = ()
+    remaps_among_words: int = 0
     inherit_environment: bool = True
     autostart: bool = False
     through: tuple[Read, ...] = field(default=(), compare=False, repr=False)

@@ -1,4 +1,4 @@
-"""Parameters among the arguments of a node: `--ros-args -p rate:=5 --params-file more.yaml`.
+"""Parameters and remapping rules among the arguments of a node: `--ros-args -p rate:=5 --params-file more.yaml`.
 
 rcl reads them with all others, in the order of the command line, on which they stand before what the description gives
 to the node.
@@ -14,10 +14,12 @@ from typing import TYPE_CHECKING, Final
 from orchestra.errors import Code
 from orchestra.fields import replace
 from orchestra.location import Location, is_file, is_python
-from orchestra.resolve.model import FileParameters
+from orchestra.resolve.model import FileParameters, ResolvedRemap, new_remap
+from orchestra.resolve.names import InvalidName
 from orchestra.resolve.parameter_files import read_file
 from orchestra.resolve.rcl.overrides import read_override
 from orchestra.resolve.rcl.sections import Entry, Section
+from orchestra.resolve.remaps import read_rule
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -27,10 +29,14 @@ if TYPE_CHECKING:
 
 _SINGLE: Final = ("-p", "--param")
 _FILE: Final = "--params-file"
+_RULE: Final = ("-r", "--remap")
+_OF_THE_NODE: Final = {"node", "namespace"}  # kinds of rules that say what the node itself is called
 _ASSIGNED: Final = ":="
 
 
-def parameters_among(words: Sequence[Value], run: Resolution, *, for_ros: bool) -> Iterator[FileParameters]:
+def settings_among(
+    words: Sequence[Value], run: Resolution, *, for_ros: bool
+) -> Iterator[FileParameters | ResolvedRemap]:
     """Yield what the words set, in order; `for_ros` tells that all of them are for rcl.
 
     What cannot be known here is a file without a path: the node may have more parameters.
@@ -43,6 +49,20 @@ def parameters_among(words: Sequence[Value], run: Resolution, *, for_ros: bool) 
             yield _single(following, run)
         elif reads and word.text == _FILE:
             yield _file(following, run)
+        elif reads and word.text in _RULE and _ASSIGNED in following.text:
+            yield from _rule(following, run)
+
+
+def _rule(word: Value, run: Resolution) -> Iterator[ResolvedRemap]:
+    source, _, target = word.text.partition(_ASSIGNED)
+    try:
+        rule = read_rule(source, target)
+    except InvalidName as error:
+        message = f"'{error.name}' cannot be a name: {error.fault.reason}"
+        run.problems.error(Code.BAD_NAME, message, word.location)
+        return
+    if not set(rule.kinds) & _OF_THE_NODE:
+        yield new_remap(replace(word, text=source), replace(word, text=target))
 
 
 def _single(word: Value, run: Resolution) -> FileParameters:

@@ -69,6 +69,7 @@ class Program:
     parameters: tuple[ParameterSource, ...] = ()
     parameter_arguments: tuple[FileParameters, ...] = ()
     remaps: tuple[ResolvedRemap, ...] = ()
+    remaps_among_words: int = 0
     autostart: bool = False
     through: tuple[Read, ...] = ()
     params_schema: NamedSchema | None = None
@@ -115,6 +116,7 @@ def _as_it_is(action: Running, program: Program, run: Resolution) -> ResolvedPro
         parameters=program.parameters,
         parameter_arguments=program.parameter_arguments,
         remaps=program.remaps,
+        remaps_among_words=program.remaps_among_words,
         output=None if isinstance(places, Poison) else places,
         emulate_tty=None,
         restart=None,
@@ -141,8 +143,7 @@ def _as_it_is(action: Running, program: Program, run: Resolution) -> ResolvedPro
 def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedProcess:
     """Return the process that an action starts."""
     sound, location = Sound(), run.place(action)
-    on_exit = sound(run.word(action.on_exit, ON_EXIT))
-    places = output(action.output, run, location)
+    on_exit, places = sound(run.word(action.on_exit, ON_EXIT)), output(action.output, run, location)
     again = sound(restart(action, run))
     check_keys(action, again, run)
     return new_process(
@@ -162,6 +163,7 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         parameters=program.parameters,
         parameter_arguments=program.parameter_arguments,
         remaps=program.remaps,
+        remaps_among_words=program.remaps_among_words,
         output=sound(places) if isinstance(places, Poison) else places,
         emulate_tty=sound(emulate_tty(action, run)),
         restart=again,

@@ -12,10 +12,10 @@ if TYPE_CHECKING:
 
     from orchestra.description.text import Template
     from orchestra.resolve.context import Value
-    from orchestra.resolve.model import FileParameters
+    from orchestra.resolve.model import FileParameters, ResolvedRemap
     from orchestra.resolve.resolution import Resolution
 
-_SETTING: Final = ("-p", "--param", "--params-file")
+_SETTING: Final = ("-p", "--param", "--params-file", "-r", "--remap")
 
 
 def texts(
@@ -23,12 +23,12 @@ def texts(
     run: Resolution,
     *,
     for_ros: bool | None = None,
-    given: list[FileParameters] | None = None,
+    given: list[FileParameters | ResolvedRemap] | None = None,
 ) -> tuple[str, ...] | Poison:
     """Return words: a text is split as a shell would, an item of a list is one word.
 
     A text that is empty, or blank, is one empty word (launch, `ExecuteProcess._parse_cmdline`). Of a node, `for_ros`
-    tells whether all words are for rcl, or those behind `--ros-args` only; the parameters among them become `given`.
+    tells whether all words are for rcl, or those behind `--ros-args` only; what they set becomes `given`.
     """
     if argv is None:
         return ()
@@ -47,9 +47,9 @@ def texts(
     if for_ros is not None:
         look_at_paths(words, run, for_ros=for_ros)
     if given is not None and any(word.text in _SETTING for word in words):
-        from orchestra.resolve.parameter_arguments import parameters_among  # noqa: PLC0415 - as above
+        from orchestra.resolve.parameter_arguments import settings_among  # noqa: PLC0415 - as above
 
-        given += parameters_among(words, run, for_ros=for_ros is True)
+        given += settings_among(words, run, for_ros=for_ros is True)
     return tuple(word.text for word in words) or (() if isinstance(argv, tuple) else ("",))
 
 

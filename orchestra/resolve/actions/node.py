@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.description.actions.node import REACHED
 from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Evaluated, Poison, Value
+from orchestra.resolve.model import FileParameters, ResolvedRemap
 from orchestra.resolve.namespaces import namespace_at
 from orchestra.resolve.node_names import named
 from orchestra.resolve.parameters import parameters
@@ -25,7 +26,7 @@ if TYPE_CHECKING:
     from orchestra.description.actions.node import Node
     from orchestra.description.text import Template
     from orchestra.resolve.context import Read
-    from orchestra.resolve.model import FileParameters, Kind
+    from orchestra.resolve.model import Kind
     from orchestra.resolve.resolution import Resolution
     from orchestra.resolve.running import Program
 
@@ -59,10 +60,11 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
     if isinstance(name, Value) and isinstance(namespace, Poison):
         run.found.lost.add(name.text)  # its full name is not known
         name = POISON
-    given: list[FileParameters] = []
+    given: list[FileParameters | ResolvedRemap] = []
     arguments, ros_arguments, more = _arguments(action, run, given)
     own, whole = parameters(action.param, run)
     rules, regular = remaps(action.remap, run)
+    among = [item for item in given if isinstance(item, ResolvedRemap)]
     schema = None if action.params_schema is None else params_schema(action.params_schema, run)
     values = (package, executable, label, words, name, namespace, arguments, ros_arguments, autostart, schema)
     program = new_program(
@@ -76,8 +78,9 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
         arguments=() if isinstance(arguments, Poison) else arguments,
         ros_arguments=None if isinstance(ros_arguments, Poison) or action.ros_args is None else ros_arguments,
         parameters=(*run.scope.parameters, *own),
-        parameter_arguments=tuple(given),
-        remaps=(*run.scope.remaps, *rules),
+        parameter_arguments=tuple(item for item in given if isinstance(item, FileParameters)),
+        remaps=(*among, *run.scope.remaps, *rules),
+        remaps_among_words=len(among),
         autostart=autostart is True,
         through=(*reads, *more),
         params_schema=None if isinstance(schema, Poison) else schema,
@@ -91,9 +94,9 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
 
 
 def _arguments(
-    action: Node, run: Resolution, given: list[FileParameters]
+    action: Node, run: Resolution, given: list[FileParameters | ResolvedRemap]
 ) -> tuple[tuple[str, ...] | Poison, tuple[str, ...] | Poison, Sequence[Read]]:
-    """Return the arguments and the ROS arguments, and what was read for them; parameters among them are `given`."""
+    """Return the arguments and the ROS arguments, and what was read for them; what they set is `given`."""
     if action.args is None and action.ros_args is None:
         return (), (), ()
     with run.scope.tracing() as reads:
@@ -112,7 +115,8 @@ def _tell(origin: Any, program: Program) -> None:  # noqa: ANN401 - any object
 
 def _names(program: Program) -> tuple[str | None, str | None, list[tuple[str, str]]]:
     name, namespace = (None if item is None else item.text for item in (program.name, program.namespace))
-    return name, namespace, [(rule.source.text, rule.target.text) for rule in program.remaps]
+    own = program.remaps[program.remaps_among_words :]
+    return name, namespace, [(rule.source.text, rule.target.text) for rule in own]
 
 
 def _extended(program: Program, action: Node, run: Resolution) -> Program:

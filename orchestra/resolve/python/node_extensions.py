@@ -82,7 +82,7 @@ def _node(program: Program) -> Node:
     node._resolved_as(
         None if program.name is None else program.name.text,
         None if program.namespace is None else program.namespace.text,
-        [(rule.source.text, rule.target.text) for rule in program.remaps],
+        [(rule.source.text, rule.target.text) for rule in program.remaps[program.remaps_among_words :]],
     )
     return node
 
