@@ -15,7 +15,7 @@ from importlib.util import find_spec
 from itertools import filterfalse
 from pathlib import Path
 from types import ModuleType
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat import pristine
 from orchestra.compat.borrowed import borrowing
@@ -108,8 +108,28 @@ class _Keeping(SourceFileLoader):
             sys.dont_write_bytecode = before
 
 
+class Serving:
+    """The modules that are there while the names are served."""
+
+    def __init__(self, before: dict[str, ModuleType]) -> None:
+        self._known = before
+
+    def renew(self) -> None:
+        """Make the modules what they were before code of launch files has run, and go on."""
+        sys.dont_write_bytecode = True
+        modules, known = sys.modules, self._known
+        modules.update(known)
+        if len(modules) != len(known):
+            for name, module in _added(known).items():
+                if _served.get(name) is module or not _goes(name, module):
+                    known[name] = module
+            for name in _added(known):
+                del modules[name]
+        pristine.restore()
+
+
 @contextmanager
-def served(untouched: Callable[[], bool] = lambda: False) -> Iterator[None]:
+def served(untouched: Callable[[], bool] = lambda: False) -> Iterator[Serving]:
     """Serve the names for a while; afterwards the modules of this process are as they were.
 
     What launch files have imported is forgotten where it is the users' own: the next one begins anew. `untouched` tells
@@ -129,7 +149,7 @@ def served(untouched: Callable[[], bool] = lambda: False) -> Iterator[None]:
     if watching.installed:  # many files import the same, and nobody looks whether they are there before
         sys.modules.update(_served)
     try:
-        yield
+        yield Serving(dict(sys.modules))
     finally:
         sys.meta_path.remove(finder)
         if compiling in sys.meta_path:
@@ -142,13 +162,20 @@ def served(untouched: Callable[[], bool] = lambda: False) -> Iterator[None]:
 
 def _forget_new(before: dict[str, ModuleType]) -> None:
     """Make the modules of this process what they were, but for installed ones that have been added."""
-    added = list(filterfalse(before.__contains__, list(sys.modules)))
     # All are judged before the first goes: where a package without a file is, it learns from the one around it.
-    for name in [
-        name for name in added if name.partition(".")[0] in SERVED or _is_of_users(name, sys.modules[name])
-    ]:
+    for name in [name for name, module in _added(before).items() if _goes(name, module)]:
         del sys.modules[name]
     sys.modules.update(before)
+
+
+def _added(before: dict[str, ModuleType]) -> dict[str, Any]:
+    """Return the modules that have been added."""
+    return {name: sys.modules[name] for name in filterfalse(before.__contains__, list(sys.modules))}
+
+
+def _goes(name: str, module: object) -> bool:
+    """Return whether a module that has been added is to be forgotten."""
+    return name.partition(".")[0] in SERVED or _is_of_users(name, module)
 
 
 def _is_of_users(name: str, module: object) -> bool:

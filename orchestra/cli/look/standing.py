@@ -39,6 +39,9 @@ class Standing:
         try:
             yield isolation
         finally:
-            if isolation.remaining is not None or observer().ran_code:
+            if isolation.remaining is not None:
+                isolation.renew(environment)
+                sys.argv = Arguments(argv)
+            elif observer().ran_code:
                 self._entered = None
                 context.__exit__(None, None, None)

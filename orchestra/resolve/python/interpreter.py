@@ -27,37 +27,45 @@ _OBJECTS: Final = ("breakpointhook", "displayhook", "excepthook", "stderr", "std
 _LISTS: Final = ("meta_path", "path", "path_hooks", "warnoptions")
 
 
-@contextmanager
-def kept_as_it_is() -> Iterator[None]:
-    """Let code change the interpreter for a while."""
-    objects = {name: getattr(sys, name) for name in _OBJECTS}
-    lists = {name: (getattr(sys, name), list(getattr(sys, name))) for name in _LISTS}
-    limits = sys.getrecursionlimit(), sys.getswitchinterval(), sys.get_int_max_str_digits()
-    tracing = sys.gettrace(), sys.getprofile()
-    names, locale = dict(vars(builtins)), setlocale(LC_ALL)
-    environ, mask, handlers = os.environ, os.umask(0), _handlers()
-    os.umask(mask)
-    try:
-        with warnings.catch_warnings():
-            yield
-    finally:
-        os.environ = environ  # noqa: B003 - the object, where code has put another one in its place
-        for name, value in objects.items():
+class Interpreter:
+    """What the interpreter is when this is made."""
+
+    def __init__(self) -> None:
+        self._objects = {name: getattr(sys, name) for name in _OBJECTS}
+        self._lists = {name: (getattr(sys, name), list(getattr(sys, name))) for name in _LISTS}
+        self._limits = sys.getrecursionlimit(), sys.getswitchinterval(), sys.get_int_max_str_digits()
+        self._tracing = sys.gettrace(), sys.getprofile()
+        self._names, self._locale = dict(vars(builtins)), setlocale(LC_ALL)
+        self._environ, self._mask, self._handlers = os.environ, os.umask(0), _handlers()
+        os.umask(self._mask)
+
+    @contextmanager
+    def kept(self) -> Iterator[None]:
+        """Let code change the interpreter for a while."""
+        try:
+            with warnings.catch_warnings():
+                yield
+        finally:
+            self._put_back()
+
+    def _put_back(self) -> None:
+        os.environ = self._environ  # noqa: B003 - the object, where code has put another one in its place
+        for name, value in self._objects.items():
             setattr(sys, name, value)
-        for name, (value, content) in lists.items():
+        for name, (value, content) in self._lists.items():
             value[:] = content
             setattr(sys, name, value)
-        sys.setrecursionlimit(limits[0])
-        sys.setswitchinterval(limits[1])
-        sys.set_int_max_str_digits(limits[2])
-        if (sys.gettrace(), sys.getprofile()) != tracing:
-            sys.settrace(tracing[0])
-            sys.setprofile(tracing[1])
-        put_back(vars(builtins), names)
-        if setlocale(LC_ALL) != locale:
-            setlocale(LC_ALL, locale)
-        os.umask(mask)
-        _put_handlers(handlers)
+        sys.setrecursionlimit(self._limits[0])
+        sys.setswitchinterval(self._limits[1])
+        sys.set_int_max_str_digits(self._limits[2])
+        if (sys.gettrace(), sys.getprofile()) != self._tracing:
+            sys.settrace(self._tracing[0])
+            sys.setprofile(self._tracing[1])
+        put_back(vars(builtins), self._names)
+        if setlocale(LC_ALL) != self._locale:
+            setlocale(LC_ALL, self._locale)
+        os.umask(self._mask)
+        _put_handlers(self._handlers)
 
 
 def put_back(table: MutableMapping[str, Any], content: MutableMapping[str, Any]) -> None:

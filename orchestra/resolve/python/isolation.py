@@ -9,7 +9,7 @@ from contextlib import ExitStack, contextmanager, redirect_stdout, suppress
 from typing import TYPE_CHECKING
 
 from orchestra.compat.argv import Arguments
-from orchestra.compat.hook import served
+from orchestra.compat.hook import Serving, served
 from orchestra.resolve.packages.python import libraries
 from orchestra.resolve.python.environ import environment_now, put_environment
 from orchestra.resolve.python.files import Files
@@ -18,6 +18,8 @@ from orchestra.witness.observing import observer
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
+    from orchestra.resolve.python.interpreter import Interpreter
+    from orchestra.resolve.python.libraries import Libraries
     from orchestra.resolve.python.remaining import Remaining
 
 
@@ -27,11 +29,15 @@ class Isolation:
     `remaining` watches what that leaves behind; None where there is no such code.
     """
 
-    def __init__(self, restoring: ExitStack, *, launching: bool) -> None:
+    def __init__(self, serving: Serving, *, launching: bool) -> None:
         self.files = Files()
         self.remaining: Remaining | None = None
-        self._restoring = restoring
+        self._serving = serving
         self._launching = launching
+        self._restoring = ExitStack()
+        self._before: tuple[Libraries, Interpreter] | None = None
+        self._folder = os.getcwd()  # noqa: PTH109 - pathlib is slow
+        self._zone = time.tzname
 
     def prepare(self) -> None:
         """Get ready for code of launch files, which may do anything."""
@@ -39,18 +45,40 @@ class Isolation:
             return
         # Here, because only such code needs it, and what it imports.
         from orchestra.compat.place import forget  # noqa: PLC0415
-        from orchestra.resolve.python.interpreter import kept_as_it_is  # noqa: PLC0415
-        from orchestra.resolve.python.libraries import libraries_kept  # noqa: PLC0415
+        from orchestra.resolve.python.interpreter import Interpreter  # noqa: PLC0415
+        from orchestra.resolve.python.libraries import Libraries  # noqa: PLC0415
         from orchestra.resolve.python.remaining import nothing_left  # noqa: PLC0415
         from orchestra.resolve.python.temporary import temporary_files  # noqa: PLC0415
 
         forget()
         enter = self._restoring.enter_context
         with observer().aside():
-            enter(libraries_kept())
-            enter(kept_as_it_is())
+            if self._before is None:
+                self._before = Libraries(), Interpreter()
+            for state in self._before:
+                enter(state.kept())
             enter(temporary_files(self.files))
             self.remaining = enter(nothing_left(launching=self._launching))
+
+    def renew(self, environment: Mapping[str, str]) -> None:
+        """Make this process what it was before code has run in it, for the next launch file.
+
+        `environment` is the one for that. What is not asked for by one that has no code waits until it is.
+        """
+        self._restoring.close()
+        _forget_loggers()
+        self._serving.renew()
+        sys.stdout = sys.stderr
+        with suppress(OSError):  # as below
+            os.dup2(2, 1)
+        os.chdir(self._folder)
+        put_environment(environment)
+        _put_zone(self._zone)
+        self.files, self.remaining = Files(), None
+
+    def close(self) -> None:
+        """Make this process what it was."""
+        self._restoring.close()
 
 
 @contextmanager
@@ -70,9 +98,10 @@ def isolated(
         restoring.callback(setattr, sys, "argv", sys.argv)
         restoring.enter_context(redirect_stdout(sys.stderr))
         restoring.enter_context(_programs_redirected())
-        isolation = Isolation(restoring, launching=launching)
-        restoring.enter_context(served(lambda: isolation.remaining is None))
+        serving = restoring.enter_context(served(lambda: isolation.remaining is None))
         restoring.callback(_forget_loggers)
+        isolation = Isolation(serving, launching=launching)
+        restoring.callback(isolation.close)
         put_environment(environment)
         sys.argv = Arguments(argv)
         sys.path += libraries(environment)

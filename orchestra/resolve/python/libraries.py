@@ -10,17 +10,26 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
 
-@contextmanager
-def libraries_kept() -> Iterator[None]:
-    """Let code use the libraries for a while."""
-    before = {name: read(sys.modules[name]) for name, (read, _) in _STATES.items() if name in sys.modules}
-    try:
-        yield
-    finally:
-        for name, (_, write) in _STATES.items():
-            module = sys.modules.get(name)
-            if module is not None:
-                write(module, before.get(name))
+class Libraries:
+    """What the libraries are when this is made; those that are imported later, as they begin."""
+
+    def __init__(self) -> None:
+        self._states = {
+            name: read(sys.modules[name]) for name, (read, _) in _STATES.items() if name in sys.modules
+        }
+
+    @contextmanager
+    def kept(self) -> Iterator[None]:
+        """Let code use the libraries for a while."""
+        try:
+            yield
+        finally:
+            for name, (read, write) in _STATES.items():
+                module = sys.modules.get(name)
+                if module is not None:
+                    write(module, self._states.get(name))
+                    if name not in self._states:
+                        self._states[name] = read(module)
 
 
 def _random(module: Any) -> Any:
@@ -67,7 +76,7 @@ def _decimal(module: Any) -> Any:
 
 
 def _put_decimal(module: Any, state: Any) -> None:
-    module.setcontext(module.DefaultContext if state is None else state)
+    module.setcontext(module.DefaultContext if state is None else state.copy())  # code may change it
 
 
 def _logging(module: Any) -> Any:

@@ -20,19 +20,21 @@ import tempfile
 import threading
 import time
 import warnings
+from contextlib import ExitStack, contextmanager
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from orchestra.cli.look.standing import Standing
 from orchestra.errors import Code, Problems, Severity
 from orchestra.location import point
-from orchestra.pipeline import collect, inputs_from
+from orchestra.pipeline import collect, inputs_from, opened
 from orchestra.plan.codec import encode
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
 _FILE = """\
 from launch import LaunchDescription
@@ -258,6 +260,49 @@ def test_a_file_knows_nothing_of_another_one_before(tmp_path: Path, what: str) -
     alone = _resolve(_write(tmp_path, here + second))[0]
     _resolve_anyhow(_write(tmp_path, here + first))
     assert _resolve(_write(tmp_path, here + second))[0] == alone
+
+
+@contextmanager
+def _standing() -> Iterator[Callable[[Path], dict[str, Any]]]:
+    """Resolve files one after the other as a process does that only checks them."""
+    standing = Standing()
+
+    def resolve(path: Path) -> dict[str, Any]:
+        inputs = replace(inputs_from([], environment={"PATH": "/bin", "TZ": "UTC"}), launching=False)
+        with opened(str(path), inputs, Problems(), isolating=standing.isolated) as launch:
+            return {} if launch is None else encode(launch.plan)
+
+    with ExitStack() as leaving:
+        leaving.callback(lambda: standing._entered and standing._entered[0].__exit__(None, None, None))
+        yield resolve
+
+
+@pytest.mark.usefixtures("_own_folder")
+@pytest.mark.parametrize("what", CHANGES)
+def test_a_process_that_goes_on_is_as_before_each_file(tmp_path: Path, what: str) -> None:
+    code, look = CHANGES[what]
+    with _standing() as resolve:
+        plan = resolve(_write(tmp_path, ""))
+        before = look()
+        for where in _PLACES:
+            assert resolve(_write(tmp_path, code, where))
+            assert look() == before
+        assert resolve(_write(tmp_path, "")) == plan
+
+
+@pytest.mark.parametrize("what", INFLUENCES)
+def test_where_a_process_goes_on_a_file_knows_nothing_of_another_one_either(
+    tmp_path: Path, what: str
+) -> None:
+    (tmp_path / "of_users.py").write_text("STATE = []", "utf-8")
+    here = f"import sys; sys.path.insert(0, {str(tmp_path)!r})\n"
+    first, second = INFLUENCES[what]
+    with _standing() as resolve:
+        alone = resolve(_write(tmp_path, here + second))
+        assert alone
+        for _ in range(2):
+            resolve(_write(tmp_path, here + first))
+            assert resolve(_write(tmp_path, here + second)) == alone
 
 
 def _resolve_anyhow(path: Path) -> None:
