@@ -69,6 +69,8 @@ def _scalar(value: ParameterValue, kind: str) -> str | None:
         return _unquoted(value.strip() if meant is None else meant[1].partition(" #")[0], kind)
     if isinstance(value, bool):
         return written(value) if kind == "bool" else None
+    if kind == "bool":
+        return written(bool(value)) if value in (0, 1) else None
     if kind == "double":
         return written(float(value))
     if kind == "integer" and float(value).is_integer():

@@ -13,6 +13,7 @@ import yaml
 
 from orchestra.description.source import shortened
 from orchestra.load.faults import Fault
+from orchestra.load.yaml_colons import in_quotes, of_second_colon
 from orchestra.load.yaml_failure import Failure
 from orchestra.load.yaml_indentation import of_lines
 from orchestra.nearest import nearest
@@ -64,7 +65,7 @@ def _stray(failure: Failure) -> Fault | None:
         return None
     message = f"a text cannot begin with {failure.here} unless it is in quotes"
     end = _without_its_colon(failure, failure.at, found.end())
-    return failure.fault(message, failure.at, end, _in_quotes(failure.text[failure.at : end]))
+    return failure.fault(message, failure.at, end, in_quotes(failure.text[failure.at : end]))
 
 
 def _without_its_colon(failure: Failure, begin: int, end: int) -> int:
@@ -130,7 +131,7 @@ def _no_value(failure: Failure) -> Fault | None:
         message = f"a text in {bracket} {_CLOSERS[bracket]} cannot begin with : unless it is in quotes"
         alone = ":" not in found[0][1:]
         end = found.end() if alone else failure.at + 1
-        return failure.fault(message, failure.at, end, _in_quotes(found[0]) if alone else None)
+        return failure.fault(message, failure.at, end, in_quotes(found[0]) if alone else None)
     return None
 
 
@@ -144,7 +145,7 @@ def _without_comma(failure: Failure, begin: int, end: int, closer: str) -> Fault
 def _second_value(failure: Failure) -> Fault | None:
     """Explain a colon behind what can be no key: a value, or a key over several lines."""
     last = next((piece for piece in reversed(failure.pieces()) if piece.end <= failure.at), None)
-    colon = failure.fault("a text with ': ' in it needs quotes", failure.at, failure.at + 1)
+    colon = of_second_colon(failure)
     if last is None or last.quoted or failure.line_of(last.begin) == failure.line_of(failure.at):
         return colon
     line = failure.whole.lines[failure.line_of(last.begin) - 1]
@@ -242,7 +243,7 @@ def _no_anchor(failure: Failure) -> Fault:
     first = failure.text[failure.context]
     written = failure.text[failure.context : end]
     message = f"a text cannot begin with {first} unless it is in quotes"
-    return failure.fault(message, failure.context, end, _in_quotes(written))
+    return failure.fault(message, failure.context, end, in_quotes(written))
 
 
 def _escape(failure: Failure) -> Fault:
@@ -263,12 +264,6 @@ def _no_character(error: yaml.YAMLError, whole: Source) -> Fault:
 def _offset(mark: Any, whole: Source) -> int:  # noqa: ANN401 - a mark of either parser
     index: int = mark.index
     return min(index, len(whole.text))
-
-
-def _in_quotes(text: str) -> str | None:
-    return next(
-        (f"{quote}{text}{quote}" for quote in ('"', "'") if quote not in text and "\\" not in text), None
-    )
 
 
 # What the parser says where lines do not fit together.

@@ -14,6 +14,7 @@ from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.model import InlineParameter, ParameterSource, new_parameter
 from orchestra.resolve.parameter_files import file_parameters
 from orchestra.resolve.paths import beside
+from orchestra.resolve.rcl.odd_names import may_be_odd, odd_name
 from orchestra.resolve.rcl.overrides import override_value
 from orchestra.resolve.rcl.surprises import of_commas, plainly
 from orchestra.resolve.refusals import refuse_value
@@ -41,6 +42,7 @@ if TYPE_CHECKING:
     from orchestra.values import ParameterValue
 
 _BOOLEANS = ("true", "false")
+_XML = (".xml", ".launch")
 _AS_TEXT = "ParameterValue(..., value_type=str) keeps it a text"
 
 
@@ -140,6 +142,8 @@ def _inline(
         message = "the name of a parameter must not be empty"
         run.problems.error(Code.BAD_NAME, message, run.at(param.name.span))
         return [None]
+    if may_be_odd(own) and not above and not is_python(param.span):
+        _warn_of_name(own, param.name, run)
     name = f"{above[-1][0]}.{own}" if above else own
     keys = (*above, (name, run.place(param.name)))
     if param.param is not None:
@@ -164,6 +168,14 @@ def _inline(
     items = written if isinstance(written, tuple) else ()
     places = tuple(run.at(item.span) for item in items)
     return [new_parameter(name, value, at, everywhere, keys, places, tuple(reads))]
+
+
+def _warn_of_name(name: str, written: Template, run: Resolution) -> None:
+    """Tell of a name that no node declares."""
+    found = odd_name(name) if written.constant is not None else None
+    if found is not None:
+        message = f"no node declares '{name}': {found[0]}"
+        run.problems.warning(Code.SURPRISING_SCALAR, message, run.place(written), suggestion=found[1])
 
 
 def _read_at_once(param: Param | SetParameter, *, quotes: bool) -> ParameterValue | None:
@@ -258,7 +270,8 @@ def _warn_of_surprise(
 ) -> None:
     surprise = differs(text)
     if surprise is not None:
-        instead = None if is_python(location) else plainly(text, value, quotes=quotes)
+        quote = "'" if location.span.file.endswith(_XML) else '"'  # an attribute stands in quotes itself
+        instead = None if is_python(location) else plainly(text, value, quote if quotes else None)
         run.problems.warning(Code.SURPRISING_SCALAR, surprise, location, suggestion=instead)
     elif isinstance(value, str) and not is_python(location) and (found := of_commas(text)) is not None:
         run.problems.warning(Code.SURPRISING_SCALAR, found.message, location, suggestion=found.instead)

@@ -110,7 +110,7 @@ def _faults(model: object, **values: ParameterValue) -> list[tuple[str, str, str
         ({"limits__left": 1.0, "limits__right": 2.0}, []),
         ({"limits__left": "x"}, [("type", "limits.left", None, True)]),
         ({"sped": 1.0}, [("undeclared", "sped", "speed", False)]),
-        ({"use_sim_time": 1}, [("type", "use_sim_time", None, True)]),
+        ({"use_sim_time": 1}, [("type", "use_sim_time", "true", True)]),
     ],
 )
 def test_what_pydantic_says(values: dict[str, Any], expected: list[Any]) -> None:

@@ -17,6 +17,11 @@ _COMMENTED: Final = pattern(rf"({_NUMBER}|true|True|false|False)(?:#+\s?|\s+//\s
 _SEVERAL: Final = pattern(rf"{_NUMBER}(?:\s*,\s*{_NUMBER})+,?")
 
 
+# A number with a point, and a letter that looks like a digit.
+_LETTERED: Final = pattern(r"[-+]?(?=[0-9OoIl.]*[0-9])(?=[0-9.]*[OoIl])[0-9OoIl]+\.[0-9OoIl]+")
+_DIGITS: Final = str.maketrans("OoIl", "0011")
+
+
 def without_slip(text: str) -> tuple[str, str] | None:
     """Return what a text lacks or has too much to be what it looks like, and how that is written; None for any other.
 
@@ -30,6 +35,8 @@ def without_slip(text: str) -> tuple[str, str] | None:
         return f"the boolean is {meant}", meant
     if _DECIMAL.fullmatch(text):
         return "a number is written with a point", text.replace(",", ".")
+    if "." in text and _LETTERED.fullmatch(text):
+        return "a letter stands among its digits", text.translate(_DIGITS)
     if "." in text and _SEVERAL.fullmatch(text):
         return "a list stands in [ ]", f"[{text.rstrip(',')}]"
     return None

@@ -13,6 +13,7 @@ from orchestra.description.source import shortened
 from orchestra.errors import Code
 from orchestra.fields import replace
 from orchestra.patterns import pattern
+from orchestra.resolve.rcl.odd_names import may_be_odd, odd_name
 
 if TYPE_CHECKING:
     import re
@@ -22,7 +23,6 @@ if TYPE_CHECKING:
     from orchestra.location import Location
     from orchestra.resolve.rcl.sections import Entry, Section
 
-_BLANKS: Final = pattern(r"\s*\w+(?:\s+\w+)*\s*")
 _UNIT: Final = pattern(
     r"([-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?)\s?"
     r"(?:deg|degrees?|rad|m|cm|mm|km|s|sec|ms|us|ns|min|k?Hz|M[Hh]z|hz|m/s|rad/s|deg/s|m/s\^?2|kg|g|N|Nm|V|A|W|Ah|%|°)"
@@ -41,7 +41,7 @@ def report_oddities(sections: Sequence[Section], lines: Sequence[str], problems:
     tagged = any("!" in line for line in lines)
     for section in sections:
         for entry in section.entries:
-            if entry.value is not None and (entry.name[:1] == "/" or " " in entry.name):
+            if entry.value is not None and may_be_odd(entry.name):
                 _report_name(entry, lines, problems)
             if tagged and entry.value is not None:
                 _report_tag(entry, lines, problems)
@@ -58,16 +58,12 @@ def report_oddities(sections: Sequence[Section], lines: Sequence[str], problems:
 
 
 def _report_name(entry: Entry, lines: Sequence[str], problems: Problems) -> None:
-    """Report a name that begins with a slash, as those of topics do, and one with blanks in it."""
-    name, key = entry.name, _text_at(entry.key, lines).strip("\"'")
-    if key == name and name.startswith("/"):
-        told, instead = "names of parameters begin with no '/'", name.lstrip("/")
-    elif " " in key and _BLANKS.fullmatch(key):
-        told, instead = "names of parameters have no blanks", "_".join(key.split())
-    else:
-        return
-    message = f"no node declares '{shortened(key)}': {told}"
-    problems.warning(Code.SURPRISING_SCALAR, message, entry.key, suggestion=instead)
+    """Report a name as no node declares it; that of a level above it is left alone."""
+    key = _text_at(entry.key, lines).strip("\"'")
+    found = odd_name(key)
+    if found is not None and (key == entry.name or " " in key):
+        message = f"no node declares '{shortened(key)}': {found[0]}"
+        problems.warning(Code.SURPRISING_SCALAR, message, entry.key, suggestion=found[1])
 
 
 def _report_tag(entry: Entry, lines: Sequence[str], problems: Problems) -> None:

@@ -95,15 +95,15 @@ def _over_lines(value: Scalar, location: Location, lines: Sequence[str]) -> Surp
     return None if found is None else Surprise(found.message, None)
 
 
-def plainly(text: str, value: ParameterValue, *, quotes: bool) -> str | None:
+def plainly(text: str, value: ParameterValue, quote: str | None) -> str | None:
     """Return how a text of a launch file is written so that it cannot be read otherwise, None where that is not clear.
 
-    With `quotes`, a text in quotes stays a text.
+    A text in a `quote` stays a text, if there is one.
     """
     if isinstance(value, tuple):
         return None
     if ":" in text or (isinstance(value, bool) and text in _LETTERS):
-        return f'"{text}"' if quotes else None
+        return f"{quote}{text}{quote}" if quote is not None else None
     if isinstance(value, bool):
         return str(value).lower()
     zeros = _ZEROS.fullmatch(text)
