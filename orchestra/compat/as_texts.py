@@ -117,8 +117,29 @@ def _judged(place: Place) -> Rewritten | None:
             kind = "EqualsSubstitution" if isinstance(sign, ast.Eq) else "NotEqualsSubstitution"
             sides = (text_at(place.file, node_span(place.file, side, quotes=True)) for side in (left, right))
             around = () if tree is None else (called_by(item) for item in tree.nodes if _is_given(item, node))
-            return Rewritten(f"{kind}({', '.join(sides)})") if set(around) & _CONDITIONS else None
+            if set(around) & _CONDITIONS:
+                return Rewritten(f"{kind}({', '.join(sides)})")
+            return _performed(node, tree, place.file)
     return None
+
+
+def _performed(node: ast.expr, tree: Tree | None, file: str) -> Rewritten | None:
+    """Return a comparison with the text of the substitution in it, in a function that has the context."""
+    if tree is None or not isinstance(node, ast.Compare):
+        return None
+    arguments = [item.arg for around in tree.functions_around(node) for item in around.args.args]
+    context = next((name for name in arguments if "context" in name or name == "ctx"), None)
+    sides = [node.left, *node.comparators]
+    texts = [text_at(file, node_span(file, side, quotes=True)) for side in sides]
+    early = [index for index, side in enumerate(sides) if _is_substitution(tree.meaning(side))]
+    if context is None or len(early) != 1:
+        return None
+    texts[early[0]] += f".perform({context})"
+    return Rewritten(f"{texts[0]} {'==' if isinstance(node.ops[0], ast.Eq) else '!='} {texts[1]}")
+
+
+def _is_substitution(node: ast.expr) -> bool:
+    return isinstance(node, ast.Call) and (called_by(node) or "")[:1].isupper()
 
 
 def _is_given(call: ast.AST, node: ast.expr) -> bool:

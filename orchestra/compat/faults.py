@@ -34,14 +34,15 @@ def report(error: BaseException, problems: Problems, chain: tuple[Span, ...], fa
         return
     calls = _calls(error.__traceback__)
     spans = [Place(call.tb_frame.f_code, call.tb_lasti).span for call in calls]
-    instead = None
+    instead: str | None = None
+    missing: tuple[str, ...] = ()
     if isinstance(error, SyntaxError) and not (error.filename or "<").startswith("<"):
-        span, instead = span_of_syntax(error)
+        span, instead, missing = span_of_syntax(error)
         spans.append(span)
     explanation = _explained(error, calls[-1] if calls else None)
     at = explanation.span or (spans[-1] if spans else fallback)
     callers = list(dict.fromkeys(f"called at {span}" for span in spans[-2::-1]))
-    notes = (*explanation.notes, *callers[:_MOST_CALLS])
+    notes = (*explanation.notes, *missing, *callers[:_MOST_CALLS])
     if debugging():
         from traceback import format_exception  # noqa: PLC0415 - slow, and few ask for it
 

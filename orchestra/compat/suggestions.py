@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.as_texts import without_echoes
+from orchestra.compat.late_roots import without_followers
 from orchestra.compat.literals import Literal, argument
 from orchestra.compat.place import Argument
 from orchestra.compat.rewritten import Rewritten
@@ -32,6 +33,7 @@ _BETWEEN: Final = re.compile(r"[\s()$]+")
 def point_into_code(problems: Problems) -> None:
     """Let problems of Python files stand at the text that is wrong, without those that only follow from another."""
     problems.amend(without_echoes(tuple(problems)))
+    problems.amend(without_followers(tuple(problems)))
     problems.amend(in_place)
 
 

@@ -5,17 +5,28 @@ CPython counts columns in bytes up to 3.12 where it reads bytes, and always in w
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.place import code_points, shown
 from orchestra.location import Span
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
+
+# How CPython tells of what may follow from a bracket that is missing.
+_OF_BRACKETS: Final = (
+    "'",
+    "cannot assign",
+    "closing parenthesis",
+    "expected",
+    "expression cannot",
+    "invalid syntax",
+    "positional",
+)
 
 
-def span_of_syntax(error: SyntaxError) -> tuple[Span, str | None]:
-    """Return the range of the text that is wrong, one character at least, and what should stand there."""
+def span_of_syntax(error: SyntaxError) -> tuple[Span, str | None, tuple[str, ...]]:
+    """Return the range of the text that is wrong, one character at least, what should stand there, and notes."""
     import linecache  # noqa: PLC0415 - slow, and of no use to launch files in YAML and XML
 
     file = str(error.filename)
@@ -37,8 +48,31 @@ def span_of_syntax(error: SyntaxError) -> tuple[Span, str | None]:
     lines = linecache.getlines(file)
     slip = slip_in(error, lines)
     if slip is not None:
-        return Span(shown(file), line, slip[0] + 1, line, slip[1] + 1), slip[2]
-    return narrowed(error, Span(shown(file), line, column, end_line, end_column), lines)
+        return Span(shown(file), line, slip[0] + 1, line, slip[1] + 1), slip[2], ()
+    return _without_bracket(error, lines) or (
+        *narrowed(error, Span(shown(file), line, column, end_line, end_column), lines),
+        (),
+    )
+
+
+def _without_bracket(
+    error: SyntaxError, lines: Sequence[str]
+) -> tuple[Span, str | None, tuple[str, ...]] | None:
+    """Return where a bracket lacks the one that closes it, where that is all that is wrong."""
+    if not str(error.msg).startswith(_OF_BRACKETS):
+        return None
+    # Here, because only mistakes need it.
+    from orchestra.compat.missing_brackets import bracket_missing  # noqa: PLC0415
+
+    source = "".join(lines)
+    found = bracket_missing(source)
+    if found is None:
+        return None
+    begin, end, meant, notes = found
+    if source[begin] in "([{":
+        error.msg = f"'{source[begin]}' was never closed"
+    places = [(source.count("\n", 0, at) + 1, at - source.rfind("\n", 0, at)) for at in (begin, end)]
+    return Span(shown(str(error.filename)), *places[0], *places[1]), meant, notes
 
 
 def _in_code_points(error: SyntaxError, file: str, given: tuple[int, int, int, int]) -> tuple[int, int]:

@@ -39,8 +39,23 @@ def tell_unadded(path: str, problems: Problems, chain: tuple[Span, ...]) -> None
     counts = Counter(node.id for node in tree.nodes if isinstance(node, ast.Name))
     for name in _made(tree, lambda name: counts[name] == 1):
         if not _is_remarked(name.id, path):
-            told = f"'{name.id}' is added to no launch description: it has no effect"
+            described = _description(tree)
+            way = f"; {described}.add_action({name.id}) adds it" if described is not None else ""
+            told = f"'{name.id}' is added to no launch description: it has no effect{way}"
             problems.warning(Code.USER_CODE, told, Location(node_span(path, name), chain))
+
+
+def _description(tree: Tree) -> str | None:
+    """Return the variable that alone is set to a launch description which actions are added to."""
+    found = {
+        node.targets[0].id
+        for node in tree.nodes
+        if isinstance(node, ast.Assign)
+        and isinstance(node.targets[0], ast.Name)
+        and called_by(node.value) == "LaunchDescription"
+    }
+    adding = any(called_by(node) == "add_action" for node in tree.nodes)
+    return found.pop() if len(found) == 1 and adding else None
 
 
 def target_unadded(handler: Place) -> Span | None:

@@ -17,6 +17,7 @@ from orchestra.compat import faults
 from orchestra.compat.explanation import told
 from orchestra.compat.idle_names import has_idle_actions
 from orchestra.compat.launch.launch_description import LaunchDescription
+from orchestra.compat.looks import has_doubled_keys, has_joined_words, has_late_roots
 from orchestra.compat.place import show
 from orchestra.compat.refusing import collecting, is_lost
 from orchestra.compat.seam import connection
@@ -39,7 +40,6 @@ if TYPE_CHECKING:
 
 FUNCTION: Final = "generate_launch_description"
 _MODULE: Final = "python_launch_file"
-_OTHERS: Final = (".xml", ".yaml", ".yml")
 
 
 def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Description | None:
@@ -65,15 +65,6 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
         raise
     except BaseException as error:  # noqa: BLE001 - the boundary of user code
         found = Problems()
-        if (
-            isinstance(error, SyntaxError)
-            and error.filename == path
-            and path.endswith(_OTHERS)
-            and included_from
-        ):
-            told_so = f"{file} is no launch file in Python: AnyLaunchDescriptionSource reads it"
-            problems.error(Code.UNKNOWN_FORMAT, told_so, Location(included_from[0], included_from[1:]))
-            return None
         faults.report(error, found, included_from, at)
         problems.extend(found if included_from else map(_grave, found))
         return None
@@ -106,6 +97,18 @@ def _look_for_slips(
         from orchestra.compat.foreign_substitutions import tell_foreign  # noqa: PLC0415
 
         tell_foreign(path, problems, included_from)
+    if has_doubled_keys(module, source):
+        from orchestra.compat.doubled_keys import tell_doubled_keys  # noqa: PLC0415
+
+        tell_doubled_keys(path, problems, included_from)
+    if has_late_roots(source):
+        from orchestra.compat.late_roots import tell_late_roots  # noqa: PLC0415
+
+        tell_late_roots(path, problems, included_from)
+    if has_joined_words(source):
+        from orchestra.compat.joined_words import tell_joined_words  # noqa: PLC0415
+
+        tell_joined_words(path, problems, included_from)
 
 
 def _undescribed_at(module: ModuleType, made: object, at: Span) -> tuple[Span, str | None]:

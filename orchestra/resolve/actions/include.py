@@ -15,7 +15,7 @@ from orchestra.resolve.declarations import check_twice
 from orchestra.resolve.dependencies import dependencies
 from orchestra.resolve.interpret import visit_file
 from orchestra.resolve.mentions import is_fixed
-from orchestra.resolve.other_kinds import refuse_included_parameters
+from orchestra.resolve.other_kinds import refuse_included_parameters, refused_as_language
 from orchestra.resolve.paths import existing_file, may_come
 from orchestra.resolve.python.calling import user_code
 from orchestra.resolve.python.deferral import Deferred, put_off
@@ -51,6 +51,12 @@ def visit(action: Include, run: Resolution) -> None:
         path = existing_file(value, action.file, "launch file", run) if isinstance(value, Value) else None
         if path is not None and isinstance(value, Value) and not (action.language or has_format(path)):
             run.problems.error(Code.UNKNOWN_FORMAT, unknown_format(displayed(path)), value.location)
+            path = None
+        elif (
+            path is not None
+            and isinstance(value, Value)
+            and refused_as_language(path, action, value.location, run)
+        ):
             path = None
         description = _description(path, action, run) if path is not None else None
         if path is None or description is None:

@@ -1,0 +1,75 @@
+"""Whether a launch file may have certain mistakes, as a short look tells: to find them takes a syntax tree."""
+
+from __future__ import annotations
+
+import re
+from types import CodeType, FunctionType
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+_PIECE: Final = 16  # names of a dictionary that are one constant, at most
+_KEY: Final = re.compile(rb"""[{}]|(['"])([^'"\n\\]+)\1\s*:""")
+_SIGN: Final = re.compile(rb"""oin(?:Substitution)?\((?:[^()]|\([^()]*\))*?,\s*['"]/""")
+_BLANKS: Final = b" \t\n"
+_QUOTES: Final = (b"'", b'"')
+_OPTIONS: Final = (b"'-", b'"-')
+_TOPICS: Final = (b"'/", b'"/')
+
+
+def has_doubled_keys(module: ModuleType, source: bytes) -> bool:
+    """Return whether a name may stand twice in a dictionary of a file, of which this is the text.
+
+    The names of a short dictionary are one constant; those of a long one are added to it one after the other.
+    """
+    codes = (item.__code__ for item in vars(module).values() if type(item) is FunctionType)
+    own = [code for code in codes if code.co_filename == module.__file__]
+    is_long = source.count(b"':") + source.count(b'":') > _PIECE
+    return any(map(_repeats, own)) or (is_long and _doubles(source))
+
+
+def _repeats(code: CodeType) -> bool:
+    """Return whether a text is twice in one constant."""
+    return any(
+        (type(item) is tuple and len(item) > 1 and len(set(item)) < len(item))
+        or (type(item) is CodeType and _repeats(item))
+        for item in code.co_consts
+    )
+
+
+def _doubles(source: bytes) -> bool:
+    """Return whether a name stands twice between the same braces, as far as a look at the text tells."""
+    around: list[set[bytes]] = []
+    for sign in _KEY.finditer(source):
+        key = sign[2]
+        if key is None:
+            if sign[0] == b"{":
+                around.append(set())
+            elif around:
+                around.pop()
+        elif around:
+            if key in around[-1]:
+                return True
+            around[-1].add(key)
+    return False
+
+
+def has_late_roots(source: bytes) -> bool:
+    """Return whether a later part of a path may begin with a slash."""
+    return _SIGN.search(source) is not None
+
+
+def has_joined_words(source: bytes) -> bool:
+    """Return whether an option, or a topic of a bridge, may stand in quotes right behind another text."""
+    signs = _OPTIONS if b"@" not in source else (*_OPTIONS, *_TOPICS)
+    return any(_is_behind_text(source, sign) for sign in signs)
+
+
+def _is_behind_text(source: bytes, sign: bytes) -> bool:
+    place = source.find(sign)
+    while place > 0:
+        if source[place - 1] in _BLANKS and source[:place].rstrip()[-1:] in _QUOTES:
+            return True
+        place = source.find(sign, place + 2)
+    return False
