@@ -36,6 +36,7 @@ _WORDS: Final[dict[type, str]] = {bool: "boolean", int: "integer", float: "float
 # nothing but themselves.
 _NUMBER: Final = pattern(r"-?(?:0|[1-9][0-9]{0,17})(\.[0-9]{1,18})?")
 _WORD: Final = pattern(r"[A-Za-z_/][A-Za-z0-9_/.-]{0,500}")
+_LIST: Final = pattern(r"\[ *([A-Za-z0-9_/.-]+(?:, *[A-Za-z0-9_/.-]+)*) *\]")
 _MEANT: Final = frozenset(
     ["y", "yes", "n", "no", "on", "off", "true", "false", "null", "nan", "inf", "infinity", *rcl.SLIPS]
 )
@@ -62,7 +63,7 @@ def differs(text: str) -> str | None:
 
     A text that upstream cannot read is no surprise but an error: None too.
     """
-    if read_alike(text) is not None:
+    if read_alike(text) is not None or _list_alike(text) is not None:
         return None
     try:
         upstream = upstream_value(text)
@@ -139,12 +140,25 @@ def read_alike(text: str) -> Scalar | None:
     return text if _WORD.fullmatch(text) and text.lower() not in _MEANT else None
 
 
+def _list_alike(text: str) -> ParameterValue | None:
+    """Return what a list in brackets is to everybody who reads it, None where that is not plain to see."""
+    listed = _LIST.fullmatch(text) if text[:1] == "[" else None
+    if listed is None:
+        return None
+    items = [read_alike(item.strip(" ")) for item in listed[1].split(",")]
+    kind = type(items[0])
+    found = tuple(item for item in items if item is not None and type(item) is kind)
+    return found if len(found) == len(items) else None
+
+
 def _is_text(text: str) -> bool:
     return not text.strip() or isinstance(read_scalars(text, by_pyyaml), str)
 
 
 def _value(text: str, construct: Construct) -> ParameterValue:
-    alike = read_alike(text)
+    alike: ParameterValue | None = read_alike(text)
+    if alike is None:
+        alike = _list_alike(text)
     if alike is not None:
         return alike
     return (_parsed if len(text) > _LONGEST_KEPT else _parsed_once)(text, construct)

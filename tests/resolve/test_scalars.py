@@ -9,6 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from orchestra.resolve.scalars import (
+    _list_alike,
     _parsed,
     coerced,
     core_value,
@@ -260,3 +261,32 @@ def test_what_needs_no_parser_is_what_the_parsers_say(text: str) -> None:
     if alike is not None:
         assert _same(_parsed(text, by_pyyaml), alike)
         assert _same(_parsed(text, by_core), alike)
+
+
+_ITEMS = st.text("aeflnorstuyNO_/.-0123456789", max_size=5) | st.floats().map(str) | st.integers().map(str)
+
+
+@given(st.lists(_ITEMS, max_size=4), st.sampled_from((",", ", ", ",  ", " ,")), st.sampled_from(("", " ")))
+def test_lists_that_need_no_parser_are_what_the_parsers_say(
+    items: list[str], between: str, around: str
+) -> None:
+    text = f"[{around}{between.join(items)}{around}]"
+    alike = _list_alike(text)
+    if alike is not None:
+        assert _same(_parsed(text, by_pyyaml), alike)
+        assert _same(_parsed(text, by_core), alike)
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [("[1.0, 2.0]", (1.0, 2.0)), ("[a,b]", ("a", "b")), ("[ 1 ]", (1,)), ("[/a/b, c.d]", ("/a/b", "c.d"))],
+)
+def test_plain_lists_need_no_parser(text: str, value: tuple[object, ...]) -> None:
+    assert _list_alike(text) == value
+
+
+@pytest.mark.parametrize(
+    "text", ["[]", "[1, 2.0]", "[a, y]", "[1, a]", "[1", "[a: b]", "[- a]", "['a']", "[a,,b]", "[1,]"]
+)
+def test_lists_that_are_not_plain_are_left_to_the_parsers(text: str) -> None:
+    assert _list_alike(text) is None

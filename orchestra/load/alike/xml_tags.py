@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.description.actions import model_of
 from orchestra.load.alike.learned import UnlikeError
 from orchestra.load.alike.straight import Keys, Plainly, Series
+from orchestra.load.elements import Attribute
 from orchestra.load.forms import Kind, forms_of
 from orchestra.load.keys import spelled
 from orchestra.location import Places
@@ -23,13 +24,17 @@ if TYPE_CHECKING:
 
 _DEEPEST: Final = 20
 _BLANK: Final = r"[ \t\r\n]"
-_VALUE: Final = r"""(?:"([ !#-%'-;=-~]*+)"|'([ -%(-;=-~]*+)')"""
+# With what stands for characters that would mean something else, as expressions have it.
+_NAMED: Final = r"&(?:quot|apos|lt|gt|amp);"
+_VALUE: Final = rf"""(?:"((?:[ !#-%'-;=-~]++|{_NAMED})*+)"|'((?:[ -%(-;=-~]++|{_NAMED})*+)')"""
 _PAIR: Final = rf"{_BLANK}++([A-Za-z_][A-Za-z0-9_.-]*+){_BLANK}*+={_BLANK}*+{_VALUE}"
 _COMMENT: Final = r"<!--(?:(?!--)[\t\r\n -~\xa0-\xff])*+-->"
 _TAG: Final = re.compile(
     rf"<(/?)([A-Za-z][A-Za-z0-9_-]*+)((?:{_PAIR})*+){_BLANK}*+(/?)>(?:{_BLANK}++|{_COMMENT})*+|([^<]|<)"
 )
 _ATTRIBUTE: Final = re.compile(_PAIR)
+_ENTITY: Final = re.compile("&([a-z]+);")
+_CHARACTERS: Final = {"quot": '"', "apos": "'", "lt": "<", "gt": ">", "amp": "&"}
 _CLOSING, _NAME, _PAIRS, _EMPTY, _ODD = 1, 2, 3, 7, 8
 
 
@@ -49,9 +54,10 @@ def scanned(whole: Source, begin: int, end: int) -> Plainly | None:
 class _Scan:
     """Goes through tags; `tag` is the number of the next one. `words` are the names, which show the form."""
 
-    __slots__ = ("places", "tag", "tags", "text", "words")
+    __slots__ = ("places", "tag", "tags", "text", "whole", "words")
 
     def __init__(self, whole: Source, tags: list[re.Match[str]]) -> None:
+        self.whole = whole
         self.text = whole.text
         self.tags = tags
         self.tag = 0
@@ -83,8 +89,14 @@ class _Scan:
             if key not in texts or key in values:
                 raise UnlikeError
             words.append(key)
-            values[key] = (single if double is None else double, len(places), False)
-            places.append(pair.span(2 if single is None else 3))
+            text, group = (double, 2) if single is None else (single, 3)
+            if "&" in text:
+                value = _ENTITY.sub(lambda found: _CHARACTERS[found[1]], text)
+                attribute = Attribute(key, value, pair.start(1), *pair.span(group))
+                values[key] = attribute.written(self.whole)
+                continue
+            values[key] = (text, len(places), False)
+            places.append(pair.span(group))
         if not tag[_EMPTY]:
             self.children(name, forms, values, depth)
         elif forms.holds_actions:
