@@ -147,8 +147,9 @@ def _list_alike(text: str) -> ParameterValue | None:
         return None
     items = [read_alike(item.strip(" ")) for item in listed[1].split(",")]
     kind = type(items[0])
-    found = tuple(item for item in items if item is not None and type(item) is kind)
-    return found if len(found) == len(items) else None
+    found: Any = tuple(item for item in items if item is not None and type(item) is kind)
+    alike: ParameterValue | None = found if len(found) == len(items) else None
+    return alike
 
 
 def _is_text(text: str) -> bool:
