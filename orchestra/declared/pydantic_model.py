@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 keep_away()
 
 _QUOTED = re.compile(r"'([^']*)'")
+_OF_CODE = re.compile(r"^(Value error|Assertion failed), ")  # what a validator of the user's raises
 _OF_TYPES = re.compile(r".*_(type|parsing|from_float)$")
 
 
@@ -89,11 +90,14 @@ def _fault(error: dict[str, Any], found: Structured) -> Fault:
     name, item = found.named(way)
     kind = error["type"]
     if kind == "missing":
+        if name in found.values:  # a list that is there, of a fixed length
+            return Fault("value", name, f"'{name}' has too few items")
         return missing(name)
     if kind == "extra_forbidden":
         inside = [other for other in found.values if other == name or other.startswith(f"{name}.")]
         return undeclared(inside[0] if inside else name, found, certain=True)
-    told = error["msg"][:1].lower() + error["msg"][1:]
+    told = _OF_CODE.sub("", error["msg"])
+    told = told[:1].lower() + told[1:]
     told = f"'{name}': {told}" if name else f"the parameters: {told}"
     if _OF_TYPES.fullmatch(kind):
         return Fault("type", name, told, _retyped(name, error["input"], found), item)

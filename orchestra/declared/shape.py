@@ -129,10 +129,13 @@ def place(name: str, at: Level) -> Place:
         inner = at.below(head)
         if inner is not None:
             return _inside(head, rest, inner)
-    if (patterned := at.by_pattern(name)) is not None:
-        return Place((name,), patterned, known=True)
-    if (patterned := at.by_pattern(parts[0])) is not None and len(parts) > 1:
-        return _inside(parts[0], ".".join(parts[1:]), patterned)
+    whole, first = at.by_pattern(name), at.by_pattern(parts[0])
+    if whole is not None and not (whole.is_object and len(parts) > 1):
+        return Place((name,), whole, known=True)
+    if (
+        first is not None and len(parts) > 1
+    ):  # a pattern without an end fits the whole name of what is below it too
+        return _inside(parts[0], ".".join(parts[1:]), first)
     others = at.others
     if others is not None and others.is_object and len(parts) > 1:
         return _inside(parts[0], ".".join(parts[1:]), others)

@@ -226,6 +226,24 @@ def test_parts_of_a_schema_may_stand_elsewhere_in_it() -> None:
     assert _faults(schema, mode="fsat") == [("value", "mode", "fast", True)]
 
 
+def test_what_a_pattern_says_of_a_group_is_said_of_the_group() -> None:
+    """Also where the pattern fits the dotted names of what is in it."""
+    gains = {
+        "type": "object",
+        "properties": {"rate": {"type": "number", "minimum": 0}},
+        "additionalProperties": False,
+    }
+    schema = {
+        "type": "object",
+        "patternProperties": {"^gain_": gains, "^limits[.]": {"type": "number", "maximum": 1}},
+        "additionalProperties": False,
+    }
+    assert _faults(schema, gain_a__rate=1.0, limits__low=0.5) == []
+    assert _faults(schema, gain_a__rate=-1.0) == [("value", "gain_a.rate", None, True)]
+    assert _faults(schema, gain_a__raet=1.0) == [("undeclared", "gain_a.raet", "gain_a.rate", True)]
+    assert _faults(schema, limits__low=1.5) == [("value", "limits.low", None, True)]
+
+
 def test_a_slip_in_a_name_by_pattern_is_nearer_than_a_whole_name_that_is_like_it() -> None:
     schema = {
         "type": "object",

@@ -196,6 +196,8 @@ def test_a_model_beside_the_launch_file(tmp_path: Path, name: str) -> None:
     ("name", "code", "message", "suggestion"),
     [
         ("models:Parms", "ORC090", "the module 'models' has no class 'Parms'", "models:Params"),
+        ("modles:Params", "ORC090", "there is no Python module 'modles'", "models:Params"),
+        ("pack.modles.Params", "ORC090", "there is no Python module 'pack.modles'", "pack.models.Params"),
         ("no_models:Params", "ORC090", "there is no Python module 'no_models'", None),
         ("models:Field", "ORC090", "'models:Field' is no model of pydantic", None),
         ("broken:Params", "ORC036", "RuntimeError", None),
@@ -206,6 +208,7 @@ def test_a_model_that_is_not_there(
 ) -> None:
     written = _YAML.replace("{PARAM}", "{name: rate, value: 2.0}").replace("driver.gpl.yaml", name)
     files = {"a.launch.yaml": written, "models.py": _MODEL, "broken.py": "raise RuntimeError('no')\n"}
+    files |= {"pack/__init__.py": "", "pack/models.py": ""}
     (problem,) = checked(tmp_path, files)
     assert (problem.code, problem.suggestion) == (code, suggestion)
     assert message in problem.message

@@ -44,6 +44,7 @@ class Robot(BaseModel):
     either: int | str = 1
     wheel: Wheel | None = None
     limits: dict[str, float] = {}
+    pair: tuple[float, float] = (0.0, 0.0)
 
     @field_validator("count")
     @classmethod
@@ -109,6 +110,9 @@ def _faults(model: object, **values: ParameterValue) -> list[tuple[str, str, str
         ({"wheel__radius": 0.1, "wheel__nmaes": "a"}, [("undeclared", "wheel.nmaes", "wheel.names", True)]),
         ({"limits__left": 1.0, "limits__right": 2.0}, []),
         ({"limits__left": "x"}, [("type", "limits.left", None, True)]),
+        ({"pair": (1.0, 2.0)}, []),
+        ({"pair": (1.0,)}, [("value", "pair", None, True)]),
+        ({"pair": (1.0, 2.0, 3.0)}, [("value", "pair", None, True)]),
         ({"sped": 1.0}, [("undeclared", "sped", "speed", False)]),
         ({"use_sim_time": 1}, [("type", "use_sim_time", "true", True)]),
     ],
@@ -128,6 +132,13 @@ def test_what_the_model_says_of_others() -> None:
 def test_code_of_a_model_that_fails_is_told() -> None:
     (fault,) = _schema(Fails).faults({"a": 1})
     assert fault.told == "the model 'Fails' fails: RuntimeError: no 1"
+
+
+def test_what_a_validator_raises_is_told_in_its_words() -> None:
+    assert [fault.told for fault in _schema(Robot).faults({"count": 2, "pair": (1.0,)})] == [
+        "'count': must be odd",
+        "'pair' has too few items",
+    ]
 
 
 def test_what_is_no_model_is_told() -> None:

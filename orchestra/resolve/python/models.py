@@ -8,11 +8,12 @@ from functools import reduce
 from importlib import import_module
 from importlib.util import find_spec
 from pathlib import Path
+from pkgutil import iter_modules
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.seam import connection, is_connected
 from orchestra.errors import Code
-from orchestra.nearest import nearest
+from orchestra.nearest import is_slip, nearest
 from orchestra.resolve.paths import folder_of
 from orchestra.resolve.python.calling import user_code
 
@@ -35,7 +36,10 @@ def named_class(module: str, name: str, value: Value, written: Template, run: Re
     found: list[Any] = []
     with _path_with(str(folder_of(run.context.file))):
         if not _is_there(module):
-            _refuse(f"there is no Python module '{module}'", None, value, run)
+            near = _near_module(module)
+            replaceable = near is not None and written.constant is not None
+            meant = f"{near}{value.text.removeprefix(module)}" if replaceable else None
+            _refuse(f"there is no Python module '{module}'", meant, value, run)
             return None
         with user_code(run, value.location.span):
             found.append(import_module(module))
@@ -80,6 +84,24 @@ def _is_there(module: str) -> bool:
         return False
     except Exception:  # noqa: BLE001 - a package of the user's that raises: its import does so again, and is reported
         return True
+
+
+def _near_module(module: str) -> str | None:
+    """Return the module that a name is a slip for, in the first part of it that is not there."""
+    above = ""
+    for part in module.split("."):
+        if _is_there(above + part):
+            above += f"{part}."
+            continue
+        spec = find_spec(above.rstrip(".")) if above else None
+        folders = None if spec is None else spec.submodule_search_locations
+        names = [item.name for item in iter_modules(folders)] if folders or not above else []
+        near = nearest(part, names)
+        if near is None or not is_slip(part, near):
+            return None
+        found = above + near + module[len(above) + len(part) :]
+        return found if _is_there(found) else None
+    return None
 
 
 def _refuse(told: str, meant: str | None, value: Value, run: Resolution) -> None:
