@@ -7,7 +7,7 @@ from itertools import product
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
-from orchestra.declared.common import COMMON, is_common
+from orchestra.declared.common import COMMON, common_meant, is_common
 from orchestra.declared.misnamed import misnamed
 from orchestra.declared.model import Declarations, Fault, Parameter
 from orchestra.declared.rules import objections
@@ -50,7 +50,8 @@ class DeclaredParameters:
                 fault = misnamed(name, known)
                 if fault.name == name:
                     # A slip in a word is nearer than any whole name that is only like it.
-                    fault = replace(fault, meant=self._meant_by_pattern(name) or fault.meant)
+                    meant_by = self._meant_by_pattern(name) or common_meant(name)
+                    fault = replace(fault, meant=meant_by or fault.meant)
                 meant.add(fault.meant or fault.name.rpartition(".")[0])
                 yield replace(fault, certain=self.declared.undeclared == "refused")
         for name, parameter in known.items():
@@ -148,3 +149,7 @@ def of_every_node(values: Mapping[str, ParameterValue]) -> Iterator[Fault]:
     for name, kind in COMMON.items():
         if name in values:
             yield from value_faults(Parameter(name, (kind,)), name, values[name])
+    for name in values:
+        if (meant := common_meant(name)) is not None and meant not in values:
+            told = f"'{name}' is not '{meant}', which every node has"
+            yield Fault("undeclared", name, told, meant, certain=False)

@@ -13,7 +13,7 @@ from orchestra.description.source import Keyed, Listed
 from orchestra.errors import Code
 from orchestra.load.elements import Tagged, emptied, noun
 from orchestra.load.pairs import whole_item, written_item
-from orchestra.load.words import ELSEWHERE, KEYS_ELSEWHERE, snake
+from orchestra.load.words import ELSEWHERE, HINTS, KEYS_ELSEWHERE, snake
 from orchestra.nearest import is_slip, nearest
 from orchestra.patterns import pattern
 
@@ -137,9 +137,20 @@ class _Strangers:
         self.mapping = mapping
         self.pair = written_item(known, mapping)
 
+    def hint(self, key: str) -> str | None:
+        """Return what does what an unknown key is meant to do: another action, or a key that stands here already."""
+        known, hint = HINTS.get(snake(key), (frozenset(), None))
+        if not self.known.isdisjoint(known):
+            return hint
+        present = self.known & {spelled(other) for other in self.mapping}
+        taken = next((other for other in KEYS_ELSEWHERE.get(snake(key), ()) if other in present), None)
+        return None if taken is None else f"'{taken}' stands here already"
+
     def told(self, key: str, at: Span, near: str | None, report: Report) -> frozenset[str]:
         """Report a key; return the known ones that it stands for, which are not missing then."""
         message, instead, notes = f"unknown {noun(self.mapping, key)}", near, list[str]()
+        if near is None and (hint := self.hint(key)) is not None:
+            message += f": {hint}"
         stands_for = frozenset() if near is None else frozenset({near})
         joined = _JOINED.fullmatch(key)
         if joined is not None and spelled(joined[1]) in self.known:
@@ -153,7 +164,8 @@ class _Strangers:
                 notes.append(f"it is written {self.pair[1]}")
             stands_for = frozenset(self.pair[0])
         elif near is None and self.lacking:
-            instead = _abbreviated(key, self.lacking)
+            alone = isinstance(self.mapping, Tagged) and len(self.lacking) == len(self.mapping) == 1
+            instead = next(iter(self.lacking)) if alone else _abbreviated(key, self.lacking)
             notes += [
                 f"the {noun(self.mapping, name)} is missing" for name in sorted(self.lacking) if not instead
             ]

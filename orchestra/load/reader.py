@@ -13,6 +13,7 @@ from orchestra.errors import Code, Problems
 from orchestra.fields import replace
 from orchestra.load.braces import warn_of_braces
 from orchestra.load.elements import beginning_of, noun
+from orchestra.load.expressions import as_substitutions
 from orchestra.load.grammar import parse_template, sound_template, unescaped
 from orchestra.load.keys import known_keys
 from orchestra.load.pairs import extent, written_as_list, written_list, written_pair, written_so
@@ -46,10 +47,11 @@ _LISTS = ("list_type", "tuple_type")
 
 @dataclass(slots=True)
 class Reader:
-    """Reads one file; everything it reports carries the includes on the way to that file."""
+    """Reads one file, which is `text`; everything it reports carries the includes on the way to that file."""
 
     problems: Problems
     included_from: tuple[Span, ...] = ()
+    text: str = ""
 
     def error(
         self,
@@ -156,6 +158,8 @@ class Reader:
             message = error["msg"]
         key = str(place[-1])
         suggestion = error.get("ctx", {}).get("suggestion") or written_as_list(key, error["input"])
+        if suggestion is None and kind == "wrong_type" and isinstance(error["input"], Written):
+            suggestion = as_substitutions(error["input"].text, self.text)
         head, value = _way(mapping, place)
         if kind == STRAY_KEY:
             self.error(Code.UNKNOWN_KEY, message, head, suggestion=suggestion)

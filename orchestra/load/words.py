@@ -83,6 +83,7 @@ KEYS_ELSEWHERE: Final[dict[str, tuple[str, ...]]] = {
     "additional_env": ("env",),
     "affinity": ("cores",),
     "after": ("depends_on",),
+    "arg": ("param",),
     "args": ("arg", "cmd"),
     "argument": ("arg", "args"),
     "arguments": ("args", "arg"),
@@ -91,6 +92,8 @@ KEYS_ELSEWHERE: Final[dict[str, tuple[str, ...]]] = {
     "cmdline": ("cmd", "args"),
     "command": ("cmd", "exec"),
     "component": ("composable_node",),
+    "class": ("plugin",),
+    "class_name": ("plugin",),
     "components": ("composable_node",),
     "composable_node_descriptions": ("composable_node",),
     "condition": ("if",),
@@ -109,7 +112,7 @@ KEYS_ELSEWHERE: Final[dict[str, tuple[str, ...]]] = {
     "entities": ("children",),
     "environment": ("env",),
     "environment_variables": ("env",),
-    "exec": ("cmd",),
+    "exec": ("cmd", "plugin"),
     "executable": ("exec", "cmd"),
     "exit_codes": ("success_exit_codes",),
     "file": ("from", "filename"),
@@ -122,7 +125,8 @@ KEYS_ELSEWHERE: Final[dict[str, tuple[str, ...]]] = {
     "loop": ("for_each",),
     "max_retries": ("budget", "respawn_max_retries"),
     "memory_max": ("memory",),
-    "msg": ("message",),
+    "message": ("reason",),
+    "msg": ("message", "reason"),
     "name": ("from", "node"),
     "new": ("to",),
     "new_name": ("to",),
@@ -155,7 +159,7 @@ KEYS_ELSEWHERE: Final[dict[str, tuple[str, ...]]] = {
     "target": ("to",),
     "text": ("message", "value"),
     "time": ("period",),
-    "type": ("exec",),
+    "type": ("exec", "plugin"),
     "val": ("value",),
     "value": ("default", "to"),
     "values": ("choices",),
@@ -165,6 +169,16 @@ KEYS_ELSEWHERE: Final[dict[str, tuple[str, ...]]] = {
     "workdir": ("cwd",),
     "working_dir": ("cwd",),
     "working_directory": ("cwd",),
+}
+
+# What no key does although people look for one, by the keys that those have who look for it.
+_NAMESPACE: Final = "push_ros_namespace in a group gives a namespace"
+HINTS: Final = {
+    "namespace": ({"children", "file"}, _NAMESPACE),
+    "ns": ({"children", "file"}, _NAMESPACE),
+    "pass_all_args": ({"file"}, "what is set around an include is seen in the file anyway"),
+    "remap": ({"children", "file"}, "set_remap in a group gives one to all nodes"),
+    "clear_params": ({"exec"}, "nodes of ROS 2 have no parameters of an earlier run"),
 }
 
 

@@ -115,7 +115,11 @@ def _unknown_entity(at: int, whole: Source, opened: Opened | None) -> Fault:
     begin, end = found.span() if found else (at, at)
     name = whole.text[begin:end]
     span = whole.span(begin, end)
-    return Fault(f"there is no entity {name}", span, suggestion=f"&amp;{name[1:]}", notes=(_KNOWN_ENTITIES,))
+    from html.entities import name2codepoint  # noqa: PLC0415 - large, and only mistakes need it
+
+    number = name2codepoint.get(name.strip("&;"))
+    instead = f"&amp;{name[1:]}" if number is None else f"&#{number};"
+    return Fault(f"there is no entity {name}", span, suggestion=instead, notes=(_KNOWN_ENTITIES,))
 
 
 def _no_character(at: int, whole: Source, opened: Opened | None) -> Fault:

@@ -25,6 +25,8 @@ from orchestra.load.xml_parser import NotXmlError, parse
 from orchestra.nearest import is_slip, nearest
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator, Sequence
+
     from orchestra.description.entity import Entity
     from orchestra.location import Span
 
@@ -35,11 +37,13 @@ _ATTRIBUTES = (Kind.TEXT, Kind.VALUE, Kind.LIST)
 _IGNORED = frozenset({"version"})
 # Keys of which a text between tags is probably meant to be the value.
 _VALUES = ("value",)
+_PAIR = frozenset({"name", "value"})
 
 
 def read(text: str, file: str, reader: Reader) -> Keyed | None:
     """Return the tree of an XML text, None where it is no XML or no launch file (which has been reported)."""
     whole = source(file, text)
+    reader.text = text
     try:
         root = parse(whole)
     except NotXmlError as error:
@@ -109,9 +113,10 @@ class _Shaper:
         if not (element.children or forms.holds_actions or element.text is not None):
             return tagged
         actions = Listed(at)
-        for child in element.children:
+        for child in self._unwrapped(element.children, forms):
             form = self._form(child.name, forms, actions=forms.holds_actions, element=True)
-            if form is not None:
+            slip = form is not None and spelled(child.name) not in forms.by_key
+            if form is not None and not (slip and child.attributes and form.kind in _ATTRIBUTES):
                 self._child(child, form, tagged)
             elif forms.holds_actions:
                 actions.append(self.action(child))
@@ -122,6 +127,21 @@ class _Shaper:
         if element.text is not None:
             self._text(element, model, tagged)
         return tagged
+
+    def _unwrapped(self, children: Sequence[Element], forms: Forms) -> Iterator[Element]:
+        """Yield elements; of one that is nothing but a wrapping of others with one name, which is reported, those."""
+        for child in children:
+            if child.attributes or not child.children or not self._is_wrapping(child, forms):
+                yield child
+                continue
+            message = f"unknown element <{child.name}>: each <{child.children[0].name}> stands without it"
+            self.reader.error(Code.UNKNOWN_KEY, message, child.span(self.whole))
+            yield from child.children
+
+    def _is_wrapping(self, child: Element, forms: Forms) -> bool:
+        name, inner = spelled(child.name), {spelled(part.name) for part in child.children}
+        action = forms.holds_actions and (name in ACTIONS or exposes_action(child.name))
+        return len(inner) == 1 and inner <= forms.elements and name not in forms.by_key and not action
 
     def _attributes(self, element: Element, forms: Forms, tagged: Tagged) -> None:
         if all(map(forms.texts.__contains__, (item.name for item in element.attributes))):  # as nearly always
@@ -139,7 +159,7 @@ class _Shaper:
             if form.or_text:
                 tagged.put(attribute.name, attribute.written(self.whole), at)
             elif form.kind not in _ATTRIBUTES:
-                self._not_an_attribute(attribute.name, form, at, tagged)
+                self._not_an_attribute(attribute.name, form, at, tagged, forms)
             elif (separator := separators.get(spelled(attribute.name))) is not None:
                 tagged.put(attribute.name, separated(attribute, separator, self.whole, self.reader), at)
             elif form.kind is not Kind.TEXT:
@@ -230,8 +250,13 @@ class _Shaper:
         else:
             self.reader.warning(Code.WRONG_TYPE, message, span)
 
-    def _not_an_attribute(self, name: str, form: Form, at: Span, tagged: Tagged) -> None:
+    def _not_an_attribute(self, name: str, form: Form, at: Span, tagged: Tagged, forms: Forms) -> None:
         key = spelled(name)
+        attributes = {spelled(item.name) for item in tagged.element.attributes}
+        if forms.texts >= _PAIR and "name" not in attributes:
+            self.reader.error(Code.UNKNOWN_KEY, f"unknown attribute '{name}'", at, suggestion="name")
+            _lose(tagged, "name")
+            return
         if form.kind is Kind.ACTIONS:
             message = f"'{name}' is no attribute: actions stand inside <{tagged.element.name}>"
         else:

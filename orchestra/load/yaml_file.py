@@ -38,6 +38,7 @@ _SCALAR_TYPES = ("bool", "int", "float", "null")
 def read(text: str, file: str, reader: Reader) -> Any | None:  # noqa: ANN401 - a tree
     """Return the tree of a YAML text, None where it is no YAML (which has been reported)."""
     whole = source(file, text)
+    reader.text = text
     tree = yaml_plain.read(whole)
     return read_closely(whole, reader) if tree is None else tree
 

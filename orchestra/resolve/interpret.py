@@ -6,11 +6,9 @@ from functools import cache
 from importlib import import_module
 from typing import TYPE_CHECKING, Any, Protocol
 
-from orchestra.description.fields import FLAG_WORDS
 from orchestra.errors import Code
 from orchestra.fields import replace
 from orchestra.location import is_python
-from orchestra.nearest import nearest
 from orchestra.resolve.booleans import CONDITION_WORDS, boolean
 from orchestra.resolve.context import Value
 from orchestra.resolve.impossible.comparisons import check_comparisons
@@ -18,7 +16,6 @@ from orchestra.resolve.impossible.contradictions import check_contradiction, hel
 from orchestra.resolve.impossible.late_settings import check_late_in_file
 from orchestra.resolve.mentions import hidden, words_in
 from orchestra.resolve.model import ResolvedSkip
-from orchestra.resolve.refusals import refuse_value
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -167,9 +164,10 @@ def wanted(action: Conditional, word: str, run: Resolution) -> bool:
 
         run.found.doubts.append((action, doubts(action, run, known=False)))
     if isinstance(value, Value):
-        message = f"a condition is true or false, this is '{value.text}'"
-        meant = nearest(value.text, FLAG_WORDS)
-        refuse_value(value, run.problems, Code.BAD_CONDITION, message, meant=meant)
+        # Here, because only a faulty one needs it.
+        from orchestra.resolve.impossible.words import refuse_condition  # noqa: PLC0415
+
+        refuse_condition(template, value, run)
     run.found.lost |= words_in(action)
     run.scope.ledger.incomplete |= bool(part.files)
     return False

@@ -12,7 +12,7 @@ from orchestra.resolve.containers import own_words
 from orchestra.resolve.context import POISON
 from orchestra.resolve.near_paths import near_path
 from orchestra.resolve.paths import beside, folder_of
-from orchestra.resolve.refusals import report_missing_executable, report_missing_package
+from orchestra.resolve.refusals import refuse_value, report_missing_executable, report_missing_package
 from orchestra.resolve.runnable import fault_of, program_on_path, programs_on_path
 from orchestra.resolve.typos import is_typo
 from orchestra.witness.once import once
@@ -67,6 +67,11 @@ def packaged_words(
     if own is not None:
         return own
     if packages.prefix(package.text) is None:
+        if package.text in packages.executables(executable.text):
+            told = (
+                f"{package.text!r} is an executable of the package {executable.text!r}: the two are swapped"
+            )
+            return refuse_value(package, run.problems, Code.MISSING_PACKAGE, told, meant=executable.text)
         report_missing_package(package.text, written[0], run.context, package)
         return ("${prefix:" + package.text + "}/lib/" + f"{package.text}/{executable.text}",)
     words = packages.executable(package.text, executable.text)

@@ -200,7 +200,10 @@ def report_missing_executable(
         return refuse(written, context, Code.MISSING_EXECUTABLE, told, notes=("`chmod +x` makes it so",))
     notes = (f"it has {', '.join(sorted(known))}",) if known else ("it has no executables",)
     told = f"package {package!r} has no executable {executable!r}"
-    name = executable.rpartition("/")[2]
+    name, first = executable.rpartition("/")[2], executable.partition(" ")[0]
+    if first != executable and first in known:
+        told += ": what follows the first word belongs into args"
+        name = first
     meant = name if name in known else nearest(executable, known)
     if value is not None:
         return refuse_value(value, context.problems, Code.MISSING_EXECUTABLE, told, meant=meant, notes=notes)

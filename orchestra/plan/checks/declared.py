@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.declared.beside import schema_of_package
-from orchestra.declared.common import COMMON
+from orchestra.declared.common import COMMON, common_meant
 from orchestra.errors import Code, Problem, Problems, Severity
 from orchestra.fields import replace
 from orchestra.location import is_python
@@ -87,7 +87,9 @@ class _Schemas:
 
 
 def _of_every_node(values: dict[str, ParameterValue]) -> Iterable[Fault]:
-    if all(isinstance(values.get(name, True), bool) for name in COMMON):
+    if all(isinstance(values.get(name, True), bool) for name in COMMON) and not any(
+        map(common_meant, values)
+    ):
         return ()
     from orchestra.declared.judging import of_every_node  # noqa: PLC0415 - hardly any description needs it
 

@@ -20,6 +20,12 @@ def check_bare_names(template: Template, run: Resolution) -> None:
     for part in performed_in(template):
         if not isinstance(part, Call) or part.name not in _COMPARISONS:
             continue
+        first = part.arguments[0]
+        if not first.quoted and first.raw.endswith(",") and not first.faulty:
+            message = f"the comma is a part of '{first.raw}': arguments stand apart by blanks alone"
+            at = run.at(first.span)
+            run.problems.warning(Code.IMPOSSIBLE_CONDITION, message, at, suggestion=first.raw.rstrip(","))
+            continue
         texts = [argument.constant for argument in part.arguments]
         named = [argument for argument in part.arguments if argument.constant in run.scope.variables]
         if None in texts or len(set(texts)) < len(texts) or len(named) != 1:

@@ -1,19 +1,35 @@
-"""Words that are read as true or false here, as in parameters, and that ROS 2 refuses in a condition."""
+"""Conditions that are neither true nor false, and words that are read as such here and that ROS 2 refuses."""
 
 from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from orchestra.description.fields import FLAG_WORDS
 from orchestra.errors import Code
+from orchestra.load.expressions import as_substitutions
+from orchestra.location import is_python
+from orchestra.nearest import nearest
 from orchestra.resolve.booleans import CONDITION_WORDS
 from orchestra.resolve.command_line import COMMAND_LINE
-from orchestra.resolve.refusals import forget_surprise, written_at
+from orchestra.resolve.refusals import forget_surprise, refuse_value, written_at
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
 
+    from orchestra.description.text import Template
     from orchestra.resolve.context import Read, Value
     from orchestra.resolve.resolution import Resolution
+
+
+def refuse_condition(template: Template, value: Value, run: Resolution) -> None:
+    """Report a condition that is neither true nor false; one that is written as in Python is meant as substitutions."""
+    message = f"a condition is true or false, this is '{value.text}'"
+    meant = None if value.verbatim or is_python(value.location) else as_substitutions(template.raw)
+    if meant is not None:
+        run.problems.error(Code.BAD_CONDITION, message, value.location, suggestion=meant)
+        return
+    meant = nearest(value.text, FLAG_WORDS)
+    refuse_value(value, run.problems, Code.BAD_CONDITION, message, meant=meant)
 
 
 def check_word(value: Value, run: Resolution, *, holds: bool) -> None:

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Poison
-from orchestra.resolve.refusals import report_missing_package
+from orchestra.resolve.refusals import refuse, report_missing_package
 from orchestra.resolve.substitutions.arguments import made
 
 if TYPE_CHECKING:
@@ -34,6 +35,10 @@ def _found(
     if isinstance(package, Poison):
         return POISON
     folder = folder_of(package.text)
+    if folder is None and "/" in package.text and written.constant is not None:
+        first, _, rest = package.text.partition("/")
+        told = f"{package.text!r} is no name of a package: write $({call.name} {first})/{rest}"
+        return refuse(written, context, Code.MISSING_PACKAGE, told)
     if folder is None:
         return report_missing_package(package.text, written, context)
     return made(call, context, folder)
