@@ -70,10 +70,7 @@ _PYTHON_INCLUDE: Final = """\
 
 def write(folder: Path, language: str, nodes: int) -> Path:
     """Write a tree with so many nodes in `yaml`, `xml` or `py`; return the file at its top."""
-    package = folder / "benchmark_widget" / "nodes"
-    package.mkdir(parents=True, exist_ok=True)
-    for path in (package.parent / "__init__.py", package / "__init__.py", package / "widget.py"):
-        path.touch()
+    write_package(folder)
     whole, node, include = _LANGUAGES[language]
     folder = folder / f"{language}{nodes}"
     folder.mkdir()
@@ -97,6 +94,14 @@ def write(folder: Path, language: str, nodes: int) -> Path:
             for begin in range(0, len(level), _FILES)
         ]
     return folder / level[0][0]
+
+
+def write_package(folder: Path) -> None:
+    """Write the package that all nodes are of."""
+    package = folder / "benchmark_widget" / "nodes"
+    package.mkdir(parents=True, exist_ok=True)
+    for path in (package.parent / "__init__.py", package / "__init__.py", package / "widget.py"):
+        path.touch()
 
 
 def _include(

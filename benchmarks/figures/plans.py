@@ -5,7 +5,7 @@ from __future__ import annotations
 import resource
 from typing import TYPE_CHECKING
 
-from benchmarks import launching, node_tree
+from benchmarks import launching, node_tree, varied_tree
 from benchmarks.figure import Figure, Sample
 
 if TYPE_CHECKING:
@@ -19,6 +19,7 @@ _COMPOSE = "composing the same bytes with PyYAML's C parser"
 _YAML = "the same nodes in YAML"
 FIGURES = (
     Figure("plan-yaml", "plan of 1,000 nodes in YAML", _COMPOSE, "ratio", 3.0, "s", 1000, _SIZES, 20),
+    Figure("plan-mixed", "the same, of many kinds", _COMPOSE, "ratio", 3.0, "s", 1000, _SIZES, 20),
     Figure("plan-again", "`orchestra plan` of it again, all of it", _COMPOSE, "ratio", 3.0, "s", 1000, _SIZES, 20),
     Figure("plan-xml", "the same in XML", _YAML, "ratio", 1.0, "s", 1000, _SIZES, 20),
     Figure("plan-python", "the same in Python", _YAML, "ratio", 1.0, "s", 1000, _SIZES, 20),
@@ -59,6 +60,8 @@ def measure(site: Site, size: int) -> Mapping[str, Sample]:
     """Measure it with so many nodes, and with ten times as many."""
     files = {language: node_tree.write(site.folder, language, size) for language in ("yaml", "xml", "py")}
     composed = launching.printed(_COMPOSING, [files["yaml"].parent], site)
+    varied = varied_tree.write(site.folder, size)
+    composed_varied = launching.printed(_COMPOSING, [varied.parent], site)
     # New in a folder that code is imported from, it would be a reason to make the plan again.
     (site.folder / "cache").mkdir()
     yaml, xml, python = (_planned(site, language, file, size) for language, file in files.items())
@@ -66,6 +69,7 @@ def measure(site: Site, size: int) -> Mapping[str, Sample]:
     many = _planned(site, "yaml", node_tree.write(site.folder, "yaml", 10 * size), 10 * size)
     return {
         "plan-yaml": Sample(yaml, composed),
+        "plan-mixed": Sample(_planned(site, "yaml", varied, size), composed_varied),
         "plan-again": Sample(_again(site, files["yaml"]), composed),
         "plan-xml": Sample(xml, yaml),
         "plan-python": Sample(python, yaml),
