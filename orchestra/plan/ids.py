@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
+from orchestra.fields import replace
 from orchestra.location import is_python
 from orchestra.resolve.model import ResolvedComponent, ResolvedProcess
 from orchestra.resolve.names import full_name
@@ -62,6 +63,7 @@ def check_names(processes: Sequence[ResolvedProcess | ResolvedComponent], proble
     It is only a warning where a condition stands on one of them, where one is a component, which its container may
     refuse, and where one is written in Python: files that exist already do this, and upstream starts both.
     """
+    twice = _tell_twice(processes, problems)
     first: dict[str, ResolvedProcess | ResolvedComponent] = {}
     told: set[tuple[Location | Span, Location | Span]] = set()
     for process in processes:
@@ -70,7 +72,11 @@ def check_names(processes: Sequence[ResolvedProcess | ResolvedComponent], proble
             continue
         earlier = first.setdefault(name, process)
         mistake = _mistake(earlier, process)
-        if earlier is process or mistake in told:
+        if (
+            earlier is process
+            or mistake in told
+            or (earlier.origin is process.origin and id(process.origin) in twice)
+        ):
             continue
         told.add(mistake)
         certain = all(map(_is_refused, (earlier, process)))
@@ -81,6 +87,31 @@ def check_names(processes: Sequence[ResolvedProcess | ResolvedComponent], proble
             process.name.location,
             notes=(f"the other one is at {_with_includes(earlier.location)}",),
         )
+
+
+def _tell_twice(processes: Sequence[ResolvedProcess | ResolvedComponent], problems: Problems) -> set[int]:
+    """Warn of actions of Python that are started twice, which ROS 2 refuses; return their ids.
+
+    What is repeated, and made once in the code, is left alone.
+    """
+    found: set[int] = set()
+    seen: set[int] = set()
+    for process in processes:
+        origin = process.origin
+        if origin is None or isinstance(process, ResolvedComponent) or id(origin) not in seen:
+            seen.add(id(origin))
+            continue
+        # Here, because few actions are, and what it imports.
+        from orchestra.compat.side_by_side import second_use  # noqa: PLC0415
+
+        place = getattr(origin, "_place", None)
+        span = None if place is None or id(origin) in found else second_use(place)
+        if span is not None:
+            found.add(id(origin))
+            message = f"the same {type(origin).__name__} is started a second time here: ROS 2 refuses that"
+            at, notes = replace(process.location, span=span), (f"it is made at {process.location.span}",)
+            problems.warning(Code.DUPLICATE_NODE, message, at, notes=notes)
+    return found
 
 
 def _is_refused(process: ResolvedProcess | ResolvedComponent) -> bool:

@@ -6,6 +6,7 @@ launch files are full of such.
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
@@ -25,8 +26,8 @@ if TYPE_CHECKING:
 def declare(action: Arg, name: str, choices: Collection[str] | None, run: Resolution) -> None:
     """Report a default that never counts, because the file itself has given the variable another value before.
 
-    One that is none of the `choices` is a mistake of its own. Code in Python puts lists of declarations together, of
-    which the first counts.
+    One that is none of the `choices` is a mistake of its own. Code in Python may put lists of declarations together,
+    of which the first counts.
     """
     variable = run.scope.variables.get(name)
     if variable is None or action.default is None:
@@ -34,7 +35,11 @@ def declare(action: Arg, name: str, choices: Collection[str] | None, run: Resolu
     before, here = variable.settled, run.at(action.name.span)
     if before is None or before.span.file != here.span.file or before.included_from != here.included_from:
         return
-    if is_python(here) or variable.leaked_from is not None or not isinstance(variable.value, Value):
+    if (
+        (is_python(here) and not _is_written_twice(here, name))
+        or variable.leaked_from is not None
+        or not isinstance(variable.value, Value)
+    ):
         return
     default = glimpse(action.default, run.context, run.scope.variables)
     if default is None or (choices is not None and default.text not in choices):
@@ -45,6 +50,13 @@ def declare(action: Arg, name: str, choices: Collection[str] | None, run: Resolu
     if not _same(variable.value.text, default.text):
         message = f"the default of '{name}' never counts: it has a value before"
         run.problems.warning(Code.SHADOWED_ARGUMENT, message, here, notes=(f"it is set at {before}",))
+
+
+def _is_written_twice(here: Location, name: str) -> bool:
+    # Here, because few arguments are declared twice.
+    from orchestra.compat.side_by_side import is_declared_twice  # noqa: PLC0415
+
+    return is_declared_twice(os.path.abspath(here.span.file), name)  # noqa: PTH100 - no link is followed
 
 
 def settle(name: str, at: Span, run: Resolution) -> None:
