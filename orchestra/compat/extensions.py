@@ -13,7 +13,6 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.compat.launch.substitution import Substitution
-from orchestra.compat.literals import Literal, keyword
 from orchestra.compat.seam import connection
 from orchestra.compat.text import template
 from orchestra.compat.values import written
@@ -22,6 +21,7 @@ from orchestra.description.text import Constant, Opaque, Template
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
+    from orchestra.compat.literals import Literal
     from orchestra.compat.place import Place
     from orchestra.description.entity import Entity
 
@@ -47,6 +47,9 @@ def extension_fields(
     """
     if not given:
         return {}
+    # Here, because few launch files have such keywords, and what it imports.
+    from orchestra.compat.literals import keyword  # noqa: PLC0415
+
     mapping = Keyed(place.span, place.span)
     for name, value in given.items():
         at = keyword(place, name)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import cache
-from itertools import compress
+from itertools import compress, islice
 from types import CodeType, FunctionType
 from typing import TYPE_CHECKING, Final
 
@@ -52,18 +52,22 @@ def _with_inner(code: CodeType) -> Iterator[CodeType]:
 def _keeps_action(code: CodeType, lines: Sequence[bytes]) -> bool:
     """Return whether a variable that is never read is set to something that names an action."""
     idle = _idle_names(code)
-    if not idle:
-        return False
-    written, positions = code.co_code, list(code.co_positions())
-    for kind, shift in ((_SET, 0), (_SET_AND_READ, 4)):
-        for index in compress(range(len(positions)), written[::2].translate(_tables()[kind])):
-            # What was done before it is to make the value.
-            begin, end, *_ = positions[index - 1]
-            if begin is None or written[2 * index + 1] >> shift not in idle:
-                continue
-            if any(map(_action().search, lines[begin - 1 : end or begin])):
-                return True
+    for index in _setting(code.co_code, idle) if idle else ():
+        # What was done before it is to make the value. Most are set where a function begins.
+        begin, end, *_ = next(islice(code.co_positions(), index - 1, None))
+        if begin is not None and any(map(_action().search, lines[begin - 1 : end or begin])):
+            return True
     return False
+
+
+def _setting(written: bytes, names: Iterable[int]) -> Iterator[int]:
+    """Yield the numbers of the instructions that set one of these variables."""
+    for name in names:
+        for operation in _operations()[_SET]:
+            yield from _places(written, operation, name)
+        for operation in _operations()[_SET_AND_READ]:
+            for operand in range(name << 4, (name << 4) + 16 if name <= _NIBBLE else 0):
+                yield from _places(written, operation, operand)
 
 
 def _idle_names(code: CodeType) -> set[int]:
@@ -74,12 +78,10 @@ def _idle_names(code: CodeType) -> set[int]:
         return set()
     written = code.co_code
     operations, operands = written[::2], written[1::2]
-    read = set(compress(operands, operations.translate(_tables()[_READ])))
-    for operand in compress(operands, operations.translate(_tables()[_READ_TWICE])):
+    read = set(compress(operands, operations.translate(_table(_READ))))
+    for operand in compress(operands, operations.translate(_table(_READ_TWICE))):
         read |= {operand >> 4, operand & _NIBBLE}
-    read |= {
-        operand & _NIBBLE for operand in compress(operands, operations.translate(_tables()[_SET_AND_READ]))
-    }
+    read |= {operand & _NIBBLE for operand in compress(operands, operations.translate(_table(_SET_AND_READ)))}
     return {
         index & 255
         for index, name in enumerate(code.co_varnames)
@@ -88,6 +90,16 @@ def _idle_names(code: CodeType) -> set[int]:
         and not name.startswith("_")
         and name not in code.co_cellvars
     }
+
+
+def _places(written: bytes, operation: int, operand: int) -> Iterator[int]:
+    """Yield the numbers of an instruction in the code of a function."""
+    instruction = bytes((operation, operand))
+    at = written.find(instruction)
+    while at >= 0:
+        if not at % 2:
+            yield at // 2
+        at = written.find(instruction, at + 1)
 
 
 @cache
@@ -99,15 +111,21 @@ _MORE_ARGUMENTS: Final = 4 | 8  # `*args` and `**kwargs`
 
 
 @cache
-def _tables() -> tuple[bytes, ...]:
-    """Return which operations do what to variables, a table for each kind."""
+def _table(kind: int) -> bytes:
+    """Return a table of the operations of a kind."""
+    return bytes(operation in _operations()[kind] for operation in range(_HIGHEST + 1))
+
+
+@cache
+def _operations() -> tuple[list[int], ...]:
+    """Return the operations that do something to variables, by what they do."""
     from opcode import opmap  # noqa: PLC0415 - once
 
-    tables = [bytearray(256) for _ in range(_SET_AND_READ + 1)]
+    kinds: tuple[list[int], ...] = ([], [], [], [])
     for name, number in opmap.items():
-        if number < len(tables[_READ]) and "_FAST" in name and not name.startswith("DELETE"):
-            tables[_kind(name.count("LOAD_FAST"), name.count("STORE_FAST"))][number] = 1
-    return tuple(map(bytes, tables))
+        if number <= _HIGHEST and "_FAST" in name and not name.startswith("DELETE"):
+            kinds[_kind(name.count("LOAD_FAST"), name.count("STORE_FAST"))].append(number)
+    return kinds
 
 
 def _kind(reads: int, sets: int) -> int:
@@ -118,3 +136,4 @@ def _kind(reads: int, sets: int) -> int:
 
 # Kinds of operations; one that sets two variables takes what it sets them to apart.
 _READ, _READ_TWICE, _SET, _SET_AND_READ = range(4)
+_HIGHEST: Final = 255

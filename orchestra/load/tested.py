@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import inspect
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
@@ -17,6 +16,8 @@ def description_in(module: ModuleType) -> Any:  # noqa: ANN401 - whatever the us
     generate: Any = getattr(module, FUNCTION, None)
     if generate is None:
         return None
+    import inspect  # noqa: PLC0415 - few launch files are tests, and it takes time
+
     if getattr(generate, "__parametrized__", False):
         generate = next(iter(generate()))[0]
     arguments = [lambda: None] if _READY in inspect.signature(generate).parameters else []

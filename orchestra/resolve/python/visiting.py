@@ -9,11 +9,9 @@ from typing import TYPE_CHECKING, Any
 from orchestra.compat import faults
 from orchestra.compat.building import model_of
 from orchestra.compat.explanation import told
-from orchestra.compat.functions import name_of, returned_by
 from orchestra.compat.launch.action import Action, ModelledAction
 from orchestra.compat.launch.launch_description import LaunchDescription
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
-from orchestra.compat.literals import call_at, item_span, keyword
 from orchestra.compat.misplaced import misplaced
 from orchestra.compat.place import Argument
 from orchestra.compat.refusing import is_lost
@@ -38,6 +36,9 @@ def visit_entities(entities: Iterable[Any], run: Resolution, place: Place | None
         if _is_entity(entity):
             visit_entity(entity, run, place)
         else:
+            # Here and below, because only mistakes need it, and what it imports.
+            from orchestra.compat.literals import item_span  # noqa: PLC0415
+
             count = len(entities) if isinstance(entities, list | tuple) else 0
             span = _span(entity, run) if place is None else item_span(place, index, count)
             _refuse_other(entity, span, run, is_written=place is None or span != place.span)
@@ -104,8 +105,8 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
 
 def _warn_of_none(description: LaunchDescription, run: Resolution) -> None:
     """Warn of a launch description that is given None: code that does so has lost its actions."""
-    # Here, because only mistakes need it, and what it imports.
-    from orchestra.compat.rewritten import rewritten  # noqa: PLC0415
+    from orchestra.compat.literals import call_at, keyword  # noqa: PLC0415 - as above
+    from orchestra.compat.rewritten import rewritten  # noqa: PLC0415 - as above
 
     place = description._place
     call = call_at(place)
@@ -145,12 +146,18 @@ def _uncallable(entity: Any, error: TypeError) -> Span | None:
     function = getattr(entity, "function", None)
     name = getattr(function, "__qualname__", None)
     refused = name is not None and str(error).startswith(f"{name}() takes")
-    return name_of(function) if refused else None
+    if not refused:
+        return None
+    from orchestra.compat.functions import name_of  # noqa: PLC0415 - as above
+
+    return name_of(function)
 
 
 def _visit_returned(entity: Any, following: Iterable[Any], run: Resolution) -> None:
     """Visit what code has returned; what is no entity stands where it is returned."""
     if isinstance(following, list | tuple) and not all(map(_is_entity, following)):
+        from orchestra.compat.functions import returned_by  # noqa: PLC0415 - as above
+
         returned = returned_by(getattr(entity, "function", None), following)
         if returned is not None:
             for index, item in enumerate(following):
@@ -162,6 +169,8 @@ def _visit_returned(entity: Any, following: Iterable[Any], run: Resolution) -> N
 
 
 def _returned(entity: Any, made: Any) -> Span | None:
+    from orchestra.compat.functions import returned_by  # noqa: PLC0415 - as above
+
     returned = returned_by(getattr(entity, "function", None), made)
     return None if returned is None else returned.whole
 
