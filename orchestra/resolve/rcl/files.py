@@ -75,6 +75,8 @@ def _read(
 ) -> tuple[tuple[Section, ...], bool]:
     text, found = text.removeprefix("\ufeff"), Problems()
     reader, sound = Reader(file, found, included_from, template=template), 0
+    event: yaml.Event | None = None
+    further: list[Section] = []
     try:
         for event in changed(yaml.parse(text, Loader=LOADER)):
             sound = len(found)
@@ -94,7 +96,17 @@ def _read(
         reader.lost = True
     except Unreadable:
         reader.lost = True  # it has reported why it cannot go on
-    sections = reader.sections()
+
+        def again() -> Iterator[yaml.Event]:
+            return changed(yaml.parse(text, Loader=LOADER))
+
+        # Here, because rcl reads most files.
+        from orchestra.resolve.rcl.remaining import remaining_sections  # noqa: PLC0415
+
+        further += remaining_sections(
+            again, event, lambda: Reader(file, found, included_from, template=template)
+        )
+    sections = (*reader.sections(), *further)
     if any(problem.message == NESTED for problem in found):
         lines = BREAK.split(text)
         found.amend(lambda problem: as_text(problem, lines))
