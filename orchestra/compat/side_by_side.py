@@ -5,7 +5,7 @@ from __future__ import annotations
 import ast
 from typing import TYPE_CHECKING
 
-from orchestra.compat.syntax_trees import called_by, holds, node_span, tree_of
+from orchestra.compat.syntax_trees import called_by, node_span, tree_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -24,7 +24,7 @@ def is_declared_twice(file: str, name: str) -> bool:
     if tree is None:
         return False
     calls = [node for node in tree.nodes if _declares(node, name)]
-    return any(sum(any(holds(item, call) for call in calls) for item in block) > 1 for block in _blocks(tree))
+    return any(sum(item in calls for item in block) > 1 for block in _blocks(tree))
 
 
 def second_use(made: Place) -> Span | None:
@@ -52,14 +52,20 @@ def _declares(node: ast.AST, name: str) -> bool:
 
 
 def _blocks(tree: Tree) -> Iterator[Sequence[ast.AST]]:
-    """Yield lists of which all items are carried out, and the simple statements of blocks."""
+    """Yield the items of lists, and what the simple statements of blocks make or add."""
     for node in tree.nodes:
         if isinstance(node, ast.List):
             yield node.elts
         for part in ("body", "orelse"):
             block = getattr(node, part, None)
             if isinstance(block, list):
-                yield [item for item in block if isinstance(item, ast.Assign | ast.Expr | ast.Return)]
+                yield [made for item in block for made in _made(item)]
+
+
+def _made(statement: ast.AST) -> Iterator[ast.expr]:
+    match statement:
+        case ast.Expr(value=ast.Call(args=[made])) | ast.Assign(value=made):
+            yield made
 
 
 def _used(tree: Tree) -> Iterator[ast.expr]:
