@@ -137,8 +137,11 @@ class Connection(Protocol):
     def engine(self, argv: Sequence[str]) -> Engine:
         """Return an engine with a state of its own."""
 
-    def near_file(self, path: str) -> str | None:
-        """Return the path of a file that is there and was probably meant by one that is not."""
+    def missing_file(self, path: str, file: str) -> tuple[Severity, str, str | None]:
+        """Return what is to be said where code of a file goes no further without another, and the path meant."""
+
+    def missing_program(self, name: str) -> tuple[Severity, str, str | None]:
+        """Return what is to be said where code goes no further without a program, and the name that was meant."""
 
     def package_prefixes(self) -> dict[str, str]:
         """Return the install prefixes of all packages by name."""

@@ -24,7 +24,7 @@ _ENDING = frozenset({"SystemExit", "exit", "quit", "sys.exit"})
 
 
 def left_open(problem: Problem, unset: Callable[[str], str | None], weight: Severity) -> Problem:
-    """Return an error, or that an argument lacks a value, as one of the variable that has led to it.
+    """Return an error, or what an argument or this machine lacks, as one of the variable that has led to it.
 
     Sure is that where an expression that cannot use None, or a text with it, is made of `os.getenv` without a default,
     and where code itself stops for it. `unset` has what is to be told of a variable, None where it is set; it weighs
@@ -32,7 +32,7 @@ def left_open(problem: Problem, unset: Callable[[str], str | None], weight: Seve
     """
     span = problem.span
     lacks = problem.code is Code.MISSING_ARGUMENT
-    if not lacks and (problem.severity is not Severity.ERROR or problem.code not in _CODES):
+    if not lacks and (problem.severity is Severity.WARNING or problem.code not in _CODES):
         return problem
     if span is None or not is_python(span):
         return problem

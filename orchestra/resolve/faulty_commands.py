@@ -8,17 +8,16 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.description.text import Template
-from orchestra.errors import HERE, Code, Severity
+from orchestra.errors import Code, Severity
 from orchestra.location import displayed, is_python
-from orchestra.nearest import is_one_slip, is_slip, nearest
+from orchestra.nearest import is_slip
 from orchestra.resolve.context import Value
+from orchestra.resolve.lacking import missing_program
 from orchestra.resolve.misspelt import misspelt
 from orchestra.resolve.near_paths import near_names, near_path
 from orchestra.resolve.substitutions.blamed import stands_at
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from orchestra.location import Span
     from orchestra.resolve.context import Context
     from orchestra.resolve.substitutions.arguments import Evaluate
@@ -49,31 +48,17 @@ def look_at_files(written: Template, context: Context, evaluate: Evaluate) -> No
 
 
 def report_program(name: str, at: Span, context: Context) -> None:
-    """Report a program that is not on the PATH.
-
-    Where nothing will be started it may be on another machine: then it is told once, and no error, unless one slip
-    explains the name. A PATH has a thousand short names: `socat` is no slip for `cat`, nor `gzserver` for `serialver`.
-    """
-    known = set(_programs(context.environment.get("PATH", os.defpath)))
-    slip = nearest(name, (program for program in known if is_one_slip(name, program)))
-    weight = context.weights.package
-    if weight is Severity.ERROR or slip is not None:
-        told = f"there is no program {name!r} on the PATH"
-        meant = slip or nearest(name, known)
-        context.problems.error(Code.MISSING_EXECUTABLE, told, context.at(at), suggestion=meant)
+    """Report a program that is not on the PATH, once where that is no error."""
+    missing = missing_program(name, context.environment, context.weights.package)
+    if missing.severity is Severity.ERROR:
+        context.problems.error(
+            Code.MISSING_EXECUTABLE, missing.told, context.at(at), suggestion=missing.meant
+        )
         return
     if f"program {name}" not in context.elsewhere:
-        told = f"there is no program {name!r} {HERE}: what it would give is left open"
-        context.problems.weighed(weight, Code.MISSING_EXECUTABLE, told, context.at(at))
+        told = f"{missing.told}: what it would give is left open"
+        context.problems.weighed(missing.severity, Code.MISSING_EXECUTABLE, told, context.at(at))
     context.elsewhere.add(f"program {name}")
-
-
-def _programs(path: str) -> Iterator[str]:
-    for folder in path.split(os.pathsep):
-        try:
-            yield from os.listdir(folder or os.curdir)  # noqa: PTH208 - names are all that is wanted
-        except OSError:
-            continue  # a PATH may name folders that are not there
 
 
 def _without_blank(word: str, written: Template, command: Value, context: Context) -> bool:

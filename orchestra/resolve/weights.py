@@ -4,11 +4,13 @@
 |----------------------------------|--------|---------|---------------------------------------------------------|
 | a package, and what comes in one | error  | warning | a note; a warning where a workspace is sourced          |
 | an environment variable          | error  | error   | a note                                                  |
+| a file of the machine, for code  | error  | error   | a note                                                  |
 | a required argument              | error  | error   | a note; an error where arguments are given              |
 
 What comes in packages are their executables, components, Python modules and actions, programs of the PATH such as
-xacro, and interpreters. Where a workspace is sourced, what the files need should be in it. A name that is hardly
-anything but a slip for one that is here is an error in any case: that is decided where the names are known.
+xacro, and interpreters. A file of the machine is neither in the project of the launch file nor where packages are.
+Where a workspace is sourced, what the files need should be in it. A name that is hardly anything but a slip for one
+that is here is an error in any case: that is decided where the names are known.
 """
 
 from __future__ import annotations
@@ -21,6 +23,7 @@ from orchestra.errors import Code, Severity
 from orchestra.fields import field
 
 _SOURCED: Final = "AMENT_PREFIX_PATH"
+_OUTSIDE: Final = (Code.UNSET_ENVIRONMENT, Code.MISSING_FILE)  # which no workspace has
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,4 +56,4 @@ class Weights:
 
     def of(self, code: Code) -> Severity:
         """Return how much it weighs that code of a file, or an action of it, goes no further for such a lack."""
-        return self.variable if code is Code.UNSET_ENVIRONMENT else self.package
+        return self.variable if code in _OUTSIDE else self.package

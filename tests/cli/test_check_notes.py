@@ -141,3 +141,40 @@ def test_a_program_is_a_slip_only_for_one_that_a_single_slip_turns_into_it(
     found = orchestra(".", "--format", "json", PATH=f"{programs}:/usr/bin:/bin")
     (problem,) = json.loads(found.stdout)
     assert (problem["code"], problem["severity"], problem["suggestion"]) == ("ORC031", *told)
+
+
+@pytest.mark.parametrize(
+    ("code", "told"),
+    [
+        ("subprocess.run(['qq_xacro', 'a.xacro'])", ("note", "ORC031", None)),
+        ("open('/qq_etc/robot/setup.yaml')", ("note", "ORC029", None)),
+        ("os.listdir(os.path.expanduser('~/qq_maps'))", ("note", "ORC029", None)),
+        ("open(os.path.join(os.path.dirname(__file__), 'setup.yaml'))", ("error", "ORC029", None)),
+        (
+            "open(os.path.join(os.path.dirname(__file__), '..', 'qq', 'setup.yaml'))",
+            ("error", "ORC029", None),
+        ),
+        ("open('setup.yaml')", ("error", "ORC029", None)),
+        ("open('QQ/machine/steup.yaml')", ("error", "ORC029", "QQ/machine/setup.yaml")),
+        ("subprocess.run(['slepe', '1'])", ("error", "ORC031", "sleep")),
+    ],
+)
+@pytest.mark.parametrize("late", [False, True])
+def test_what_code_asks_the_machine_for_is_noted_and_what_it_asks_the_project_for_is_not(
+    orchestra: Command, folder: Path, tmp_path: Path, code: str, told: tuple[str, str, str | None], late: bool
+) -> None:
+    """What is nearly the name of something that is there is no lack of the machine."""
+    text = f"import os, subprocess\ndef asked(*_): {code}\n".replace("QQ", str(tmp_path))
+    made = "OpaqueFunction(function=asked)" if late else "LogInfo(msg=str(asked()))"
+    (tmp_path / "machine").mkdir()
+    (tmp_path / "machine/setup.yaml").touch()
+    (folder / "launch").mkdir()
+    launch = folder / "launch/a.launch.py"
+    launch.write_text(
+        text + _PYTHON.replace("import IncludeL", "import OpaqueFunction, IncludeL") % ("", made)
+    )
+    (problem,) = json.loads(orchestra(str(launch), "--format", "json").stdout)
+    severity, kind, meant = told
+    meant = meant and meant.replace("QQ", str(tmp_path))
+    assert (problem["severity"], problem["code"], problem["suggestion"]) == (severity, kind, meant)
+    assert problem["line"] == 2

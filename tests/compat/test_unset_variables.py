@@ -56,7 +56,7 @@ _OTHERWISE = {
     "another None": "model, other = os.getenv('QQ'), None\nname = other + '.yaml'",
     "a default that is used": "name = os.getenv('QQ', 'a') + None",
     "a mistake beside it": "model = os.getenv('QQ')\nreturn LaunchDescription([LogInfo(mgs='a')])",
-    "another file": "model = os.getenv('QQ')\nname = open('/tmp/none/a.yaml').read()",
+    "another file": "model = os.getenv('QQ')\nname = open('none/a.yaml').read()",
     "a refusal of something else": "model = os.getenv('QQ')\nif 1 + 1 == 2:\n    raise RuntimeError('no')",
     "a slip": "os.environ['ROBOT_NAME'] = 'a'\nname = os.environ['ROBOT_NAEM']",
 }

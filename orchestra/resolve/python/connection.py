@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 from functools import cached_property
-from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Problems
 from orchestra.resolve.inputs import Inputs
-from orchestra.resolve.near_paths import near_path
 from orchestra.resolve.python.environ import environment_now
 from orchestra.resolve.refusals import missing_package, unset_environment
 
@@ -97,9 +95,19 @@ class LoadingConnection:
         unset = unset_environment(name, environment_now(), self._inputs.weights.variable)
         return unset.severity, unset.told, unset.meant
 
-    def near_file(self, path: str) -> str | None:
-        """Return the path of a file that is there and was probably meant by one that is not."""
-        return near_path(Path.cwd() / path, path)
+    def missing_file(self, path: str, file: str) -> tuple[Severity, str, str | None]:
+        """Return what is to be said where code of a file goes no further without another, and the path meant."""
+        from orchestra.resolve.lacking import missing_file  # noqa: PLC0415 - only what is not here needs it
+
+        missing = missing_file(path, file, environment_now(), self._inputs.weights.variable)
+        return missing.severity, missing.told, missing.meant
+
+    def missing_program(self, name: str) -> tuple[Severity, str, str | None]:
+        """Return what is to be said where code goes no further without a program, and the name that was meant."""
+        from orchestra.resolve.lacking import missing_program  # noqa: PLC0415 - as above
+
+        missing = missing_program(name, environment_now(), self._inputs.weights.package)
+        return missing.severity, missing.told, missing.meant
 
     def package_prefix(self, package: str) -> str | None:
         """Return the install prefix of a package, None for an unknown one."""

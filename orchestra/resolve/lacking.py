@@ -1,0 +1,65 @@
+"""Programs and files that are not here, and may be on another machine: what is to be said of them."""
+
+from __future__ import annotations
+
+import os
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from orchestra.errors import HERE, Severity
+from orchestra.location import displayed
+from orchestra.nearest import is_one_slip, nearest
+from orchestra.resolve.near_paths import near_names, rewritten
+from orchestra.resolve.refusals import Missing
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+
+def missing_program(name: str, environment: Mapping[str, str], weight: Severity) -> Missing:
+    """Return what is to be said of a program that is not on the PATH: of such a weight unless one slip explains it.
+
+    A PATH has a thousand short names: `socat` is no slip for `cat`, nor `gzserver` for `serialver`.
+    """
+    known = set(_programs(environment.get("PATH", os.defpath)))
+    slip = nearest(name, (program for program in known if is_one_slip(name, program)))
+    if weight is Severity.ERROR or slip is not None:
+        return Missing(
+            Severity.ERROR, f"there is no program {name!r} on the PATH", slip or nearest(name, known)
+        )
+    return Missing(weight, f"there is no program {name!r} {HERE}", None)
+
+
+def _programs(path: str) -> Iterator[str]:
+    for folder in path.split(os.pathsep):
+        try:
+            yield from os.listdir(folder or os.curdir)  # noqa: PTH208 - names are all that is wanted
+        except OSError:
+            continue  # a PATH may name folders that are not there
+
+
+def missing_file(path: str, file: str, environment: Mapping[str, str], weight: Severity) -> Missing:
+    """Return what is to be said of a file that code in another one asks for.
+
+    One that is neither in the project of that file nor where packages are is of the machine (`/etc/robot/setup.yaml`):
+    it is of such a weight, unless one slip in each of its names explains it.
+    """
+    changes = near_names(Path.cwd() / path)
+    is_sure = bool(changes) and all(is_one_slip(name, near) for name, near in changes)
+    if weight is Severity.ERROR or is_sure or not _is_of_the_machine(path, file, environment):
+        told = f"there is no file {displayed(path)}, which the code asks for"
+        return Missing(Severity.ERROR, told, rewritten(path, changes) if changes else None)
+    return Missing(weight, f"there is no file {displayed(path)} {HERE}", None)
+
+
+def _is_of_the_machine(path: str, file: str, environment: Mapping[str, str]) -> bool:
+    """Return whether a path leads out of the folder of a file, the one around it, and those where packages are."""
+    prefixes = environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
+    folder = os.path.dirname(os.path.abspath(file))  # noqa: PTH100, PTH120 - names are all that is wanted
+    around = os.path.dirname(folder)  # noqa: PTH120 - as above
+    ours = [folder, *(prefix for prefix in (around, sys.prefix, *prefixes) if prefix not in ("", "/"))]
+    whole = Path(os.path.normpath(path))
+    return Path(path).is_absolute() and not any(
+        place.is_relative_to(where) for where in ours for place in (Path(path), whole)
+    )
