@@ -187,7 +187,7 @@ def _point_into_code(problems: Problems, inputs: Inputs) -> None:
 def _warn_of_remaining(path: str, isolation: Isolation, problems: Problems) -> None:
     """Tell what code of the launch files has begun that is no part of the plan."""
     if isolation.remaining is not None:
-        for told, span in isolation.remaining.told(point(displayed(path, real))):
+        for told, span in isolation.remaining.told(lambda: point(displayed(path, real))):
             problems.warning(Code.USER_CODE, told, span)
 
 

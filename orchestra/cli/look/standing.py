@@ -23,6 +23,7 @@ class Standing:
 
     def __init__(self) -> None:
         self._entered: tuple[AbstractContextManager[Isolation], Isolation] | None = None
+        self._environment: Mapping[str, str] | None = None
 
     @contextmanager
     def isolated(
@@ -33,8 +34,10 @@ class Standing:
             entering = isolated(environment, argv, launching=launching)
             self._entered = entering, entering.__enter__()
         else:
-            put_environment(environment)
+            if environment is not self._environment:
+                put_environment(environment)
             sys.argv = Arguments(argv)
+        self._environment = environment  # which only code changes
         context, isolation = self._entered
         try:
             yield isolation

@@ -34,7 +34,7 @@ class Isolation:
         self.remaining: Remaining | None = None
         self._serving = serving
         self._launching = launching
-        self._restoring = ExitStack()
+        self._restoring, self._lasting = ExitStack(), ExitStack()
         self._before: tuple[Libraries, Interpreter] | None = None
         self._folder = os.getcwd()  # noqa: PTH109 - pathlib is slow
         self._zone = time.tzname
@@ -47,7 +47,7 @@ class Isolation:
         from orchestra.compat.place import forget  # noqa: PLC0415
         from orchestra.resolve.python.interpreter import Interpreter  # noqa: PLC0415
         from orchestra.resolve.python.libraries import Libraries  # noqa: PLC0415
-        from orchestra.resolve.python.remaining import nothing_left  # noqa: PLC0415
+        from orchestra.resolve.python.remaining import nothing_left, orphans_kept  # noqa: PLC0415
         from orchestra.resolve.python.temporary import temporary_files  # noqa: PLC0415
 
         forget()
@@ -55,6 +55,7 @@ class Isolation:
         with observer().aside():
             if self._before is None:
                 self._before = Libraries(), Interpreter()
+                self._lasting.enter_context(orphans_kept())
             for state in self._before:
                 enter(state.kept())
             enter(temporary_files(self.files))
@@ -78,7 +79,8 @@ class Isolation:
 
     def close(self) -> None:
         """Make this process what it was."""
-        self._restoring.close()
+        with self._lasting:
+            self._restoring.close()
 
 
 @contextmanager

@@ -41,12 +41,12 @@ class Remaining:
         self._threads = set(_threads())
         self._children = set(_children()) if len(self._threads) <= 1 else None
 
-    def told(self, file: Span) -> Iterator[tuple[str, Span]]:
-        """Yield what is to be said of what is left; `file` stands for what has no place of its own."""
+    def told(self, file: Callable[[], Span]) -> Iterator[tuple[str, Span]]:
+        """Yield what is to be said of what is left; `file` gives the place of what has none of its own."""
         for words in self._commands():
-            yield f"code has started '{words}', which is no part of the launch: it is ended now", file
+            yield f"code has started '{words}', which is no part of the launch: it is ended now", file()
         for thread, span in self._running():
-            yield f"the thread '{thread.name}' still runs: nothing waits for it", span or file
+            yield f"the thread '{thread.name}' still runs: nothing waits for it", span or file()
         for function, span in [] if self._due else self.functions:
             name = getattr(function, "__qualname__", repr(function))
             yield f"{name} is not called at the end of the launch, which this process does not see", span
@@ -90,7 +90,6 @@ class Remaining:
 def nothing_left(*, launching: bool) -> Iterator[Remaining]:
     """Let code run for a while. Functions for the end are called then, unless more than a plan is made of it."""
     found = Remaining(due=not launching)
-    before = set_subreaper(1)
     try:
         with _collecting(found.functions):
             yield found
@@ -102,7 +101,16 @@ def nothing_left(*, launching: bool) -> Iterator[Remaining]:
                 sys.excepthook(*sys.exc_info())
         with observer().aside():
             found.end()
-            set_subreaper(before)
+
+
+@contextmanager
+def orphans_kept() -> Iterator[None]:
+    """Let programs whose parent has ended be children of this process for a while: some have parents that end early."""
+    before = set_subreaper(1)
+    try:
+        yield
+    finally:
+        set_subreaper(before)
 
 
 @contextmanager
