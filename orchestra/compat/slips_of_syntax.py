@@ -7,9 +7,9 @@ further with the word as it was meant.
 from __future__ import annotations
 
 import re
-from itertools import chain, islice
+from itertools import islice
 from keyword import kwlist
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 from orchestra.nearest import is_slip
 
@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator, Sequence
 
 _Slip = tuple[int, int, str]  # first and last column from 0, what was meant
+_Maker: TypeAlias = "Callable[[str, int], Iterator[_Slip]]"
 _WORD: Final = re.compile(r"[A-Za-z_]\w*")
 _HALF_QUOTED: Final = re.compile(
     r"""(?<![\w'"./-])(?:(["'])([\w./-]+)(?=[,)\]}:]|$)|([\w./-]+)(["'])(?=[,)\]}:]))"""
@@ -24,6 +25,12 @@ _HALF_QUOTED: Final = re.compile(
 _TWO_QUOTES: Final = re.compile(r"""(?<![\w'"./-])(?:'([\w./-]+)"|"([\w./-]+)')(?=[,)\]}:])""")
 _PRINT: Final = re.compile(r"\bprint\s+(?![(=])(.+?)[ \t]*$")
 _SIGN: Final = re.compile(r"(?<![=!<>:+*/-])[=:](?!=)")
+_QUOTED_NAME: Final = re.compile(r"""(["'])([A-Za-z_]\w*)\1\s*[:=](?!=)\s*""")
+_ROUND: Final = re.compile(
+    r"""([\u2018\u2019\u201a\u201c\u201d\u201e])([^\u2018\u2019\u201c\u201d'"]*)[\u2018\u2019\u201c\u201d'"]"""
+)
+_KEY: Final = re.compile(r"""((["'])[\w./-]+\2)(?=\s+[\w'"\[{(-])""")
+_VALUE: Final = re.compile(r"""([\w.'"\])}-]+)(?=\s+['"])""")
 _MOST: Final = 12  # words that are tried
 _SHORT: Final = 2  # letters that make any two words alike
 
@@ -33,24 +40,23 @@ def slip_in(error: SyntaxError, lines: Sequence[str]) -> _Slip | None:
     line, message = error.lineno or 1, error.msg or ""
     if line > len(lines):
         return None
-    ways: Iterator[_Slip] = iter(())
-    if "unterminated string" in message:
-        ways = _half_quoted(lines[line - 1])
-    elif "call to 'print'" in message:
-        ways = _printing(lines[line - 1])
-    elif message.startswith("cannot assign to"):
-        ways = _other_signs(lines[line - 1])
-    elif message.startswith(("invalid syntax", "expected")):
-        ways = chain(_misspelt(lines[line - 1]), _other_signs(lines[line - 1]))
+    text = lines[line - 1]
+    end = (error.offset or 1) - 1
+    ways = (
+        slip
+        for words, makers in _WAYS.items()
+        if words in message
+        for make in makers
+        for slip in make(text, end)
+    )
     for begin, end, meant in islice(ways, _MOST):
-        text = lines[line - 1]
         whole = [*lines[: line - 1], f"{text[:begin]}{meant}{text[end:]}", *lines[line:]]
         if _reads_beyond("".join(whole), line):
             return begin, end, meant
     return None
 
 
-def _misspelt(text: str) -> Iterator[_Slip]:
+def _misspelt(text: str, _: int) -> Iterator[_Slip]:
     """Yield the words of a line that may stand for a keyword."""
     for found in _WORD.finditer(text):
         word = found[0]
@@ -59,16 +65,42 @@ def _misspelt(text: str) -> Iterator[_Slip]:
             yield from ((*found.span(), known) for known in sorted(meant, key=_unlike(word)))
 
 
-def _printing(text: str) -> Iterator[_Slip]:
+def _printing(text: str, _: int) -> Iterator[_Slip]:
     """Yield a statement of Python 2 as a call."""
     for found in _PRINT.finditer(text):
         yield (*found.span(), f"print({found[1]})")
 
 
-def _other_signs(text: str) -> Iterator[_Slip]:
+def _other_signs(text: str, _: int) -> Iterator[_Slip]:
     """Yield the signs of a line that may stand for others: a dictionary has `:`, a call has `=`."""
     for found in _SIGN.finditer(text):
         yield (*found.span(), ":" if found[0] == "=" else "=")
+
+
+def _quoted_names(text: str, _: int) -> Iterator[_Slip]:
+    """Yield the names of arguments that stand in quotes, as the names in a dictionary do."""
+    for found in _QUOTED_NAME.finditer(text):
+        yield (*found.span(), f"{found[2]}=")
+
+
+def _round_quotes(text: str, _: int) -> Iterator[_Slip]:
+    """Yield texts with the quotes of printed text around them."""
+    for found in _ROUND.finditer(text):
+        quote = '"' if found[1] in "\u201c\u201d\u201e" else "'"
+        yield (*found.span(), f"{quote}{found[2]}{quote}")
+
+
+def _gaps(text: str, _: int) -> Iterator[_Slip]:
+    """Yield what may lack the colon of a dictionary, or the comma between two of its entries."""
+    for found in _KEY.finditer(text):
+        yield (*found.span(), f"{found[1]}:")
+    for found in _VALUE.finditer(text):
+        yield (*found.span(), f"{found[1]},")
+
+
+def _colon(text: str, end: int) -> Iterator[_Slip]:  # noqa: ARG001 - as the others
+    """Yield the colon that is missing."""
+    yield end, end, ":"
 
 
 def _unlike(word: str) -> Callable[[str], tuple[bool, int]]:
@@ -76,7 +108,7 @@ def _unlike(word: str) -> Callable[[str], tuple[bool, int]]:
     return lambda known: (sorted(known) != sorted(word), abs(len(known) - len(word)))
 
 
-def _half_quoted(text: str) -> Iterator[_Slip]:
+def _half_quoted(text: str, _: int) -> Iterator[_Slip]:
     """Yield the words of a line that have a quote on one side only, or two different ones."""
     for found in _HALF_QUOTED.finditer(text):
         quote, word = (found[1], found[2]) if found[1] else (found[4], found[3])
@@ -99,3 +131,17 @@ def _reads_beyond(source: str, line: int) -> bool:
     except ValueError:  # a character that no text has
         return False
     return True
+
+
+# What may be meant, by what CPython says.
+_WAYS: Final[dict[str, tuple[_Maker, ...]]] = {
+    "unterminated string": (_half_quoted,),
+    "call to 'print'": (_printing,),
+    "expected ':'": (_misspelt, _other_signs, _colon),
+    "invalid character": (_round_quotes,),
+    "cannot assign to": (_other_signs,),
+    "expression cannot contain assignment": (_quoted_names,),
+    "forgot a comma": (_gaps,),
+    "invalid syntax": (_misspelt, _other_signs, _quoted_names),
+    "expected": (_misspelt, _other_signs),
+}

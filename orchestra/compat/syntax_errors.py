@@ -59,20 +59,30 @@ def _without_bracket(
     error: SyntaxError, lines: Sequence[str]
 ) -> tuple[Span, str | None, tuple[str, ...]] | None:
     """Return where a bracket lacks the one that closes it, where that is all that is wrong."""
-    if not str(error.msg).startswith(_OF_BRACKETS):
-        return None
-    # Here, because only mistakes need it.
+    # Here, because only mistakes need them.
     from orchestra.compat.missing_brackets import bracket_missing  # noqa: PLC0415
+    from orchestra.compat.unnamed_arguments import unnamed_argument  # noqa: PLC0415
 
     source = "".join(lines)
+    if "positional argument follows" in str(error.msg):
+        offset = sum(map(len, lines[: (error.lineno or 1) - 1])) + max((error.offset or 1) - 1, 0)
+        argument = unnamed_argument(source, offset)
+        if argument is not None:
+            return _span(error, source, *argument), None, ()
+    if not str(error.msg).startswith(_OF_BRACKETS):
+        return None
     found = bracket_missing(source)
     if found is None:
         return None
     begin, end, meant, notes = found
     if source[begin] in "([{":
         error.msg = f"'{source[begin]}' was never closed"
+    return _span(error, source, begin, end), meant, notes
+
+
+def _span(error: SyntaxError, source: str, begin: int, end: int) -> Span:
     places = [(source.count("\n", 0, at) + 1, at - source.rfind("\n", 0, at)) for at in (begin, end)]
-    return Span(shown(str(error.filename)), *places[0], *places[1]), meant, notes
+    return Span(shown(str(error.filename)), *places[0], *places[1])
 
 
 def _in_code_points(error: SyntaxError, file: str, given: tuple[int, int, int, int]) -> tuple[int, int]:
