@@ -64,6 +64,12 @@ VISITORS: dict[str, str] = {
 }
 
 
+# Actions that others never stand in, unless they are of Python: nothing is asked there about their conditions.
+_LEAVES = frozenset(
+    {"Executable", "Let", "LifecycleNode", "Log", "Node", "SetEnv", "SetParameter", "SetRemap"}
+)
+
+
 class Visitor(Protocol):
     """The behaviour of one action."""
 
@@ -87,7 +93,7 @@ def visit(actions: Sequence[Action], run: Resolution) -> None:
         if conditional:
             run.found.visited.add(id(action))
         outer = run.held
-        if conditional:
+        if conditional and (action.origin is not None or type(action).__name__ not in _LEAVES):
             run.held = (*outer, *_held(action, run))
         if action.origin is None:
             _visitor(type(action).__name__).visit(action, run)

@@ -32,10 +32,11 @@ TYPES: Final = (
 
 _INTEGERS = range(-(2**63), 2**63)
 _WORDS: Final[dict[type, str]] = {bool: "boolean", int: "integer", float: "float", str: "text"}
-# Texts that YAML 1.1, YAML 1.2 and rcl read alike, and which need no parser: numbers that fit, and words that mean
-# nothing but themselves.
+# Texts that YAML 1.1, YAML 1.2 and rcl read alike, and which need no parser: numbers that fit, true and false, and
+# words that mean nothing but themselves.
 _NUMBER: Final = pattern(r"-?(?:0|[1-9][0-9]{0,17})(\.[0-9]{1,18})?")
 _WORD: Final = pattern(r"[A-Za-z_/][A-Za-z0-9_/.-]{0,500}")
+_BOOLEANS: Final = {"true": True, "false": False}
 _LIST: Final = pattern(r"\[ *([A-Za-z0-9_/.-]+(?:, *[A-Za-z0-9_/.-]+)*) *\]")
 _MEANT: Final = frozenset(
     ["y", "yes", "n", "no", "on", "off", "true", "false", "null", "nan", "inf", "infinity", *rcl.SLIPS]
@@ -137,6 +138,8 @@ def read_alike(text: str) -> Scalar | None:
     number = _NUMBER.fullmatch(text)
     if number is not None:
         return int(text) if number[1] is None else float(text)
+    if text in _BOOLEANS:
+        return _BOOLEANS[text]
     return text if _WORD.fullmatch(text) and text.lower() not in _MEANT else None
 
 

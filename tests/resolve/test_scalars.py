@@ -266,6 +266,13 @@ def test_what_needs_no_parser_is_what_the_parsers_say(text: str) -> None:
 _ITEMS = st.text("aeflnorstuyNO_/.-0123456789", max_size=5) | st.floats().map(str) | st.integers().map(str)
 
 
+@pytest.mark.parametrize("text", ["true", "false"])
+def test_true_and_false_need_no_parser(text: str) -> None:
+    assert read_alike(text) is (text == "true")
+    assert _same(_parsed(text, by_pyyaml), read_alike(text))
+    assert _same(_parsed(text, by_core), read_alike(text))
+
+
 @given(st.lists(_ITEMS, max_size=4), st.sampled_from((",", ", ", ",  ", " ,")), st.sampled_from(("", " ")))
 def test_lists_that_need_no_parser_are_what_the_parsers_say(
     items: list[str], between: str, around: str
@@ -279,7 +286,13 @@ def test_lists_that_need_no_parser_are_what_the_parsers_say(
 
 @pytest.mark.parametrize(
     ("text", "value"),
-    [("[1.0, 2.0]", (1.0, 2.0)), ("[a,b]", ("a", "b")), ("[ 1 ]", (1,)), ("[/a/b, c.d]", ("/a/b", "c.d"))],
+    [
+        ("[true,false]", (True, False)),
+        ("[1.0, 2.0]", (1.0, 2.0)),
+        ("[a,b]", ("a", "b")),
+        ("[ 1 ]", (1,)),
+        ("[/a/b, c.d]", ("/a/b", "c.d")),
+    ],
 )
 def test_plain_lists_need_no_parser(text: str, value: tuple[object, ...]) -> None:
     assert _list_alike(text) == value
