@@ -6,7 +6,15 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from orchestra.description.parts import VALUE_TYPES, Override
-from orchestra.description.text import Constant, MatchedTemplate, Template, Words, span_of, whole_span_of
+from orchestra.description.text import (
+    Constant,
+    Items,
+    MatchedTemplate,
+    Template,
+    Words,
+    span_of,
+    whole_span_of,
+)
 from orchestra.errors import Code
 from orchestra.location import is_python, point
 from orchestra.nearest import nearest
@@ -37,7 +45,7 @@ if TYPE_CHECKING:
     from orchestra.description.actions.set_parameter import SetParameter
     from orchestra.description.fields import Value as Typed
     from orchestra.description.parts import Param
-    from orchestra.location import Location
+    from orchestra.location import Location, Span
     from orchestra.resolve.resolution import Resolution
     from orchestra.values import ParameterValue
 
@@ -155,7 +163,7 @@ def _inline(
     if isinstance(type_word, Poison):
         return [None]
     written = param.value
-    at = run.place(written) if isinstance(written, Template) else run.at(span_of(written) or param.span)
+    at = run.place(written) if isinstance(written, Template) else run.at(_place_of(written) or param.span)
     plain = _read_at_once(param, quotes=quotes)
     if plain is not None:
         return [new_parameter(name, plain, at, everywhere, keys, (), ())]
@@ -168,6 +176,13 @@ def _inline(
     items = written if isinstance(written, tuple) else ()
     places = tuple(run.at(item.span) for item in items)
     return [new_parameter(name, value, at, everywhere, keys, places, tuple(reads))]
+
+
+def _place_of(value: Constant | tuple[Typed, ...]) -> Span | None:
+    """Return where a value stands: all of a list that is on one line, else its first item."""
+    if isinstance(value, Items) and value.span.line == value.span.end_line:
+        return value.span
+    return span_of(value)
 
 
 def _warn_of_name(name: str, written: Template, run: Resolution) -> None:

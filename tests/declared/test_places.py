@@ -122,18 +122,26 @@ def test_what_the_command_line_gives_is_checked(tmp_path: Path) -> None:
     assert (problem.code, problem.suggestion, problem.notes) == ("ORC091", None, ("did you mean 'rate'?",))
 
 
-def test_a_list_that_stands_in_items_is_suggested_in_a_note(tmp_path: Path) -> None:
+@pytest.mark.parametrize("line", ["{name: gains, value: [1, 2]}", "{name: gains, value: [ 1,2 ] }"])
+def test_a_list_on_one_line_is_told_as_a_whole(tmp_path: Path, line: str) -> None:
     schema = "driver: {gains: {type: double_array}}"
-    files = {
-        "a.launch.yaml": _YAML.replace("{PARAM}", "{name: gains, value: [1, 2]}"),
-        "driver.gpl.yaml": schema,
-    }
-    (problem,) = checked(tmp_path, files)
-    assert (problem.code, problem.suggestion, problem.notes) == (
-        "ORC092",
-        None,
-        ("did you mean '[1.0, 2.0]'?",),
+    (problem,) = checked(
+        tmp_path, {"a.launch.yaml": _YAML.replace("{PARAM}", line), "driver.gpl.yaml": schema}
     )
+    assert (problem.code, problem.suggestion, problem.notes) == ("ORC092", "[1.0, 2.0]", ())
+    assert marked(problem, tmp_path) == line.partition("value: ")[2].rstrip("} ")
+
+
+def test_a_list_that_stands_in_items_is_suggested_in_a_note(tmp_path: Path) -> None:
+    line, schema = (
+        "name: gains\n          value:\n            - 1\n            - 2",
+        "driver: {gains: {type: double_array}}",
+    )
+    (problem,) = checked(
+        tmp_path, {"a.launch.yaml": _YAML.replace("{PARAM}", line), "driver.gpl.yaml": schema}
+    )
+    told = (problem.suggestion, marked(problem, tmp_path), problem.notes)
+    assert told == (None, "1", ("did you mean '[1.0, 2.0]'?",))
 
 
 def test_a_value_that_does_not_count_is_not_told(tmp_path: Path) -> None:
