@@ -18,6 +18,7 @@ from orchestra.description.entity import Conditional
 from orchestra.description.parts import Pair, Param
 from orchestra.description.text import Call
 from orchestra.errors import Code, Problems, Severity
+from orchestra.fields import replace
 from orchestra.load.files import PYTHON
 from orchestra.location import displayed
 from orchestra.nearest import is_slip, nearest
@@ -35,6 +36,7 @@ from orchestra.resolve.near_paths import near_path
 from orchestra.resolve.paths import beside, settled_path
 from orchestra.resolve.python_programs import is_slip_of, module_fault
 from orchestra.resolve.refusals import missing_package
+from orchestra.resolve.rehearsal import rehearsed
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
@@ -48,6 +50,7 @@ if TYPE_CHECKING:
 
 # A condition that asks whether a file is there.
 _ASKS: Final = re.compile(r"exists|is_?file|is_?dir", re.IGNORECASE)
+_LEFT_OUT: Final = "a condition leaves this out here"
 _FINDS: Final = ("find-pkg-share", "find-pkg-prefix", "exec-in-pkg")
 
 
@@ -60,12 +63,14 @@ def doubts(action: Conditional, run: Resolution, *, known: bool = True) -> Probl
     look = _Look(action, run, found, known=known)
     for entity in entities_in(action):
         look.at_packages(entity)
+        look.at_variables(entity)
         if isinstance(entity, Node):
             look.at_program(entity)
         elif isinstance(entity, Include):
             look.at_include(entity)
         elif isinstance(entity, Param) and entity.from_ is not None:
             look.at_file(entity.from_, "parameter file")
+    look.aside(action)
     return found
 
 
@@ -73,6 +78,7 @@ class _Look:
     """A look at an action that is left out, with the variables that do not depend on why it is."""
 
     def __init__(self, action: Conditional, run: Resolution, found: Problems, *, known: bool) -> None:
+        self.action = action
         self.run = run
         self.found = found
         self.known = known
@@ -80,12 +86,38 @@ class _Look:
         self.variables = _independent(action, conditions, run.scope.variables)
         self.asked = any(_ASKS.search(item.raw) for item in conditions)
 
+    def aside(self, action: Conditional) -> None:
+        """Report what is wrong with names and values that nothing else can make right."""
+        for problem in rehearsed(action, self.run, self.variables):
+            if self.known:
+                notes = (*problem.notes, _LEFT_OUT)
+                problem = replace(problem, severity=Severity.WARNING, notes=notes)  # noqa: PLW2901 - the same one
+            self.found.report(problem)
+
     def at_packages(self, entity: Entity) -> None:
         """Report packages whose names are slips for others, in whatever names them."""
         named = [part for template in templates_of(entity) for part in performed_in(template)]
         for part in named:
             if isinstance(part, Call) and part.name in _FINDS and part.arguments:
                 self._package(part.arguments[-1 if part.name == "exec-in-pkg" else 0])
+
+    def at_variables(self, entity: Entity) -> None:
+        """Report names of variables that are slips for others, and that nothing which is left out sets."""
+        for part in (part for template in templates_of(entity) for part in performed_in(template)):
+            if not isinstance(part, Call) or part.name != "var" or len(part.arguments) != 1:
+                continue
+            name, known = part.arguments[0].constant, self.run.scope.variables
+            near = nearest(name, known) if name is not None and name not in known else None
+            if name is None or near is None or not is_slip(name, near) or name in self._set():
+                continue
+            told = f"no launch argument or variable '{name}' is set here"
+            self._tell(Code.UNDEFINED_VARIABLE, told, part.arguments[0], near)
+
+    def _set(self) -> set[str | None]:
+        """Return the names that something sets which is left out, and those that something faulty would have set."""
+        hidden = (self.action, *(part.action for part in self.run.scope.ledger.hidden))
+        named = [item for item in entities_in(hidden) if isinstance(item, Arg | Let | Pair)]
+        return {item.name.constant for item in named} | self.run.found.lost
 
     def at_program(self, node: Node) -> None:
         """Report what a node starts: the package and the executable, the module or the script."""
@@ -169,7 +201,7 @@ class _Look:
     ) -> None:
         at: Location = self.run.at(written.span)
         if self.known or (code is Code.UNREAD_ARGUMENT and meant is None):
-            notes = (*notes, "a condition leaves this out here")
+            notes = (*notes, _LEFT_OUT)
             self.found.warning(code, told, at, suggestion=meant, notes=notes)
         else:
             self.found.error(code, told, at, suggestion=meant, notes=notes)

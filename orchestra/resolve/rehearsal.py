@@ -1,0 +1,80 @@
+"""What a condition leaves out, carried out aside: what is wrong with it whatever the condition says.
+
+Nothing is run for it, and what it would have set is seen by nobody. Of what it comes upon only what no variable, file
+or program elsewhere could make right is told: names that are none, values that no parameter or key can have.
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from orchestra.description.actions.executable import Executable
+from orchestra.description.actions.node import Node
+from orchestra.description.actions.set_remap import SetRemap
+from orchestra.errors import Code, Problems
+from orchestra.fields import replace
+from orchestra.resolve.actions import executable, node, set_remap
+from orchestra.resolve.context import CommandResult
+from orchestra.resolve.found import Found
+from orchestra.resolve.ledger import Ledger
+from orchestra.resolve.mentions import entities_in
+from orchestra.resolve.resolution import Resolution
+from orchestra.resolve.scope import Scope
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping, Sequence
+
+    from orchestra.description.entity import Action, Conditional
+    from orchestra.errors import Problem
+    from orchestra.resolve.context import Variable
+
+_TOLD: Final = frozenset(
+    {
+        Code.BAD_NAME,
+        Code.BAD_VALUE,
+        Code.DUPLICATE_PARAMETER,
+        Code.PARAMETER_SYNTAX,
+        Code.PARAMETER_TYPE,
+        Code.SUBSTITUTION_SYNTAX,
+        Code.SURPRISING_SCALAR,
+    }
+)
+
+
+def rehearsed(action: Conditional, run: Resolution, variables: Mapping[str, Variable]) -> Iterator[Problem]:
+    """Yield what is wrong with an action and those in it; `variables` do not depend on why it is left out."""
+    found = Problems()
+    aside = _aside(run, variables, found)
+    for entity in entities_in(action):
+        if type(entity) is Node:
+            node.visit(entity, aside)
+        elif type(entity) is Executable:
+            executable.visit(entity, aside)
+        elif type(entity) is SetRemap:
+            set_remap.visit(entity, aside)
+    yield from (problem for problem in found if problem.code in _TOLD)
+
+
+def _aside(run: Resolution, variables: Mapping[str, Variable], found: Problems) -> Resolution:
+    """Return a resolution at the same place of which nothing is left."""
+    scope = Scope(found, Ledger(), dict(run.scope.environment), dict(variables))
+    context = replace(
+        run.context,
+        problems=found,
+        variables=scope,
+        environment=scope.environment,
+        run_command=_run_nothing,
+        anonymous=dict(run.context.anonymous),
+        elsewhere=set(),
+        parameters={},
+    )
+    return Resolution(run.inputs, found, run.load, _visit_nothing, context, scope, Found(), run.frames)
+
+
+def _run_nothing(command: tuple[str, ...], environment: Mapping[str, str]) -> CommandResult:
+    del command, environment
+    return CommandResult(0, "", "", "nothing is run here")
+
+
+def _visit_nothing(actions: Sequence[Action], run: Resolution) -> None:
+    del actions, run
