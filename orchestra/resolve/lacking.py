@@ -14,7 +14,7 @@ from orchestra.resolve.near_paths import near_names, rewritten
 from orchestra.resolve.refusals import Missing
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Iterator, Mapping, Sequence
 
 
 def missing_program(name: str, environment: Mapping[str, str], weight: Severity) -> Missing:
@@ -46,14 +46,18 @@ def missing_file(path: str, file: str, environment: Mapping[str, str], weight: S
     it is of such a weight, unless one slip in each of its names explains it.
     """
     changes = near_names(Path.cwd() / path)
-    is_sure = bool(changes) and all(is_one_slip(name, near) for name, near in changes)
-    if weight is Severity.ERROR or is_sure or not _is_of_the_machine(path, file, environment):
+    if weight is Severity.ERROR or is_certain(changes) or not is_of_the_machine(path, file, environment):
         told = f"there is no file {displayed(path)}, which the code asks for"
         return Missing(Severity.ERROR, told, rewritten(path, changes) if changes else None)
     return Missing(weight, f"there is no file {displayed(path)} {HERE}", None)
 
 
-def _is_of_the_machine(path: str, file: str, environment: Mapping[str, str]) -> bool:
+def is_certain(changes: Sequence[tuple[str, str]]) -> bool:
+    """Return whether one slip in each of the names of a path explains it, given the names that were meant."""
+    return bool(changes) and all(is_one_slip(name, near) for name, near in changes)
+
+
+def is_of_the_machine(path: str, file: str, environment: Mapping[str, str]) -> bool:
     """Return whether a path leads out of the folder of a file, the one around it, and those where packages are."""
     prefixes = environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
     folder = os.path.dirname(os.path.abspath(file))  # noqa: PTH100, PTH120 - names are all that is wanted

@@ -6,8 +6,9 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from orchestra.errors import Code
+from orchestra.errors import HERE, Code, Severity
 from orchestra.location import displayed, is_file, is_python
+from orchestra.resolve.lacking import is_certain, is_of_the_machine
 from orchestra.resolve.near_paths import exists, near_names, near_path, related_names, rewritten
 from orchestra.resolve.refusals import refuse_value
 
@@ -77,15 +78,32 @@ def settled_path(value: Value, run: Resolution) -> Path | None:
 def file_below(
     folder: str, value: Value, what: str, run: Resolution, written: str | None = None
 ) -> str | None:
-    """Return the absolute path of a file given relative to a folder, or to the working directory."""
+    """Return the absolute path of a file given relative to a folder, or to the working directory.
+
+    None where there is none, which has been reported; a file of the machine may be on another one.
+    """
     found = _found(folder, value.text)
     if found is None:
         path = Path(folder) / _expanded(value.text)
         folder_there = exists(path)
         message = f"there is no {what} {displayed(str(path))}" + (": it is a folder" if folder_there else "")
         changes = () if folder_there else near_names(path) or related_names(path)
+        if _may_be_elsewhere(value, folder_there=folder_there, changes=changes, run=run):
+            told = f"{message} {HERE}: what it would give is left open"
+            run.problems.weighed(run.inputs.weights.variable, Code.MISSING_FILE, told, value.location)
+            return None
         _refuse_path(value, value.text if written is None else written, changes, message, run)
     return found
+
+
+def _may_be_elsewhere(
+    value: Value, *, folder_there: bool, changes: Sequence[tuple[str, str]], run: Resolution
+) -> bool:
+    """Return whether another machine may have a file, which is only looked for in a check."""
+    if folder_there or run.inputs.weights.variable is Severity.ERROR:
+        return False
+    path, file = str(_expanded(value.text)), run.context.file or ""
+    return not is_certain(changes) and is_of_the_machine(path, file, run.scope.environment)
 
 
 def _refuse_path(

@@ -4,7 +4,7 @@
 |----------------------------------|--------|---------|---------------------------------------------------------|
 | a package, and what comes in one | error  | warning | a note; a warning where a workspace is sourced          |
 | an environment variable          | error  | error   | a note                                                  |
-| a file of the machine, for code  | error  | error   | a note                                                  |
+| a file of the machine            | error  | error   | a note                                                  |
 | a required argument              | error  | error   | a note; an error where arguments are given              |
 
 What comes in packages are their executables, components, Python modules and actions, programs of the PATH such as

@@ -178,3 +178,27 @@ def test_what_code_asks_the_machine_for_is_noted_and_what_it_asks_the_project_fo
     meant = meant and meant.replace("QQ", str(tmp_path))
     assert (problem["severity"], problem["code"], problem["suggestion"]) == (severity, kind, meant)
     assert problem["line"] == 2
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        ("a.launch.yaml", "launch: [include: {file: QQ/steup.yaml}]\n"),
+        ("a.launch.xml", '<launch><include file="QQ/steup.yaml"/></launch>\n'),
+        ("a.launch.py", _PYTHON % ("", "IncludeLaunchDescription('QQ/steup.yaml')")),
+    ],
+)
+def test_a_launch_file_of_the_machine_is_noted_until_it_is_nearly_one_that_is_there(
+    orchestra: Command, orchestra_here: Command, folder: Path, tmp_path: Path, name: str, text: str
+) -> None:
+    """A plan needs it."""
+    (folder / "inner").mkdir()
+    file = folder / "inner" / name
+    file.write_text(text.replace("QQ", str(tmp_path / "machine")))
+    (told,) = json.loads(orchestra(str(file), "--format", "json").stdout)
+    assert (told["severity"], told["code"], told["suggestion"]) == ("note", "ORC029", None)
+    assert orchestra_here("plan", str(file)).returncode == 2
+    (tmp_path / "machine").mkdir()
+    (tmp_path / "machine/setup.yaml").touch()
+    (told,) = json.loads(orchestra(str(file), "--format", "json").stdout)
+    assert (told["severity"], told["suggestion"]) == ("error", str(tmp_path / "machine/setup.yaml"))
