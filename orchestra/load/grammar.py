@@ -21,7 +21,7 @@ from orchestra.errors import Code, Problems
 from orchestra.load.exposed import exposed_part
 from orchestra.load.parts import Parts
 from orchestra.load.repeated import known_template, placed
-from orchestra.load.signatures import excess, lack, meant, usage
+from orchestra.load.signatures import excess, lack, meant, one_default, usage
 from orchestra.location import Span
 from orchestra.patterns import pattern
 
@@ -252,9 +252,8 @@ class _Reader:
             self.fault(start, self.at, told, notes=notes)
         elif told := excess(name, number):
             self.crowded, phrase = start, SIGNATURES[name].phrase
-            self.fault(
-                first, last, told, suggestion=self.in_quotes(first, last) if phrase else None, notes=notes
-            )
+            instead = self.in_quotes(first, last) if phrase else one_default(name, call.arguments)
+            self.fault(first, last, told, suggestion=instead, notes=notes)
 
     def in_quotes(self, start: int, end: int) -> str | None:
         """Return the stretch in quotes that it does not hold itself, None where it holds both."""

@@ -13,7 +13,10 @@ from orchestra.patterns import pattern
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from orchestra.description.text import Template
 
+
+_WITH_DEFAULT: Final = ("env", "param", "var")
 _WORD: Final = pattern(r"[A-Za-z_]\w*")
 
 
@@ -68,3 +71,11 @@ def excess(name: str, count: int) -> str | None:
             return f"$({name}) takes one argument, not {count}"
         case most:
             return f"$({name}) takes at most {most} arguments, not {count}"
+
+
+def one_default(name: str, arguments: Sequence[Template]) -> str | None:
+    """Return the arguments of a name with several words for its default in quotes, None for any other substitution."""
+    first, *rest = (argument.raw for argument in arguments)
+    if name not in _WITH_DEFAULT or any(quote in word for word in rest for quote in "'\""):
+        return None
+    return f"{first} '{' '.join(rest)}'"

@@ -25,7 +25,7 @@ class Found:
     processes that are not there. `choices` are those of arguments, of each declaration. `visited` are the identities of
     the actions with a condition that have been carried out, `doubts` what is wrong with those that were left out.
     `unpackaged` are programs that are nowhere and stand for nodes without a package. `stand_ins` are containers of ours
-    of which it is still open whether they can be.
+    of which it is still open whether they can be. `lets` are the variables that `let` has set, each with its place.
     """
 
     processes: list[ResolvedProcess] = field(default_factory=list)
@@ -47,6 +47,7 @@ class Found:
     doubts: list[tuple[Conditional, Problems]] = field(default_factory=list)
     unpackaged: list[tuple[str, Location]] = field(default_factory=list)
     stand_ins: list[Any] = field(default_factory=list)
+    lets: dict[str, Location] = field(default_factory=dict)
 
     @property
     def size(self) -> int:

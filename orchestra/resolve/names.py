@@ -161,13 +161,14 @@ def expanded(name: str, namespace: str, node: str) -> str:
 def mended(name: str, fault: Callable[[str], Fault | None]) -> str | None:
     """Return a name without what ROS does not allow in it, None where that alone does not help.
 
-    Other characters become `_`, slashes that are too many go away, `${name}` is what it is in a launch file.
+    Other characters become `_`, slashes that are too many and quotes go away, `${name}` is what it is in a launch
+    file.
     """
     if not name.isascii() or not re.search("[A-Za-z]", name):
         return None
     if _OF_A_SHELL.search(name):
         return _OF_A_SHELL.sub(_substitution, name)
-    words = re.sub(r"[^A-Za-z0-9_/~{}]+", "_", name.strip())
+    words = re.sub(r"[^A-Za-z0-9_/~{}]+", "_", name.strip(" '\""))
     found = re.sub("//+", "/", re.sub("^~(?=[A-Za-z0-9_])", "~/", words))
     found = found.rstrip("/") or found
     return None if found == name or fault(found) is not None else found

@@ -10,6 +10,7 @@ from orchestra.resolve.containers import settle_containers
 from orchestra.resolve.context import CommandRunner, Context, Packages, Value
 from orchestra.resolve.found import Found
 from orchestra.resolve.given import given_sections
+from orchestra.resolve.idle_lets import warn_of_idle_lets
 from orchestra.resolve.interpret import visit, visit_file
 from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.model import Resolved
@@ -54,6 +55,7 @@ def carry_through(description: Description, run: Resolution) -> Resolved:
             run.report_endless(error)
         names = [Given(item.name, Location(item.span)) for item in run.inputs.arguments]
         settle(names, description, ledger, run)
+        warn_of_idle_lets(ledger, run)
     _tell_doubts(run)
     warn_of_unpackaged(run)
     return outcome(description.file, run)

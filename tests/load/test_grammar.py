@@ -116,7 +116,7 @@ def test_a_text_is_read_as_upstream_reads_it(text: str, shape: list[object]) -> 
         ("$(var)", Code.SUBSTITUTION_SYNTAX, "$(var)", None),
         ("$(dirname a b)", Code.SUBSTITUTION_SYNTAX, "a b", None),
         ("$(find-pkg-share a b)", Code.SUBSTITUTION_SYNTAX, "a b", None),
-        ("$(var a b c)", Code.SUBSTITUTION_SYNTAX, "a b c", None),
+        ("$(var a b c)", Code.SUBSTITUTION_SYNTAX, "a b c", "a 'b c'"),
         ("$(eval 1 + 2)", Code.SUBSTITUTION_SYNTAX, "1 + 2", "'1 + 2'"),
         ("$(eval $(var a) == 'b')", Code.SUBSTITUTION_SYNTAX, "$(var a) == 'b'", "\"$(var a) == 'b'\""),
         ("$(command echo a b)", Code.SUBSTITUTION_SYNTAX, "echo a b", "'echo a b'"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from orchestra.location import is_python
 from orchestra.resolve.context import Value
 from orchestra.resolve.declarations import settle
 
@@ -18,3 +19,5 @@ def visit(action: Let, run: Resolution) -> None:
     if isinstance(name, Value) and value is not None:
         run.scope.set(name.text, value, run.place(action.value))
         settle(name.text, action.span, run)
+        if name.verbatim and not is_python(name.location):
+            run.found.lets.setdefault(name.text, name.location)

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 from orchestra.description.fields import FLAG_WORDS
 from orchestra.errors import Code
 from orchestra.load.expressions import as_substitutions
-from orchestra.location import is_python
+from orchestra.location import Span, is_python
 from orchestra.nearest import nearest
-from orchestra.resolve.booleans import CONDITION_WORDS
+from orchestra.resolve.booleans import CONDITION_WORDS, boolean
 from orchestra.resolve.command_line import COMMAND_LINE
 from orchestra.resolve.refusals import forget_surprise, refuse_value, written_at
 
@@ -24,6 +24,11 @@ if TYPE_CHECKING:
 def refuse_condition(template: Template, value: Value, run: Resolution) -> None:
     """Report a condition that is neither true nor false; one that is written as in Python is meant as substitutions."""
     message = f"a condition is true or false, this is '{value.text}'"
+    if not value.verbatim and template.raw.endswith("))") and boolean(value.text.rstrip(")")) is not None:
+        last = value.location.span
+        at = Span(last.file, last.end_line, last.end_column - 1, last.end_line, last.end_column)
+        run.problems.error(Code.BAD_CONDITION, f"{message}: the last ')' is too many", run.at(at))
+        return
     meant = None if value.verbatim or is_python(value.location) else as_substitutions(template.raw)
     if meant is not None:
         run.problems.error(Code.BAD_CONDITION, message, value.location, suggestion=meant)

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.description.text import Words
 from orchestra.errors import Code
-from orchestra.nearest import nearest
+from orchestra.nearest import is_one_slip, nearest
 from orchestra.resolve.context import Value, new_value
 from orchestra.resolve.refusals import refuse
 from orchestra.resolve.substitutions.lookup import looked_up
@@ -26,13 +26,28 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
         value = context.variables.get(name.text, at)
         if isinstance(value, Value):
             return new_value(value.text, at)
-    return looked_up(
+    found = looked_up(
         call,
         context,
         evaluate,
         find=lambda name: context.variables.get(name, at),
         report=_report,
     )
+    if len(call.arguments) > 1 and isinstance(name, Words) and isinstance(found, Value):
+        _check_default(name.text, written, context)
+    return found
+
+
+def _check_default(name: str, written: Template, context: Context) -> None:
+    """Tell of a default that always counts, because the name of the variable is a slip for one that is set."""
+    names = context.variables.names()
+    if name in names or name in context.lost:
+        return
+    meant = next((other for other in names if is_one_slip(name, other)), None)
+    if meant is not None:
+        told = f"nothing sets '{name}' here, so that its default counts"
+        at = context.at(written.span)
+        context.problems.warning(Code.UNDEFINED_VARIABLE, told, at, suggestion=meant)
 
 
 def _report(name: str, written: Template, context: Context) -> Poison:
