@@ -36,7 +36,7 @@ from orchestra.resolve.scalars import (
     upstream_value,
 )
 from orchestra.resolve.worded import look_at_paths
-from orchestra.resolve.wrong_lists import odd_in_text, odd_place, wrong_as_a_whole
+from orchestra.resolve.wrong_lists import meant_as_text, odd_in_text, odd_place, wrong_as_a_whole
 from orchestra.resolve.yaml_scalars import QUOTE
 
 if TYPE_CHECKING:
@@ -127,8 +127,10 @@ def _text(
             return refuse_value(evaluated, run.problems, Code.PARAMETER_TYPE, str(error), meant=meant)
         odd = odd_in_text(value, type_word) if constant is not None else None
         if odd is not None and not is_python(evaluated.location):
-            return _refuse(name, error, run.at(odd), run)
-        return _refuse(name, error, evaluated.location, run)
+            return _refuse(name, error, run.at(odd[0]), run, odd[1])
+        plain = constant is not None and evaluated.verbatim and type_word in (None, "yaml")
+        instead = meant_as_text(evaluated.text) if plain else None
+        return _refuse(name, error, evaluated.location, run, instead)
     if constant is not None:
         _warn_of_surprise(constant, result, evaluated.location, run, quotes=quotes)
     return result

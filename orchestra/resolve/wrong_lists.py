@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from orchestra.values import ParameterValue, Scalar
 
 _LISTS: Final = "list_of_"
+_QUOTES: Final = ("'", '"')
 _WORDS = {bool: "bool", int: "int", float: "float", str: "str"}
 
 
@@ -67,10 +68,11 @@ def odd_place(items: Sequence[Typed], values: Sequence[ParameterValue]) -> tuple
     return item.span, in_place(text, wanted_type(scalars, odd), quoted=item.quoted)  # type: ignore[union-attr] # a template
 
 
-def odd_in_text(written: Template, type_word: str | None) -> Span | None:
+def odd_in_text(written: Template, type_word: str | None) -> tuple[Span, str | None] | None:
     """Return the place of the item that is of another type than the others of a list that one text holds, as `[1, a]`.
 
-    None where no single one can be told, or where the text does not stand in the file as it reads.
+    With it how it was to be written, where that is known. None where no single one can be told, or where the text does
+    not stand in the file as it reads.
     """
     words = written.parts[0] if len(written.parts) == 1 else None
     if not isinstance(words, Words) or not words.text.lstrip().startswith("["):
@@ -78,17 +80,41 @@ def odd_in_text(written: Template, type_word: str | None) -> Span | None:
     span = words.span
     if span.line != span.end_line or span.end_column - span.column != len(words.text):
         return None
-    items = _plain_items(words.text)
+    items, instead = _plain_items(words.text), None
     if type_word is not None and type_word.startswith(_LISTS):
         element = type_word.removeprefix(_LISTS)
         wrong = [at for at, (text, _) in enumerate(items) if not _fits(text, element)]
         odd = wrong[0] if wrong and len(wrong) < len(items) else None
     else:
-        odd = odd_item([typed(text) for text, _ in items])
+        scalars = [_of_item(text) for text, _ in items]
+        odd = odd_item(scalars)
+        instead = None if odd is None else _instead(items[odd][0], wanted_type(scalars, odd))
     if odd is None:
         return None
     begin, end = items[odd][1]
-    return Span(span.file, span.line, span.column + begin, span.line, span.column + end)
+    return Span(span.file, span.line, span.column + begin, span.line, span.column + end), instead
+
+
+def _of_item(text: str) -> Scalar:
+    return text[1:-1] if text[:1] in _QUOTES else typed(text)
+
+
+def _instead(text: str, wanted: type) -> str | None:
+    if text[:1] in _QUOTES:
+        return in_place(text[1:-1], wanted, quoted=True)
+    return in_place(text, wanted, quoted=False, quote="'")
+
+
+def meant_as_text(text: str) -> str | None:
+    """Return what a text that is no value was meant as: a list with its end, else the text in quotes."""
+    if text.startswith("[") and "]" not in text:
+        try:
+            upstream_value(f"{text.rstrip(', ')}]")
+        except ValueError:
+            pass
+        else:
+            return f"{text.rstrip(', ')}]"
+    return None if "'" in text or not text.strip("[]{} ") else f"'{text}'"
 
 
 def _plain_items(text: str) -> list[tuple[str, tuple[int, int]]]:
