@@ -185,10 +185,11 @@ def test_what_code_asks_the_machine_for_is_noted_and_what_it_asks_the_project_fo
     [
         ("a.launch.yaml", "launch: [include: {file: QQ/steup.yaml}]\n"),
         ("a.launch.xml", '<launch><include file="QQ/steup.yaml"/></launch>\n'),
+        ("b.launch.xml", '<launch><let name="a" value="$(file-content QQ/steup.yaml)"/></launch>\n'),
         ("a.launch.py", _PYTHON % ("", "IncludeLaunchDescription('QQ/steup.yaml')")),
     ],
 )
-def test_a_launch_file_of_the_machine_is_noted_until_it_is_nearly_one_that_is_there(
+def test_a_file_of_the_machine_is_noted_until_it_is_nearly_one_that_is_there(
     orchestra: Command, orchestra_here: Command, folder: Path, tmp_path: Path, name: str, text: str
 ) -> None:
     """A plan needs it."""

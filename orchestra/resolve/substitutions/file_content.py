@@ -5,10 +5,11 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from orchestra.errors import Code
+from orchestra.errors import HERE, Code, Severity
 from orchestra.location import displayed
-from orchestra.nearest import nearest
+from orchestra.nearest import is_one_slip, nearest
 from orchestra.resolve.context import POISON, Poison
+from orchestra.resolve.lacking import is_of_the_machine
 from orchestra.resolve.refusals import refuse
 from orchestra.resolve.substitutions.arguments import made
 
@@ -47,5 +48,11 @@ def content(written: Template, context: Context, evaluate: Evaluate) -> tuple[st
 def _missing(path: Path, told: str, written: Template, context: Context) -> Poison:
     beside = [entry.name for entry in path.parent.iterdir()] if path.parent.is_dir() else []
     near = nearest(path.name, beside)
+    weight, certain = context.weights.variable, near is not None and is_one_slip(path.name, near)
+    elsewhere = is_of_the_machine(str(path), context.file or "", context.environment)
+    if weight is not Severity.ERROR and elsewhere and not certain:
+        message = f"there is no file {told!r} {HERE}: what it would give is left open"
+        context.problems.weighed(weight, Code.MISSING_FILE, message, context.at(written.span))
+        return POISON
     meant = told.removesuffix(path.name) + near if near else None
     return refuse(written, context, Code.MISSING_FILE, f"there is no file {told!r}", meant=meant)
