@@ -115,6 +115,7 @@ def _better(error: BaseException, call: TracebackType) -> Explanation | None:
         refused_calls,
         too_early,
         unknown_names,
+        wrong_brackets,
     )
 
     frame, place = call.tb_frame, Place(call.tb_frame.f_code, call.tb_lasti)
@@ -127,6 +128,7 @@ def _better(error: BaseException, call: TracebackType) -> Explanation | None:
             return unknown_names.not_in_module(error, place)
         case TypeError():
             without_comma = missing_commas.before_brackets(error, place) if call.tb_next is None else None
+            without_comma = without_comma or wrong_brackets.explained(error, frame, place)
             return without_comma or refused_calls.explained(error, frame, place) or too_early.explained(error)
         case KeyError():
             return missing_keys.explained(error, frame, place)

@@ -9,7 +9,7 @@ from orchestra.compat.literals import Literal
 from orchestra.compat.place import span_in
 from orchestra.compat.rewritten import Rewritten
 from orchestra.compat.source_text import text_at
-from orchestra.compat.syntax_trees import node_span, tree_of
+from orchestra.compat.syntax_trees import called_by, node_span, tree_of
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -44,6 +44,9 @@ def returned_by(function: Any, made: Any) -> Literal | None:
         return None
     returns = [item for item in _inside(node) if isinstance(item, ast.Return)]
     if made is None:
+        last = _without_return(node) if not returns else None
+        if last is not None:
+            return Literal(file, last, around, tree)
         empty = [item for item in returns if item.value is None or _is_none(item.value)]
         return Literal(file, None, node_span(file, empty[0]) if len(empty) == 1 else around, tree)
     values = [item.value for item in returns if item.value is not None and not _is_none(item.value)]
@@ -55,9 +58,21 @@ def described_by(returned: Literal, made: Any) -> Rewritten | None:
     source = "" if returned.node is None else text_at(returned.file, returned.whole)
     if not source or "\n" in source or len(source) > _MOST:
         return None
+    if made is None:
+        return Rewritten(f"return {source}")
     if isinstance(made, list | tuple):
         return Rewritten(f"LaunchDescription({source})")
     return Rewritten(f"LaunchDescription([{source}])") if callable(getattr(made, "execute", None)) else None
+
+
+def _without_return(function: Function) -> ast.expr | None:
+    """Return the launch description with which a function ends, and which it does not return."""
+    match function.body[-1]:
+        case ast.Expr(value=ast.Name() as name):
+            return name
+        case ast.Expr(value=ast.Call(func=called) as call) if called_by(call) == "LaunchDescription":
+            return called
+    return None
 
 
 def _found(function: Any) -> tuple[CodeType, Function] | None:

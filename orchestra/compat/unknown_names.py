@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.borrowed import ROOM
 from orchestra.compat.explanation import Explanation
-from orchestra.compat.rewritten import arguments_around, in_quotes
+from orchestra.compat.rewritten import Rewritten, arguments_around, in_quotes
 from orchestra.compat.seam import connection
 from orchestra.compat.source_text import word_in
 from orchestra.compat.syntax_trees import tree_of
@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 _BESIDE: Final = (
     "it is beside the launch file, where Python does not look: sys.path.insert(0, os.path.dirname(__file__))"
 )
+_NOTHING: Final = frozenset({"NULL", "Null", "nil", "null", "none", "undefined"})
+# What others call it that something is added to a launch description.
+_ADDING: Final = frozenset({"add", "addAction", "add_node", "append", "extend"})
 # What the interpreter adds for people at its prompt.
 _OF_THE_PROMPT: Final = frozenset({"copyright", "credits", "exit", "help", "license", "quit"})
 _IMPORTED: Final = re.compile(r"cannot import name '(\w+)'")
@@ -38,6 +41,8 @@ def unbound(error: NameError, frame: FrameType, place: Place) -> Explanation | N
     if not error.name:
         return None
     message = f"there is no name '{error.name}' here"
+    if error.name in _NOTHING:
+        return Explanation(message, span=place.span, suggestion=Rewritten("None"))
     meant = None if exporting(error.name) else _meant(error.name, frame, place)
     if meant is not None and is_slip(error.name, meant) and meant.islower() == error.name.islower():
         return Explanation(message, span=place.span, suggestion=meant)
@@ -75,11 +80,13 @@ def no_attribute(error: AttributeError, place: Place) -> Explanation | None:
     if isinstance(error.obj, type(sys)):
         return _no_name(error.name, error.obj, place)
     meant = nearest(error.name, _public(dir(error.obj)))
+    if error.name in _ADDING and hasattr(error.obj, "add_action"):
+        meant = "add_action"
     kind = error.obj.__name__ if isinstance(error.obj, type) else type(error.obj).__name__
     kind = "None" if error.obj is None else kind
     message = f"{kind} has no attribute '{error.name}'"
     span = word_in(place.file, place.span, error.name)
-    is_meant = meant is not None and is_slip(error.name, meant)
+    is_meant = meant is not None and (is_slip(error.name, meant) or error.name in _ADDING)
     return Explanation(message, span=span, suggestion=meant if is_meant and span is not None else None)
 
 

@@ -163,6 +163,7 @@ _FUNCTION = {
         "LaunchDescription([])\ndef generate_launch_description():\n    LaunchDescription([])",
         "generate_launch_description() returns nothing: its `return` is missing",
         Code.NO_DESCRIPTION,
+        suggestion="return LaunchDescription",
     ),
     "a list": Mistake(
         "return [Node(**TALKER)]",
