@@ -116,8 +116,11 @@ class _Look:
     def _set(self) -> set[str | None]:
         """Return the names that something sets which is left out, and those that something faulty would have set."""
         hidden = (self.action, *(part.action for part in self.run.scope.ledger.hidden))
-        named = [item for item in entities_in(hidden) if isinstance(item, Arg | Let | Pair)]
-        return {item.name.constant for item in named} | self.run.found.lost
+        names: set[str | None] = set(self.run.found.lost)
+        for item in entities_in(hidden):
+            names |= {item.name.constant} if isinstance(item, Arg | Let | Pair) else set()
+            names.update(getattr(item, "for_each", None) or ())
+        return names
 
     def at_program(self, node: Node) -> None:
         """Report what a node starts: the package and the executable, the module or the script."""

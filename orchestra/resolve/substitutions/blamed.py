@@ -5,20 +5,22 @@ from __future__ import annotations
 import builtins
 import re
 from itertools import islice
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.literals import argument
 from orchestra.compat.place import Argument, Letters
-from orchestra.description.text import Words
+from orchestra.description.text import Call, Words
 from orchestra.location import Span, is_within
 from orchestra.nearest import nearest
 from orchestra.resolve.substitutions.operators import foreign_operator
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping
+    from collections.abc import Collection, Iterator, Mapping
     from types import TracebackType
 
     from orchestra.description.text import Part, Template
+
+_BOOLEANS: Final = ("true", "false")
 
 
 def blamed(written: Template, text: str, error: BaseException) -> tuple[Span | None, bool]:
@@ -98,6 +100,37 @@ def meant_by(text: str, error: BaseException, names: Mapping[str, object]) -> st
     if isinstance(error, AttributeError) and error.name:
         return nearest(error.name, dir(error.obj))
     return None
+
+
+def in_quotes(
+    written: Template, span: Span, name: str, variables: Collection[str], file: str | None
+) -> str | None:
+    """Return how the text at a place is written that is a name to Python, and none that Python knows: in quotes.
+
+    That of a variable is the variable. What comes to a boolean of the launch language is compared as a text. None where
+    the whole is in single quotes, or nobody can tell; `file` is the one that it stands in.
+    """
+    if _quote_around(written, file) == "'":
+        return None
+    found = [part for part in written.parts if isinstance(part, Call) and part.span == span]
+    if not found:
+        return f"'$(var {name})'" if name in variables else f"'{name}'"
+    words = [item.constant for item in found[0].arguments]
+    if None in words or any("'" in word or '"' in word for word in words if word is not None):
+        return None
+    text = f"'$({' '.join(word for word in (found[0].name, *words) if word)})'"
+    return f"{text} == 'true'" if name in _BOOLEANS else text
+
+
+def _quote_around(written: Template, file: str | None) -> str:
+    """Return the quote in which an expression stands, a single one where that cannot be seen."""
+    span = written.span
+    try:
+        with open(file or "", encoding="utf-8-sig") as stream:  # noqa: PTH123 - pathlib is slow
+            line = next(islice(stream, span.line - 1, None), "")
+    except (OSError, UnicodeDecodeError):
+        return "'"
+    return line[span.column - 2 : span.column - 1] or "'"
 
 
 def _range(error: BaseException, text: str) -> tuple[int, int]:

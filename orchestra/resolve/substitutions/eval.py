@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.compat.expressions import visible
 from orchestra.errors import Code
+from orchestra.location import is_python
 from orchestra.resolve.context import POISON
 from orchestra.resolve.python.environ import put_environment
 from orchestra.resolve.substitutions.arguments import made, texts
@@ -48,7 +49,8 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
 def _failed(
     call: Call, context: Context, text: str, error: BaseException, names: dict[str, object]
 ) -> Evaluated:
-    from orchestra.resolve.substitutions.blamed import blamed, meant_by  # noqa: PLC0415 - only mistakes need it
+    # Here, because only mistakes need it.
+    from orchestra.resolve.substitutions.blamed import blamed, in_quotes, meant_by  # noqa: PLC0415
 
     notes, written = [], call.arguments[0]
     if written.constant is None:
@@ -57,10 +59,13 @@ def _failed(
     meant = meant_by(text, error, names)
     if meant is not None and not is_written:
         notes.append(f"did you mean {meant!r}?")
-    elif meant is None and isinstance(error, NameError) and error.name:
-        notes.append(f"text needs quotes of its own: '{error.name}'")
     told = f"this expression fails: {type(error).__name__}: {_message(error)}"
     suggestion = meant if is_written else None
+    if isinstance(error, NameError) and error.name and suggestion is None:
+        if span is not None and not is_python(span):
+            suggestion = in_quotes(written, span, error.name, context.variables.names(), context.file)
+        if suggestion is None and meant is None:
+            notes.append(f"text needs quotes of its own: '{error.name}'")
     context.problems.error(
         Code.BAD_EXPRESSION, told, context.at(span or call.span), suggestion=suggestion, notes=notes
     )
