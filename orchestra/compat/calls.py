@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
-from orchestra.compat.place import here
+from orchestra.compat.place import argument, here
 from orchestra.compat.text import template
 from orchestra.description.text import Call, Opaque, Template, new_call, new_template
 from orchestra.description.written import called
@@ -42,11 +42,10 @@ class CallSubstitution(Substitution):
 
     def _call(self) -> Call:
         place, paths = self._place, self._paths()
-        given = enumerate(self._arguments())
-        arguments = (
-            template(argument, place.at(*paths[index]) if index < len(paths) else place.span)
-            for index, argument in given
-        )
+        arguments = [
+            template(item, argument(place, paths[index]) if index < len(paths) else place.span)
+            for index, item in enumerate(self._arguments())
+        ]
         return new_call(self._name, tuple(arguments), place.span)
 
     def _whole(self) -> Template | None:
@@ -58,13 +57,22 @@ class CallSubstitution(Substitution):
         kept = self._kept
         if kept is not None and kept[0] == given and kept[1].span is self._place.span:
             return kept[1]
-        if not all(_is_known(item) for argument in given for item in argument):
+        kinds = {type(item) for argument in given for item in argument}
+        are_texts = kinds <= _TEXT
+        if not are_texts and not all(_is_known(item) for argument in given for item in argument):
             return None
         parts = self._parts(self._place.span)
-        if len(parts) != 1 or type(parts[0]) is not Call:
+        if len(parts) != 1:
             return None
-        made = new_template(parts, self._raw(), parts[0].span)
-        if given and all(type(item) is TextSubstitution for argument in given for item in argument):
+        call = parts[0]
+        if type(call) is not Call:
+            return None
+        if type(self)._raw is CallSubstitution._raw:
+            raw = called(self._name, [argument.raw for argument in call.arguments])
+        else:
+            raw = self._raw()
+        made = new_template(parts, raw, call.span)
+        if given and are_texts:
             self._kept = tuple(map(list, given)), made
         return made
 
@@ -82,6 +90,9 @@ class CallSubstitution(Substitution):
     def _raw(self) -> str:
         arguments = ("".join(item._raw() for item in argument) for argument in self._arguments())
         return called(self._name, arguments)
+
+
+_TEXT: Final = frozenset({TextSubstitution})
 
 
 def _is_known(item: Substitution) -> bool:

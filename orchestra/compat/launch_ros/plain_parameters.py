@@ -14,11 +14,11 @@ from orchestra.compat.launch_ros.plain_texts import (
 )
 from orchestra.compat.place import argument
 from orchestra.description.parts import Param
-from orchestra.description.text import new_constant, new_template, new_words
+from orchestra.description.text import matched_words, new_constant, new_template, new_words
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
-    from orchestra.compat.place import Arguments
+    from orchestra.compat.place import Arguments, Way
     from orchestra.description.text import Part
     from orchestra.location import Span
 
@@ -32,34 +32,46 @@ def parameters(name: str, value: Any, call: Arguments) -> tuple[tuple[Param, ...
     for index, item in enumerate(value):
         path = (name, index)
         if type(item) is dict:
-            span = call.span(path)
-            own.append(_entries(item, ((), "", ""), span, made))
+            own.append(_entries(item, ((), "", ""), call, path, made))
         else:
             file = plain_text(item, call, path)
-            made.append(entity(Param, {**_NO_PARAMETER, "from_": file}, call.span(path)))
+            made.append(_param({"from_": file}, call.span(path)))
             own.append(copied(item))
     return tuple(made), own
 
 
 def _entries(
-    items: dict[Any, Any], around: tuple[tuple[Part, ...], str, str], span: Any, made: list[Param]
+    items: dict[Any, Any],
+    around: tuple[tuple[Part, ...], str, str],
+    call: Arguments,
+    path: tuple[Way, ...],
+    made: list[Param],
 ) -> dict[Any, Any]:
     """Add the parameters of a dictionary, whose names begin with what is around it; return a copy of it."""
     before, written, known = around
-    own = {}
+    own, span = {}, call.span(path)
     for key, value in items.items():
         if type(key) is not str:
             raise UnusualError
-        parts = (*before, new_words(key, span)) if key else before
-        raw, name = written + escaped(key), known + key
+        name = known + key
         if type(value) is dict:
-            inner = ((*parts, new_words(".", span)), raw + ".", name + ".")
-            own[key] = _entries(value, inner, span, made)
+            parts = (*before, new_words(key, span)) if key else before
+            inner = ((*parts, new_words(".", span)), f"{written}{escaped(key)}.", f"{name}.")
+            own[key] = _entries(value, inner, call, path, made)
             continue
-        called = new_template(parts, raw, span)
-        read, own[key] = _value(value, argument(span.place, (*span.path, name)))
-        made.append(entity(Param, {**_NO_PARAMETER, "name": called, "value": read}, span))
+        if before or "$" in key or "\\" in key:
+            parts = (*before, new_words(key, span)) if key else before
+            called = new_template(parts, written + escaped(key), span)
+        else:
+            called = matched_words(key, False, call, path)  # type: ignore[arg-type] # its groups are paths
+        read, own[key] = _value(value, argument(call.place, (*path, name)))
+        made.append(_param({"name": called, "value": read}, span))
     return own
+
+
+def _param(fields: dict[str, Any], span: Span) -> Param:
+    made: Param = entity(Param, _NO_PARAMETER | fields, span)
+    return made
 
 
 def _value(value: Any, span: Span) -> tuple[Any, Any]:
