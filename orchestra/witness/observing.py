@@ -173,10 +173,12 @@ class Observer:
         def looked(path: Any, *args: Any, **kwargs: Any) -> Any:
             if self.record is None or self._aside or isinstance(path, int):
                 return function(path, *args, **kwargs)
-            looks = self.record.looks.setdefault(kind, {})
-            if kwargs or kind == "access" or (whole := self._whole(path)) is None or whole in looks:
+            if kwargs or kind == "access":
                 self._looked(kind, path, kwargs)
                 return function(path, *args, **kwargs)
+            whole, looks = self._whole(path), self.record.looks.setdefault(kind, {})
+            if whole is None or whole in looks:
+                return function(path, *args)
             try:
                 found = function(path)
             except (OSError, ValueError) as error:
