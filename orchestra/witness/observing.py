@@ -36,9 +36,8 @@ class Observer:
     def __init__(self) -> None:
         self.record: Record | None = None
         self.scratch: str | None = None
-        self.foreign: set[str] = set()
-        self.code: set[str] = set()
-        self._aside = self._resting = 0  # how often it is told to record nothing
+        self.foreign, self.code = set[str](), set[str]()
+        self.paused = self._resting = 0  # how often it is told to record nothing
         self._being_aside = _Aside(self)
         self._seen: dict[str, Signature | None] = {}
         self._parts: set[Record] = set()
@@ -58,7 +57,7 @@ class Observer:
     @property
     def active(self) -> bool:
         """Whether what happens now is recorded."""
-        return self.record is not None and self._aside == 0
+        return self.record is not None and self.paused == 0
 
     def install(self) -> None:
         """Begin to watch this process, which cannot be undone."""
@@ -74,7 +73,7 @@ class Observer:
         """Begin a record; `environment` is the one that counts as being outside."""
         self.record, self._seen, self.ran_code, self.certain, self._parts = Record(), {}, False, True, set()
         self._environment, self._paths = environment, set()
-        self._aside, self._resting = self._aside - self._resting, 0
+        self.paused, self._resting = self.paused - self._resting, 0
         self._contents.forget()
         self._outside.shorten()
 
@@ -107,13 +106,13 @@ class Observer:
 
     def depend(self, part: Record) -> None:
         """Record that the result has a part that is recorded already."""
-        if part not in self._parts and self.record is not None and not self._aside:
+        if self.record is not None and not self.paused and part not in self._parts:
             self._parts.add(part)
             self.record.depend(part)
 
     def rest(self) -> None:
         """Record nothing any more, until another record is begun."""
-        self._aside, self._resting = self._aside + 1 - self._resting, 1
+        self.paused, self._resting = self.paused + 1 - self._resting, 1
 
     def aside(self) -> AbstractContextManager[None]:
         """Record nothing for a while: what is looked at decides nothing, or is recorded in another way."""
@@ -122,7 +121,7 @@ class Observer:
     def variable(self, name: str) -> None:
         """Record that a variable of the environment is read."""
         record = self.record
-        if record is not None and not self._aside and name not in record.variables:
+        if record is not None and not self.paused and name not in record.variables:
             record.variables[name] = self._environment.get(name)
 
     def all_names(self) -> None:
@@ -137,7 +136,7 @@ class Observer:
 
     def read(self, path: str, content: bytes) -> None:
         """Take what has just been read from a file, so that it need not be read again to be recorded."""
-        if path in self._seen and not self._aside:
+        if path in self._seen and not self.paused:
             self._contents.read(path, content)
 
     def answered(self, words: tuple[str, ...], answer: Callable[[], _AnswerT]) -> _AnswerT:
@@ -152,7 +151,7 @@ class Observer:
 
     def unknown(self, reason: str) -> None:
         """Record that nobody can say what the result depends on."""
-        if self.record is not None and not self._aside:
+        if self.record is not None and not self.paused:
             self.record.unknown, self.certain, self.kept = self.record.unknown or reason, False, {}
 
     def _look(self, kind: str, path: str) -> None:
@@ -171,7 +170,7 @@ class Observer:
     def _wrapped(self, function: Any, kind: str) -> Any:
         @wraps(function)
         def looked(path: Any, *args: Any, **kwargs: Any) -> Any:
-            if self.record is None or self._aside or isinstance(path, int):
+            if self.record is None or self.paused or isinstance(path, int):
                 return function(path, *args, **kwargs)
             if kwargs or kind == "access":
                 self._looked(kind, path, kwargs)
@@ -201,7 +200,7 @@ class Observer:
 
     def _heard(self, event: str, args: tuple[Any, ...]) -> None:
         """Be told of something by the interpreter that is not known to be harmless."""
-        if self.record is None or self._aside:
+        if self.record is None or self.paused:
             return
         try:
             self._note(event, args)
@@ -287,10 +286,10 @@ class _Aside:
         self._observer = observer
 
     def __enter__(self) -> None:
-        self._observer._aside += 1  # noqa: SLF001 - its own module
+        self._observer.paused += 1
 
     def __exit__(self, *error: object) -> None:
-        self._observer._aside -= 1  # noqa: SLF001
+        self._observer.paused -= 1
 
 
 _OBSERVER: Final = Observer()

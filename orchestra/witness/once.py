@@ -40,7 +40,7 @@ def once(key: tuple[Any, ...], find: Callable[[], _FoundT]) -> _FoundT:
 
 def _remembers() -> bool:
     watching = _WATCHING
-    return watching.installed and watching.certain and watching.active
+    return watching.installed and watching.certain and watching.record is not None and not watching.paused
 
 
 def real(path: str) -> str:
