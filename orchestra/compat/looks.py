@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from functools import cache
 from types import CodeType, FunctionType
 from typing import TYPE_CHECKING, Final
 
@@ -12,6 +13,12 @@ if TYPE_CHECKING:
 _PIECE: Final = 16  # names of a dictionary that are one constant, at most
 _KEY: Final = re.compile(rb"""[{}]|(['"])([^'"\n\\]+)\1\s*:""")
 _SIGN: Final = re.compile(rb"""oin(?:Substitution)?\((?:[^()]|\([^()]*\))*?,\s*['"]/""")
+# A line outside of functions in which a dictionary may stand, or behind which a part of the same statement does.
+_OUTSIDE: Final = re.compile(
+    rb"\n(?!from |import |[#\s])(?:.*(?:\{|[(\[,\\][ \t\r]*$)"
+    rb"|(?:async|class|el|except|finally|for|if|match|try|w[hi]))",
+    re.MULTILINE,
+)
 _BLANKS: Final = b" \t\n"
 _QUOTES: Final = (b"'", b'"')
 _OPTIONS: Final = (b"'-", b'"-')
@@ -25,8 +32,11 @@ def has_doubled_keys(module: ModuleType, source: bytes) -> bool:
     """
     codes = (item.__code__ for item in vars(module).values() if type(item) is FunctionType)
     own = [code for code in codes if code.co_filename == module.__file__]
+    if any(map(_repeats, own)):
+        return True
     is_long = source.count(b"':") + source.count(b'":') > _PIECE
-    return any(map(_repeats, own)) or (is_long and _doubles(source))
+    may_stand = is_long and (any(map(_lists_names, own)) or _OUTSIDE.search(b"\n" + source) is not None)
+    return may_stand and _doubles(source)
 
 
 def _repeats(code: CodeType) -> bool:
@@ -36,6 +46,23 @@ def _repeats(code: CodeType) -> bool:
         or (type(item) is CodeType and _repeats(item))
         for item in code.co_consts
     )
+
+
+def _lists_names(code: CodeType) -> bool:
+    """Return whether a dictionary is made of names that are not one constant."""
+    written = code.co_code
+    adding, building = _instructions()
+    if adding in written[::2] or any(sign in written for sign in building):
+        return True
+    return any(_lists_names(item) for item in code.co_consts if type(item) is CodeType)
+
+
+@cache
+def _instructions() -> tuple[int, list[bytes]]:
+    """Return the operation that adds to a dictionary, and the instructions that make one of several names at once."""
+    from opcode import opmap  # noqa: PLC0415 - once
+
+    return opmap["MAP_ADD"], [bytes((opmap["BUILD_MAP"], names)) for names in range(2, _PIECE)]
 
 
 def _doubles(source: bytes) -> bool:
