@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 from orchestra.cli import boundary, colour, leaving, patience
 from orchestra.cli.parser import CommandParser
 from orchestra.errors import UsageError
+from orchestra.location import is_file
 
 if TYPE_CHECKING:
     from argparse import Namespace
@@ -63,7 +64,12 @@ def run(options: Namespace) -> int:
     """Write the file; what there is to tell goes to standard error. Raises `UsageError`, `DescriptionError`."""
     if options.output != _STREAM and Path(options.output).exists() and not options.force:
         raise UsageError(f"{options.output} is there already: --force writes over it")
-    from orchestra.convert.converting import convert  # noqa: PLC0415 - heavy, and `--help` does not need it
+    # Heavy, and `--help` does not need them.
+    from orchestra.convert.converting import convert  # noqa: PLC0415
+    from orchestra.resolve.launch_files import not_there  # noqa: PLC0415
+
+    if not is_file(options.file):
+        raise not_there(options.file)
 
     with leaving.contained(), patience.patient(options.time_limit, options.file):
         converted = convert(

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import shlex
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.convert.argv import words_of
+from orchestra.convert.argv import split, words_of
 from orchestra.convert.kinds import Kind, key_of, kind_of
 from orchestra.convert.remarks import UnsayableError
 from orchestra.convert.texts import normal
@@ -175,7 +174,7 @@ def _prefix(prefix: Template | tuple[Template, ...]) -> Any:  # noqa: ANN401 - a
     if isinstance(prefix, tuple):
         return tuple(constants)
     try:
-        return tuple(shlex.split(str(constants[0])))
+        return tuple(split(str(constants[0])))
     except ValueError:
         return ("faulty", constants[0])
 

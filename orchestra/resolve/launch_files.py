@@ -56,7 +56,7 @@ def find_launch_file(words: Sequence[str], packages: Packages) -> tuple[str, tup
         return _in_share(_share(package, packages), package, rest[0]), rest[1:]
     if share is not None and not name:
         raise UsageError(f"which launch file of the package '{package}'? {_listed(Path(share))}")
-    raise _no_path(first)
+    raise not_there(first)
 
 
 def launch_files(folder: Path) -> Iterator[Path]:
@@ -184,7 +184,8 @@ def _listed(share: Path) -> str:
     return f"it has {', '.join(names)}" if names else "it has none"
 
 
-def _no_path(written: str) -> UsageError:
+def not_there(written: str) -> UsageError:
+    """Return what is to be told of a path that is no launch file."""
     if os.path.lexists(written):
         return UsageError(f"{written} is there, but it is no file")
     return UsageError(f"there is no launch file {written}{_hint(Path(written))}")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 from typing import TYPE_CHECKING
@@ -87,4 +88,12 @@ def test_the_language_of_the_file_itself_is_refused(folder: Path) -> None:
 def test_a_file_that_is_not_there_is_told(words: tuple[str, ...], folder: Path) -> None:
     done = _convert(folder, *words, "--to", "xml" if "launch.py" in words[0] else "python")
     assert done.returncode == 2
-    assert f"cannot read {words[0]}" in done.stderr
+    assert f"there is no launch file {words[0]}" in done.stderr
+
+
+def test_what_is_no_file_is_not_read(folder: Path) -> None:
+    """It may have no end, or none that comes."""
+    os.mkfifo(folder / "fifo.launch.yaml")
+    for path in ("fifo.launch.yaml", "/dev/zero", "."):
+        done = _convert(folder, path, "--to", "xml")
+        assert (done.returncode, "is there, but it is no file" in done.stderr) == (2, True)
