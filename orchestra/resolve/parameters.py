@@ -31,6 +31,7 @@ from orchestra.resolve.scalars import (
     coerced,
     described,
     differs,
+    items_alike,
     read_alike,
     unified,
     upstream_value,
@@ -168,7 +169,8 @@ def _inline(
     at = run.place(written) if isinstance(written, Template) else run.at(_place_of(written) or param.span)
     plain = _read_at_once(param, quotes=quotes)
     if plain is not None:
-        return [new_parameter(name, plain, at, everywhere, keys, (), ())]
+        at_items = tuple(map(run.place, written)) if isinstance(written, Items) else ()
+        return [new_parameter(name, plain, at, everywhere, keys, at_items, ())]
     with run.scope.tracing() as reads:
         value = _typed(name, written, type_word, run, at, quotes=quotes)
     if isinstance(value, Poison):
@@ -198,8 +200,8 @@ def _warn_of_name(name: str, written: Template, run: Resolution) -> None:
 def _read_at_once(param: Param | SetParameter, *, quotes: bool) -> ParameterValue | None:
     """Return the value of a text without a type that everybody reads alike; None where it takes a closer look."""
     value = param.value
-    if not isinstance(value, Template) or param.type is not None:
-        return None
+    if param.type is not None or not isinstance(value, Template):
+        return items_alike(value) if isinstance(value, Items) and param.type is None else None
     if type(value) is MatchedTemplate:
         text = value.constant
         return None if not text else text if value.quoted and quotes else read_alike(text)

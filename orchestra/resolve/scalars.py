@@ -13,6 +13,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.description.source import shortened
+from orchestra.description.text import MatchedTemplate
 from orchestra.nearest import nearest
 from orchestra.patterns import pattern
 from orchestra.resolve.rcl import scalars as rcl
@@ -21,6 +22,7 @@ from orchestra.resolve.yaml_scalars import QUOTE, Plain, by_core, by_pyyaml, rea
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from orchestra.description.text import Template
     from orchestra.resolve.yaml_scalars import Construct
     from orchestra.values import ParameterValue, Scalar
 
@@ -141,6 +143,18 @@ def read_alike(text: str) -> Scalar | None:
     if text in _BOOLEANS:
         return _BOOLEANS[text]
     return text if _WORD.fullmatch(text) and text.lower() not in _MEANT else None
+
+
+def items_alike(items: Sequence[Template]) -> ParameterValue | None:
+    """Return what the items of a list in a file are to everybody, None where that takes a closer look."""
+    values: list[Any] = []
+    for item in items:
+        text = item.constant if type(item) is MatchedTemplate else None
+        value = None if not text else text if item.quoted else read_alike(text)
+        if value is None or type(value) is not type(values[0] if values else value):
+            return None
+        values.append(value)
+    return tuple(values) or None
 
 
 def _list_alike(text: str) -> ParameterValue | None:
