@@ -109,7 +109,7 @@ def beginning_of(value: Any, head: Span) -> Span:  # noqa: ANN401 - a tree
     """
     if isinstance(value, Tagged):
         return value.head
-    if not isinstance(value, Keyed | Listed | Written) or (isinstance(value, Written) and value.null):
+    if not isinstance(value, Keyed | Listed | Written) or (isinstance(value, Written) and not value.text):
         return head
     span = value.span
     first = min(value.keys_at.values(), default=None) if isinstance(value, Keyed) else None

@@ -11,6 +11,7 @@ from orchestra.patterns import pattern
 if TYPE_CHECKING:
     from collections.abc import Set as AbstractSet
 
+NESTED: Final = "a parameter cannot be a list of lists"
 _LONGEST: Final = 100
 # The keys of a pair, and the lists that are made of such pairs.
 _NAMED: Final = ("name", "value")
@@ -137,6 +138,21 @@ def whole_item(content: Keyed) -> Span | None:
     if begin.line != end.end_line:
         return None
     return Span(begin.file, begin.line, begin.column, end.end_line, end.end_column)
+
+
+def nested_list(mapping: Keyed, place: tuple[int | str, ...]) -> tuple[Span, str | None] | None:
+    """Return the place of a value that is a list of lists, and the text that nodes read instead; None for any other."""
+    *above, last = place
+    value: Any = mapping
+    for step in above:
+        value = value[step]
+    if not above or above[-1] != "value" or not isinstance(last, int) or type(value) is not Listed:
+        return None
+    span = value.span
+    if span.line != span.end_line:
+        return value[last].span, None
+    written = _value(value)
+    return span, None if '"' in written or "..." in written else f'"{written}"'
 
 
 def _items(content: Keyed, pair: tuple[str, str]) -> str:

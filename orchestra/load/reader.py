@@ -16,7 +16,15 @@ from orchestra.load.elements import beginning_of, noun
 from orchestra.load.expressions import as_substitutions
 from orchestra.load.grammar import parse_template, sound_template, unescaped
 from orchestra.load.keys import known_keys
-from orchestra.load.pairs import extent, written_as_list, written_list, written_pair, written_so
+from orchestra.load.pairs import (
+    NESTED,
+    extent,
+    nested_list,
+    written_as_list,
+    written_list,
+    written_pair,
+    written_so,
+)
 from orchestra.location import Location, Span
 from orchestra.patterns import pattern
 
@@ -163,6 +171,9 @@ class Reader:
         head, value = _way(mapping, place)
         if kind == STRAY_KEY:
             self.error(Code.UNKNOWN_KEY, message, head, suggestion=suggestion)
+            return
+        if isinstance(error["input"], Listed) and (nested := nested_list(mapping, place)) is not None:
+            self.error(Code.WRONG_TYPE, NESTED, nested[0], suggestion=nested[1])
             return
         at, notes = beginning_of(value, head), list[str]()
         if suggestion is None and type(mapping) is Keyed:
