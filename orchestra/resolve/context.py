@@ -11,13 +11,14 @@ from orchestra.description.text import Opaque
 from orchestra.errors import Problems
 from orchestra.fields import field
 from orchestra.location import Location, Span, new_location
-from orchestra.resolve.weights import Weights
+from orchestra.resolve.inputs import Inputs
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
     from orchestra.description.entity import Entity
     from orchestra.description.text import Template
+    from orchestra.resolve.weights import Weights
 
 ReadKind: TypeAlias = Literal["variable", "environment", "parameter", "namespace"]
 # Who set what is read: `caller` is the environment in which we were called, `code` that of a launch file in Python.
@@ -175,9 +176,9 @@ class Context:
 
     `file` is the absolute path of the launch file that is being read, `included_from` the chain of includes to it,
     innermost first. `anonymous` remembers the names that `$(anon)` made. `parameters` are the values that
-    `set_parameter` put in scope, for `$(param)`. `launching` is false where nothing will be started here. `weights` say
-    how much it counts that a package, a program or a variable is not here; `elsewhere` are those that have been told.
-    `lost` has the names that something faulty would have set. `perform_opaque` performs what only Python can.
+    `set_parameter` put in scope, for `$(param)`. `launching` is false where nothing will be started here. By the
+    `inputs` it weighs more or less that a package, a program or a variable is not here; `elsewhere` are those that were
+    told. `lost` has the names that something faulty would have set. `perform_opaque` performs what only Python can.
     """
 
     problems: Problems
@@ -189,12 +190,17 @@ class Context:
     included_from: tuple[Span, ...] = ()
     log_folder: str = "${run}/logs"
     launching: bool = True
-    weights: Weights = Weights()
+    inputs: Inputs = Inputs({})
     anonymous: dict[str, str] = field(default_factory=dict)
     elsewhere: set[str] = field(default_factory=set)
     parameters: Mapping[str, str] = field(default_factory=dict)
     lost: AbstractSet[str] = frozenset()
     perform_opaque: Callable[[Opaque], Evaluated] = _only_python
+
+    @property
+    def weights(self) -> Weights:
+        """How much it weighs that this machine lacks what another one may have."""
+        return self.inputs.weights
 
     def at(self, span: Span) -> Location:
         """Return the location of a span of the current file."""

@@ -12,7 +12,6 @@ from orchestra.errors import Code, Severity
 from orchestra.location import displayed, is_python
 from orchestra.nearest import is_slip
 from orchestra.resolve.context import Value
-from orchestra.resolve.lacking import missing_program
 from orchestra.resolve.misspelt import misspelt
 from orchestra.resolve.near_paths import near_names, near_path
 from orchestra.resolve.substitutions.blamed import stands_at
@@ -49,6 +48,9 @@ def look_at_files(written: Template, context: Context, evaluate: Evaluate) -> No
 
 def report_program(name: str, at: Span, context: Context) -> None:
     """Report a program that is not on the PATH, once where that is no error."""
+    # Here, because most programs are there.
+    from orchestra.resolve.lacking import missing_program  # noqa: PLC0415
+
     missing = missing_program(name, context.environment, context.weights.package)
     if missing.severity is Severity.ERROR:
         context.problems.error(

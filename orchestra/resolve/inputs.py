@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Final
+from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
 from orchestra.fields import field
 from orchestra.location import Span
-from orchestra.resolve.weights import Weights
+
+if TYPE_CHECKING:
+    from orchestra.resolve.weights import Weights
 
 ASSIGNED: Final = ":="
 
@@ -76,6 +78,9 @@ class Inputs:
     @property
     def weights(self) -> Weights:
         """How much it weighs that this machine lacks what another one may have."""
+        # Here, because most files lack nothing.
+        from orchestra.resolve.weights import Weights  # noqa: PLC0415
+
         return Weights(self.environment, self.launching, self.planning, bool(self.arguments))
 
 

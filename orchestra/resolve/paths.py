@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 
 from orchestra.errors import HERE, Code, Severity
 from orchestra.location import displayed, is_file, is_python
-from orchestra.resolve.lacking import is_certain, is_of_the_machine
 from orchestra.resolve.near_paths import exists, near_names, near_path, related_names, rewritten
 from orchestra.resolve.refusals import refuse_value
 
@@ -102,6 +101,9 @@ def _may_be_elsewhere(
     """Return whether another machine may have a file, which is only looked for in a check."""
     if folder_there or run.inputs.weights.variable is Severity.ERROR:
         return False
+    # Here, because most files that are named are there.
+    from orchestra.resolve.lacking import is_certain, is_of_the_machine  # noqa: PLC0415
+
     path, file = str(_expanded(value.text)), run.context.file or ""
     return not is_certain(changes) and is_of_the_machine(path, file, run.scope.environment)
 

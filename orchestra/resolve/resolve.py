@@ -103,7 +103,7 @@ def begin(
         packages,
         run_command,
         launching=inputs.launching,
-        weights=inputs.weights,
+        inputs=inputs,
         parameters=scope.parameter_texts,
         lost=found.lost,
     )

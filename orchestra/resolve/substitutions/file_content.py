@@ -9,7 +9,6 @@ from orchestra.errors import HERE, Code, Severity
 from orchestra.location import displayed
 from orchestra.nearest import is_one_slip, nearest
 from orchestra.resolve.context import POISON, Poison
-from orchestra.resolve.lacking import is_of_the_machine
 from orchestra.resolve.refusals import refuse
 from orchestra.resolve.substitutions.arguments import made
 
@@ -46,6 +45,9 @@ def content(written: Template, context: Context, evaluate: Evaluate) -> tuple[st
 
 
 def _missing(path: Path, told: str, written: Template, context: Context) -> Poison:
+    # Here, because most files that are named are there.
+    from orchestra.resolve.lacking import is_of_the_machine  # noqa: PLC0415
+
     beside = [entry.name for entry in path.parent.iterdir()] if path.parent.is_dir() else []
     near = nearest(path.name, beside)
     weight, certain = context.weights.variable, near is not None and is_one_slip(path.name, near)
