@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from orchestra.errors import HERE, Code, Severity
 from orchestra.location import displayed, is_file, is_python
 from orchestra.resolve.near_paths import exists, near_names, near_path, related_names, rewritten
-from orchestra.resolve.refusals import refuse_value
+from orchestra.resolve.refusals import made_at, refuse_value
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -123,8 +123,14 @@ def _refuse_path(
     near = rewritten(written, changes) if changes else None
     if near is not None and near == written:  # the wrong part of it came from elsewhere
         refuse_value(value, run.problems, Code.MISSING_FILE, message, meant=rewritten(value.text, changes))
-    else:
+        return
+    # Where one variable is all of the path, the file is named where that is set.
+    origin = made_at(value) if near is None and not is_python(value.location) else None
+    if origin is None or is_python(origin):
         run.problems.error(Code.MISSING_FILE, message, value.location, suggestion=near)
+    else:
+        used = (f"it is used at {value.location}",)
+        run.problems.error(Code.MISSING_FILE, message, origin, notes=used)
 
 
 def _start_of(file: str | None) -> str:

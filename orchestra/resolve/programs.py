@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code, Severity
-from orchestra.location import displayed
+from orchestra.location import displayed, is_python
 from orchestra.resolve.containers import own_words
 from orchestra.resolve.context import POISON
 from orchestra.resolve.near_paths import near_path
-from orchestra.resolve.paths import beside, folder_of
+from orchestra.resolve.paths import beside, folder_of, settled_path
 from orchestra.resolve.refusals import refuse_value, report_missing_executable, report_missing_package
 from orchestra.resolve.runnable import fault_of, program_on_path, programs_on_path
 from orchestra.resolve.typos import is_typo
@@ -52,6 +52,19 @@ def program_words(
             run.problems.error(Code.MISSING_EXECUTABLE, message, location, suggestion=suggestion)
             return POISON
     return (found or written,) if _is_runnable(found, location, run) else POISON
+
+
+def is_missing(program: Value, run: Resolution) -> bool:
+    """Report a program that is not there and should be: beside the launch file, or in a package."""
+    at = program.location
+    if os.path.exists(program.text) or run.later or is_python(at):  # noqa: PTH110 - pathlib is slow
+        return False
+    missing = settled_path(program, run)
+    if missing is not None:
+        message, raw = f"there is no executable {displayed(str(missing))}", program.raw
+        meant = None if raw is None else near_path(missing, raw)
+        run.problems.error(Code.MISSING_EXECUTABLE, message, at, suggestion=meant if meant != raw else None)
+    return missing is not None
 
 
 def packaged_words(

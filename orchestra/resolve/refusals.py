@@ -11,6 +11,7 @@ from orchestra.description.source import shortened
 from orchestra.errors import HERE, Code, Severity
 from orchestra.location import displayed, is_file, is_python
 from orchestra.nearest import is_slip, nearest
+from orchestra.resolve.command_line import COMMAND_LINE
 from orchestra.resolve.context import POISON
 
 if TYPE_CHECKING:
@@ -85,6 +86,20 @@ def written_at(value: Value) -> Location | None:
             return reads[0].written
         reads = reads[0].through
     return None
+
+
+def made_at(value: Value) -> Location | None:
+    """Return where a value that came through variables as it is was written, or put together of parts."""
+    reads, found = value.through, None
+    while len(reads) == 1 and reads[0].kind == "variable" and reads[0].value == value.text:
+        if (
+            reads[0].source is None
+            or reads[0].location is None
+            or reads[0].location.span.file == COMMAND_LINE
+        ):
+            return None
+        found, reads = reads[0].source.location, reads[0].through
+    return found
 
 
 def forget_surprise(at: Span, problems: Problems) -> None:

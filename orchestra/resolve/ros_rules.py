@@ -30,6 +30,8 @@ _JOINED: Final = pattern(r"([\w/~.]+)(?:=|:)([^=:\s]+)")
 _FOR_ROS: Final = "--ros-args"
 _ALIKE: Final = pattern(r"-{0,2}ros[-_]?args?:?")
 _PARAMETERS: Final = ("-p", "--param")
+_FILE: Final = "--params-file"
+_ENDINGS: Final = (".yaml", ".yml")
 _RULE: Final = pattern(r"[\w/~.]+:=.*")
 _OF_ROS_1: Final = pattern(r"_(_params|_log_level|[A-Za-z]\w*):=(.+)")
 _SEVERAL: Final = pattern(r"""--?[A-Za-z][\w-]*\s[^"'{]*|(?:-?\d[\d.]*\s+){3}[^"'{]*""")
@@ -52,7 +54,7 @@ def check_rules(words: Sequence[Value], problems: Problems, *, for_ros: bool) ->
 
 def _check_in_vain(words: Sequence[Value], problems: Problems) -> None:
     """Report what is meant for rcl, which does not see it: the first of that, for what is behind it follows."""
-    if not any(":=" in word.text or "ros" in word.text for word in words):
+    if not any(":=" in word.text or "ros" in word.text or word.text == _FILE for word in words):
         return
     for index, word in enumerate(words):
         if word.text in (_FOR_ROS, "--"):
@@ -85,6 +87,8 @@ def _check_joined(words: Sequence[Value], problems: Problems) -> None:
 def _for_ros(text: str, following: str) -> str | None:
     """Return how a word is written that ROS is to read, None for one that it is not meant for."""
     if text in _PARAMETERS and _RULE.fullmatch(following):
+        return f"{_FOR_ROS} {text}"
+    if text == _FILE and following.endswith(_ENDINGS):
         return f"{_FOR_ROS} {text}"
     found = _OF_ROS_1.fullmatch(text)
     if found is None:

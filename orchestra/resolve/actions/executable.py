@@ -4,19 +4,24 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.description.text import raw_of, span_of
 from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Poison, Value
-from orchestra.resolve.programs import program_words
+from orchestra.resolve.programs import is_missing, program_words
 from orchestra.resolve.running import Program, add_process
 from orchestra.resolve.worded import look_at_paths
 from orchestra.resolve.words import split
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from orchestra.description.actions.executable import Executable
     from orchestra.resolve.resolution import Resolution
+
+_INTERPRETERS: Final = frozenset({"bash", "python", "python3", "sh"})
+_OF_A_SHELL: Final = frozenset({"|", "||", "&&", ">", ">>", "2>", "2>&1", "&>"})
 
 
 def visit(action: Executable, run: Resolution) -> None:
@@ -54,7 +59,28 @@ def _words(action: Executable, run: Resolution) -> tuple[str, ...] | Poison:
         return POISON
     if run.flag(action.shell, default=False) is True:
         return (words[0].text, *rest)
+    _check_words(words[1:], run)
     first = words[0]
+    if action.cwd is None and _file_is_missing(words, run):
+        return POISON
     look_at_paths(words[1:], run)
     program = program_words(first.text, first.location, run, elsewhere=action.cwd is not None)
     return POISON if isinstance(program, Poison) else (*program, *rest)
+
+
+def _file_is_missing(words: Sequence[Value], run: Resolution) -> bool:
+    """Report a program, or the script that an interpreter is to run, that is named by a path and is not there."""
+    script = os.path.basename(words[0].text) in _INTERPRETERS and len(words) > 1  # noqa: PTH119 - as above
+    named = words[1] if script else words[0]
+    return os.path.isabs(named.text) and is_missing(named, run)  # noqa: PTH117 - as above
+
+
+def _check_words(words: Sequence[Value], run: Resolution) -> None:
+    """Tell of the first word that means something to a shell alone, where none is asked for."""
+    for word in words:
+        if word.text in _OF_A_SHELL:
+            message = (
+                f"'{word.text}' is handed to the program as it is: only with shell=true it is the shell's"
+            )
+            run.problems.warning(Code.BAD_VALUE, message, word.location)
+            return
