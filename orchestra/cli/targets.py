@@ -27,6 +27,8 @@ _YAML_NAME = re.compile(r"\.ya?ml$")
 _PARAMETERS_KEY = re.compile(
     r"""^[^#\n]*(?<![A-Za-z])ros[_-]*p[a-z]{1,4}m[a-z]{0,6}["']?\s*:""", re.MULTILINE | re.IGNORECASE
 )
+_PARAMETERS_PATH = re.compile(r"(?:^|/)(?:config|cfg|params?|parameters)/[^/]*$|param[^/]*$")
+_KEY = re.compile(r"""^["']?[A-Za-z]\w*["']?\s*:""", re.MULTILINE)
 _NODE_KEY = re.compile(r"""^["']?/[\w/*]*["']?\s*:""", re.MULTILINE)
 
 
@@ -94,5 +96,12 @@ def _kind_of_file(path: str, *, named: bool = False) -> Kind | None:
     except OSError:
         text = ""  # whoever checks it by its name will say that it cannot be read
     kind = kind_of(name, text)
-    lacking = named and kind is None and _YAML_NAME.search(name) and _NODE_KEY.search(text)
+    lacking = named and kind is None and _YAML_NAME.search(name) and _may_hold_parameters(path, text)
     return "parameters" if lacking else kind
+
+
+def _may_hold_parameters(path: str, text: str) -> bool:
+    """Return whether a file without the mark is rather one of parameters: by a node in it, or where it is."""
+    return _NODE_KEY.search(text) is not None or (
+        _PARAMETERS_PATH.search(path) is not None and _KEY.search(text) is not None and "launch" not in text
+    )

@@ -12,7 +12,7 @@ from orchestra.resolve.rcl.scalars import SLIPS
 
 _NUMBER: Final = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 _ENDED: Final = pattern(rf"({_NUMBER}|true|True|false|False)[,;]|(true|True|false|False)\.")
-_DECIMAL: Final = pattern(r"[-+]?(?:0,[0-9]+|[0-9]+,(?:[0-9]{1,2}|[0-9]{4,}))")
+_DECIMAL: Final = pattern(r"[-+]?(?:0,[0-9]+|[0-9]+,(?:[0-9]{1,2}|[0-9]{4,}))(?:[eE][-+]?[0-9]+)?")
 _COMMENTED: Final = pattern(rf"({_NUMBER}|true|True|false|False)(?:#+\s?|\s+//\s*)(\S.*)")
 _SEVERAL: Final = pattern(rf"{_NUMBER}(?:\s*,\s*{_NUMBER})+,?")
 

@@ -15,10 +15,11 @@ import yaml
 from orchestra.errors import Code, Problems
 from orchestra.load.offsets import source
 from orchestra.location import Location, Span
+from orchestra.patterns import pattern
 from orchestra.resolve.rcl.duplicates import report_duplicates
 from orchestra.resolve.rcl.nesting import NESTED, as_text
 from orchestra.resolve.rcl.opened import Unreadable
-from orchestra.resolve.rcl.reader import Reader
+from orchestra.resolve.rcl.reader import ALIAS, Reader
 from orchestra.resolve.rcl.strays import SECTION_KEY
 from orchestra.resolve.rcl.surprises import BREAK, report_surprises
 from orchestra.resolve.rcl.values import LOADER
@@ -31,6 +32,7 @@ if TYPE_CHECKING:
 
     _Change: TypeAlias = Callable[[Iterator[yaml.Event]], Iterator[yaml.Event]]
 
+_ANCHORED: Final = pattern(r"\s*:\s+&\w+\s*$")
 _EVERY_NODE: Final = ("/**", SECTION_KEY)
 
 
@@ -107,13 +109,31 @@ def _read(
             again, event, lambda: Reader(file, found, included_from, template=template)
         )
     sections = (*reader.sections(), *further)
-    if any(problem.message == NESTED for problem in found):
-        lines = BREAK.split(text)
-        found.amend(lambda problem: as_text(problem, lines))
+    _amend(found, text)
     problems.extend(found)
     report_duplicates(sections, problems)
     report_surprises(sections, text, problems)
     return sections, not reader.lost
+
+
+def _amend(found: Problems, text: str) -> None:
+    """Add what only the text shows to what has been found; leave out what is told of mappings for aliases."""
+    if any(problem.message == NESTED for problem in found):
+        lines = BREAK.split(text)
+        found.amend(lambda problem: as_text(problem, lines))
+    if any(problem.message.startswith(ALIAS) for problem in found):
+        anchored = BREAK.split(text)
+        found.amend(lambda problem: None if _is_anchored(problem, anchored) else problem)
+
+
+def _is_anchored(problem: Problem, lines: Sequence[str]) -> bool:
+    """Return whether something is told of a mapping that is there for aliases, which rcl does not take."""
+    span = problem.span
+    return (
+        span is not None
+        and not problem.message.startswith(ALIAS)
+        and _ANCHORED.match(lines[span.line - 1], span.end_column - 1) is not None
+    )
 
 
 def _before(span: Span, problems: Sequence[Problem]) -> list[Problem]:

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
 _FEWEST: Final = 3  # of two items either may be the odd one: it is the second
 _WHOLE: Final = pattern(r"[-+]?(?:0|[1-9][0-9]*)")
 _POINTED: Final = pattern(r"([-+]?(?:0|[1-9][0-9]*))\.0*")
+_NUMBERS: Final = pattern(
+    r"{0}(?:\s+{0})+".format(r"[-+]?(?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)")
+)  # without commas
 _BOOLEANS: Final = ("true", "false")
 _TYPES: Final = (bool, int, float)
 
@@ -56,6 +59,8 @@ def in_place(text: str, wanted: type, *, quoted: bool, quote: str = '"') -> str 
         return text if wanted in _TYPES and type(typed(text)) is wanted else None
     if wanted is bool:
         return _boolean(text, value)
+    if wanted in (int, float) and type(value) is str and _NUMBERS.fullmatch(text):
+        return ", ".join(text.split())
     if wanted is float:
         return f"{text}.0" if type(value) is int and _WHOLE.fullmatch(text) else None
     pointed = _POINTED.fullmatch(text) if wanted is int else None

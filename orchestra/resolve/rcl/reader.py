@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     from orchestra.values import ParameterValue
 
 _BELOW = f"stands below one that has '{SECTION_KEY}' itself, which rcl cannot read: write its full name apart"
+ALIAS = "rcl does not take aliases"
 _NO_KEY, _NO_DOCUMENT = "a key must not be empty", "rcl does not take an empty document"
 
 
@@ -270,7 +271,7 @@ class Reader:
 
     def alias(self, event: yaml.AliasEvent) -> None:
         """Report an alias, and go on as if a faulty value stood there."""
-        message = f"rcl does not take aliases ('*{event.anchor}'): repeat the value"
+        message = f"{ALIAS} ('*{event.anchor}'): repeat the value"
         if self.expects_key:
             raise self.unreadable(message, event)
         self.error(message, self.at(event))
