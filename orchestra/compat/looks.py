@@ -52,17 +52,18 @@ def _lists_names(code: CodeType) -> bool:
     """Return whether a dictionary is made of names that are not one constant."""
     written = code.co_code
     adding, building = _instructions()
-    if adding in written[::2] or any(sign in written for sign in building):
+    if adding in written[::2] or building.search(written) is not None:
         return True
     return any(_lists_names(item) for item in code.co_consts if type(item) is CodeType)
 
 
 @cache
-def _instructions() -> tuple[int, list[bytes]]:
+def _instructions() -> tuple[int, re.Pattern[bytes]]:
     """Return the operation that adds to a dictionary, and the instructions that make one of several names at once."""
     from opcode import opmap  # noqa: PLC0415 - once
 
-    return opmap["MAP_ADD"], [bytes((opmap["BUILD_MAP"], names)) for names in range(2, _PIECE)]
+    several = b"[" + re.escape(bytes(range(2, _PIECE))) + b"]"
+    return opmap["MAP_ADD"], re.compile(re.escape(bytes((opmap["BUILD_MAP"],))) + several)
 
 
 def _doubles(source: bytes) -> bool:
