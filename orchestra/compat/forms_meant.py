@@ -197,6 +197,17 @@ def _actions(source: str, value: Any) -> str | None:
     return f"[{source}]" if callable(getattr(value, "visit", None)) else None
 
 
+def _one(source: str, value: Any) -> str | None:
+    """Return a list of one thing that is no list itself."""
+    return f"[{source}]" if not isinstance(value, dict | list | set | str | tuple) else None
+
+
+def _emitted(source: str, value: Any) -> str | None:
+    """Return the action that lets an event happen which stands in place of one."""
+    is_event = any(kind.__name__ == "Event" for kind in type(value).__mro__)
+    return f"EmitEvent(event={source})" if is_event else _actions(source, value)
+
+
 def _misplaced(source: str, value: Any) -> str | None:
     """Return the action that takes what stands in place of one."""
     if isinstance(value, list | tuple):
@@ -264,8 +275,10 @@ _FORMS: Final[dict[str, _Form]] = {
     "a list of actions, not 'shutdown'": _ending,
     "the event is launch.events": _event,
     "a name and its value are expected": _name_and_value,
+    "composable_node_descriptions is a list": _one,
     "is a list, this is": _actions,
     "are a list, this is": _actions,
+    "an event handler has ": _emitted,
     "returns a list of actions or None": _actions,
     "an action is expected here": _misplaced,
     "a list of actions is expected": _actions,

@@ -36,6 +36,9 @@ def explained(error: TypeError, frame: FrameType, place: Place) -> Explanation |
     twice = _TWICE.search(str(error))
     if twice is not None:
         span = keyword_span(place, twice[1]) or place.span
+        if not call.args and all(item.arg for item in call.keywords):
+            # The class itself gives it to the one that it derives from.
+            return Explanation(f"{name} has no argument '{twice[1]}'", Code.UNKNOWN_KEY, span)
         return Explanation(f"{name} is given '{twice[1]}' twice", Code.CONFLICTING_KEYS, span)
     parameters = {parameter.name: parameter for parameter in parameters_of(called)}
     keywords = [item.arg for item in call.keywords if item.arg is not None]
@@ -86,7 +89,12 @@ def _missing(error: TypeError, name: str, parameters: dict[str, Any], place: Pla
     text = str(error)
     if "missing" in text and "required" in text:
         words = " and ".join(_NAME.findall(text))
-        return Explanation(f"{name} needs {words}", Code.MISSING_KEY, place.span, _handed_over(place))
+        return Explanation(
+            f"{name} needs {words}",
+            Code.MISSING_KEY,
+            place.span,
+            _handed_over(place),
+        )
     if "positional argument" in text:
         by_place = sum(item.kind is _Parameter.POSITIONAL_OR_KEYWORD for item in parameters.values())
         message = f"{name} takes {by_place or 'no'} argument{'s' * (by_place != 1)} without a name"

@@ -1,4 +1,4 @@
-"""Classes that are not called: with square brackets behind them, or with none at all."""
+"""Classes that are not called, with square brackets behind them or none at all, and calls that lack what is in them."""
 
 from __future__ import annotations
 
@@ -29,6 +29,8 @@ def explained(error: TypeError, frame: FrameType, place: Place) -> Explanation |
     match node:
         case ast.Subscript(value=called, slice=given) if "not subscriptable" in str(error):
             return _in_square_brackets(called, given, frame, place)
+        case ast.Call(func=ast.Attribute(attr="perform"), args=[], keywords=[]) if "'context'" in str(error):
+            return None if tree is None else _without_context(node, tree, place)
         case ast.Call(func=ast.Attribute(value=ast.Name() as name)) if "missing" in str(error):
             return None if tree is None else _uncalled(name, frame, place, tree)
     if tree is not None and "unsupported operand" in str(error):
@@ -52,6 +54,14 @@ def _in_square_brackets(
     message = f"{kind.__name__} is called with round brackets: {kind.__name__}(...)"
     meant = Rewritten(code) if len(code) <= _MOST else None
     return Explanation(message, Code.WRONG_TYPE, place.span, meant)
+
+
+def _without_context(call: ast.Call, tree: Tree, place: Place) -> Explanation:
+    """Return that a substitution is performed without the context, which the function around it may have."""
+    arguments = [item.arg for around in tree.functions_around(call) for item in around.args.args]
+    context = next((item for item in arguments if "context" in item or item == "ctx"), None)
+    meant = None if context is None else Rewritten(f"{ast.unparse(call.func)}({context})")
+    return Explanation("perform needs 'context'", Code.MISSING_KEY, place.span, meant)
 
 
 def _uncalled(name: ast.Name, frame: FrameType, place: Place, tree: Tree) -> Explanation | None:

@@ -286,6 +286,7 @@ def _as_grave(plan: Planned) -> set[tuple[str, str]]:
     How many there are of a kind is not compared: several in one call of Python may be at one place. Nor are arguments
     that nobody reads: code in which the name stands as a text, of a parameter say, is taken to read it. Nor is what
     working Python files have much of: keys and remaps that do nothing, defaults that never count, parameters that stand in a list twice.
+    Texts in place of truth values and the like are warnings in Python alone, where ROS 2 refuses them.
     """
     twice = Code.DUPLICATE_NODE.value
     silent = {
@@ -294,11 +295,12 @@ def _as_grave(plan: Planned) -> set[tuple[str, str]]:
         Code.SHADOWED_ARGUMENT.value,
         Code.IDLE_REMAP.value,
         Code.DUPLICATE_PARAMETER.value,
+        Code.DUPLICATE_KEY.value,  # two pairs of one name are one dictionary in Python
     }
     return {
         (code, "error" if code == twice else severity)
         for code, severity in plan.problems
-        if code not in silent
+        if code not in silent and (code, severity) != (Code.WRONG_TYPE.value, "warning")
     }
 
 

@@ -44,12 +44,16 @@ _TEXTS = {
     "name": "name",
     "namespace": "namespace",
     "output": "output",
-    "respawn": "respawn",
-    "respawn_delay": "respawn_delay",
     "sigkill_timeout": "sigkill_timeout",
     "sigterm_timeout": "sigterm_timeout",
 }
-_PLAIN = {"shell": "shell", "respawn_max_retries": "respawn_max_retries", "autostart": "autostart"}
+_PLAIN = {
+    "shell": "shell",
+    "respawn": "respawn",
+    "respawn_delay": "respawn_delay",
+    "respawn_max_retries": "respawn_max_retries",
+    "autostart": "autostart",
+}
 _EXTENSIONS = (
     "alive",
     "depends_on",
@@ -290,14 +294,18 @@ def _group(content: Content) -> str:
 def _include(content: Content) -> str:
     found = {key: _extension(content[key]) for key in _EXTENSIONS if key in content}
     if "arg" in content:
-        found["launch_arguments"] = _pairs(content["arg"])
+        found["launch_arguments"] = f"{_pairs(content['arg'])}.items()"
     keywords = "".join(f", {key}={value}" for key, value in (found | _condition(content)).items())
     return f"IncludeLaunchDescription({text(content['file'])}{keywords})"
 
 
 def _timer(name: str) -> Callable[[Content], str]:
     def write(content: Content) -> str:
-        found = {"period": _flag(content["period"]), "actions": f"[{_actions(content['children'])}]"}
+        period = content["period"]  # ROS 2 takes no whole number
+        found = {
+            "period": _flag(float(period) if isinstance(period, int) else period),
+            "actions": f"[{_actions(content['children'])}]",
+        }
         return _call(name, found | _condition(content))
 
     return write

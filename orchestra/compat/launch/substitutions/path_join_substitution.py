@@ -33,9 +33,10 @@ class PathJoinSubstitution(ParsedSubstitution):
 
     def __init__(self, substitutions: Iterable[Sub]) -> None:
         super().__init__()
-        self.__substitutions = [_component(item) for item in _listed(substitutions)]
-        if not self.__substitutions:
+        components = [_component(item) for item in _listed(substitutions)]
+        if not components:
             raise WrongType("a PathJoinSubstitution needs at least one component", path=("substitutions",))
+        self.__substitutions = components
 
     @classmethod
     def parse(cls, data: Sequence[Sub]) -> tuple[type[Self], dict[str, Any]]:
