@@ -15,7 +15,6 @@ from orchestra.description.conflict import Conflict
 from orchestra.description.core import PydanticCustomError, ValidationError
 from orchestra.description.fields import Flag
 from orchestra.description.model import Model, field
-from orchestra.description.remaining import sound_values
 from orchestra.description.source import Keyed
 from orchestra.description.text import Template
 from orchestra.errors import Problem
@@ -217,6 +216,9 @@ class Entity(Model):
         try:
             entity = handler(cls.completed(values))
         except ValidationError as error:
+            # Here, because only mistakes need it.
+            from orchestra.description.remaining import sound_values  # noqa: PLC0415
+
             faulty, details = True, _details(error)
             wrong = reader.faults(mapping, details)
             values = sound_values(mapping, wrong, details)

@@ -13,7 +13,6 @@ from orchestra.errors import Code, Problems
 from orchestra.fields import replace
 from orchestra.load.braces import warn_of_braces
 from orchestra.load.elements import beginning_of, noun
-from orchestra.load.expressions import as_substitutions
 from orchestra.load.grammar import parse_template, sound_template, unescaped
 from orchestra.load.keys import known_keys
 from orchestra.load.pairs import (
@@ -167,6 +166,9 @@ class Reader:
         key = str(place[-1])
         suggestion = error.get("ctx", {}).get("suggestion") or written_as_list(key, error["input"])
         if suggestion is None and kind == "wrong_type" and isinstance(error["input"], Written):
+            # Here, because only mistakes need it.
+            from orchestra.load.expressions import as_substitutions  # noqa: PLC0415
+
             suggestion = as_substitutions(error["input"].text, self.text)
         head, value = _way(mapping, place)
         if kind == STRAY_KEY:

@@ -10,7 +10,6 @@ from orchestra.resolve.containers import settle_containers
 from orchestra.resolve.context import CommandRunner, Context, Packages, Value
 from orchestra.resolve.found import Found
 from orchestra.resolve.given import given_sections
-from orchestra.resolve.idle_lets import warn_of_idle_lets
 from orchestra.resolve.interpret import visit, visit_file
 from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.model import Resolved
@@ -55,7 +54,11 @@ def carry_through(description: Description, run: Resolution) -> Resolved:
             run.report_endless(error)
         names = [Given(item.name, Location(item.span)) for item in run.inputs.arguments]
         settle(names, description, ledger, run)
-        warn_of_idle_lets(ledger, run)
+        if run.found.lets:
+            # Here, because few launch files have any.
+            from orchestra.resolve.idle_lets import warn_of_idle_lets  # noqa: PLC0415
+
+            warn_of_idle_lets(ledger, run)
     _tell_doubts(run)
     warn_of_unpackaged(run)
     return outcome(description.file, run)

@@ -15,7 +15,6 @@ from orchestra.location import is_python
 from orchestra.resolve.context import POISON
 from orchestra.resolve.python.environ import put_environment
 from orchestra.resolve.substitutions.arguments import made, texts
-from orchestra.resolve.substitutions.constant_expressions import of_constants
 
 if TYPE_CHECKING:
     from orchestra.description.text import Call
@@ -29,6 +28,9 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
     if words is None:
         return POISON
     expression, modules = words[0].strip(), words[1] if len(words) > 1 else "math"
+    # Here, because few launch files have expressions.
+    from orchestra.resolve.substitutions.constant_expressions import of_constants  # noqa: PLC0415
+
     known = of_constants(expression) if len(words) == 1 else None
     if known is not None:
         return made(call, context, known)
