@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
 from orchestra.location import is_python
+from orchestra.nearest import nearest
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
@@ -26,6 +27,11 @@ OPTIONS: Final = {
     **dict.fromkeys(("-r", "--remap"), "FROM:=TO"),
     **dict.fromkeys(("-p", "--param"), "NAME:=VALUE"),
 }
+_TAKING: Final = frozenset(
+    {*OPTIONS, "--params-file", "--log-level", "--log-config-file", "--log-file-name", "-e", "--enclave"}
+)
+_LOGS: Final = ("stdout-logs", "rosout-logs", "external-lib-logs")
+_SWITCHES: Final = frozenset(f"--{how}able-{logs}" for how in ("en", "dis") for logs in _LOGS)
 _JOINED: Final = pattern(r"([\w/~.]+)(?:=|:)([^=:\s]+)")
 _FOR_ROS: Final = "--ros-args"
 _ALIKE: Final = pattern(r"-{0,2}ros[-_]?args?:?")
@@ -43,6 +49,7 @@ def check_rules(words: Sequence[Value], problems: Problems, *, for_ros: bool) ->
     if not for_ros:
         _check_in_vain(words, problems)
         _check_joined(words, problems)
+    _check_unknown(words, problems, for_ros=for_ros)
     for option, word in _rules(words, for_ros=for_ros):
         if ":=" in word.text:
             continue
@@ -69,6 +76,24 @@ def _check_in_vain(words: Sequence[Value], problems: Problems) -> None:
             told = f"'{word.text}' is read by ROS only behind {_FOR_ROS}"
             whole = _is_written(word) and not is_python(word.location)
             problems.warning(Code.BAD_VALUE, told, word.location, suggestion=instead if whole else None)
+            return
+
+
+def _check_unknown(words: Sequence[Value], problems: Problems, *, for_ros: bool) -> None:
+    """Report the first word behind `--ros-args` that rcl does not know: the node ends at once (UnknownROSArgsError)."""
+    reads, taken = for_ros, False
+    for word in words:
+        text = word.text
+        if text in (_FOR_ROS, "--"):
+            reads, taken = text == _FOR_ROS, False
+        elif taken or not reads or text in _TAKING | _SWITCHES:
+            taken = reads and not taken and text in _TAKING
+        else:
+            rule = f"-r {text}" if _RULE.fullmatch(text) else None
+            instead = rule or (nearest(text, _TAKING | _SWITCHES) if text[:1] == "-" else None)
+            told = f"'{text}' is nothing that ROS knows behind {_FOR_ROS}: the node ends at once"
+            whole = _is_written(word) and not (rule and is_python(word.location))
+            problems.error(Code.BAD_VALUE, told, word.location, suggestion=instead if whole else None)
             return
 
 
