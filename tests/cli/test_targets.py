@@ -98,3 +98,24 @@ def test_nothing_to_look_at_is_a_mistake(tree: Path, path: str) -> None:
     (tree / "empty").mkdir()
     with pytest.raises(UsageError, match=path):
         targets([".", path])
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "kind"),
+    [
+        ("config/talker.yaml", "talker:\n  rate: 10\n", "parameters"),
+        ("talker_params.yaml", "talker:\n  rate: 10\n", "parameters"),
+        ("config/robot.yaml", "launches:\n- node: {}\n", "launch"),
+        ("config/robot.yaml", "- node: {}\n", "launch"),
+        ("maps/arena.yaml", "image: arena.pgm\n", "launch"),
+    ],
+)
+def test_a_file_that_is_named_may_lack_the_mark(tmp_path: Path, name: str, text: str, kind: str) -> None:
+    """One of parameters is told from a launch file by where it is, and in a folder neither is looked at."""
+    path = tmp_path / name
+    path.parent.mkdir(exist_ok=True)
+    path.write_text(text, "utf-8")
+    (found,) = targets([str(path)])
+    assert found.kind == kind
+    with pytest.raises(UsageError, match="no parameter file"):
+        targets([str(tmp_path)])
