@@ -53,6 +53,15 @@ def _some(**keys: st.SearchStrategy[Any]) -> st.SearchStrategy[dict[str, Any]]:
     return st.fixed_dictionaries({}, optional=keys)
 
 
+def _kept(values: st.SearchStrategy[Any]) -> st.SearchStrategy[list[dict[str, Any]]]:
+    """Return names with values, each name once: a dictionary of Python in which one stands twice is told."""
+    return st.lists(
+        st.fixed_dictionaries({"name": _names, "value": values}),
+        max_size=2,
+        unique_by=lambda pair: pair["name"],
+    )
+
+
 _param = st.recursive(
     st.fixed_dictionaries({"name": _names, "value": _scalars | _lists})
     | st.fixed_dictionaries({"name": _names, "value": any_text, "type": st.just("str")}),
@@ -208,9 +217,7 @@ _rich = st.one_of(
     ),
     st.fixed_dictionaries(
         {
-            "keep": st.lists(
-                st.fixed_dictionaries({"name": _names, "value": any_text.map(escaped)}), max_size=2
-            ),
+            "keep": _kept(any_text.map(escaped)),
             "children": st.lists(ordinary, max_size=2),
         }
     ).map(lambda keys: {"group": keys}),
@@ -218,9 +225,7 @@ _rich = st.one_of(
     st.fixed_dictionaries(
         {"file": st.just("inner.launch.yaml")},
         optional={
-            "arg": st.lists(
-                st.fixed_dictionaries({"name": _names, "value": any_text.map(escaped)}), max_size=2
-            ),
+            "arg": _kept(any_text.map(escaped)),
             "scoped": st.booleans(),
             "label": st.just("l"),
             "for_each": st.dictionaries(
@@ -234,9 +239,7 @@ _rich = st.one_of(
         {"name": _names, "value": any_text.map(escaped)},
         optional={"prepend": st.booleans(), "separator": any_text.map(escaped)},
     ).map(lambda keys: {"append_env": keys}),
-    _some(keep=st.lists(st.fixed_dictionaries({"name": _names, "value": _scalars}), max_size=2)).map(
-        lambda keys: {"reset": keys}
-    ),
+    _some(keep=_kept(_scalars)).map(lambda keys: {"reset": keys}),
     st.just({"reset_env": None}),
     st.fixed_dictionaries(
         {"exec": st.just("c"), "name": _names, "namespace": st.sampled_from(["", "n", "/m"])},
