@@ -11,6 +11,8 @@ if TYPE_CHECKING:
     from orchestra.errors import Problems
     from orchestra.resolve.model import ResolvedComponent, ResolvedProcess
 
+_ROOT = "/"  # where hardly any program chooses another namespace
+
 
 def check_remaps(process: ResolvedProcess | ResolvedComponent, problems: Problems) -> None:
     """Report rules that an earlier one, often of an outer scope, keeps from acting: the first that matches counts."""
@@ -20,7 +22,7 @@ def check_remaps(process: ResolvedProcess | ResolvedComponent, problems: Problem
     if len(sources) == len(process.remaps) and all(map(_is_apart, sources)):
         return
     rules = [read_rule(rule.source.text, rule.target.text) for rule in process.remaps]
-    namespace = process.namespace.text if process.namespace is not None else None
+    namespace = process.namespace.text if process.namespace is not None else _ROOT
     for dead in dead_rules(rules, namespace, process.name.text if process.name is not None else None):
         rule, earlier = process.remaps[dead.rule], process.remaps[dead.caught_by]
         if rule.target.text == earlier.target.text:
