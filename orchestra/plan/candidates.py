@@ -42,8 +42,12 @@ class Origins:
     def at(self, span: Span, chain: tuple[Span, ...]) -> ParameterSource | None:
         """Return the one that is written at a place."""
         for source in self.sources:
-            at = source.location
-            if (at.span is span or (self.in_code and at.span == span)) and at.included_from == chain:
+            if source.location.span is span and source.location.included_from == chain:
+                return source
+        # To compare places in Python they are worked out, and none is in a file of another kind.
+        for source in self.sources if self.in_code and is_python(span) else ():
+            around = source.location.included_from
+            if len(around) == len(chain) and source.location.span == span and around == chain:
                 return source
         return None
 
