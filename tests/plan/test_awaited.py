@@ -293,7 +293,7 @@ FAULTS = [
     ("alive: {command: a, timeout: 0}", "0", "expected a number of seconds above 0, found '0'", None),
     ("restart: allways", "allways", "expected one of no, on-failure, always", "always"),
     ("restart: [always]", "[always]", "expected a mapping, found a list", None),
-    ("restart: ~", "restart", "expected a mapping, found nothing", None),
+    ("restart: ~", "~", "expected a mapping, found nothing", None),
     ("restart: {delay: 1}", "restart", "the key 'policy' is missing", None),
     ("restart: {policy: always, growth: 0.9}", "0.9", "expected a factor of 1 or more, found '0.9'", None),
     ("restart: {policy: always, jitter: 1.1}", "1.1", "expected a share from 0 to 1, found '1.1'", None),
