@@ -36,6 +36,8 @@ _FEW: Final = frozenset(
         "substitution",
     )
 )
+# Modules of what nodes are given, which have little else.
+_TYPES: Final = ("launch_ros.parameter", "launch_ros.remap_rule_type")
 
 
 def borrowing(module: str) -> Callable[[str], Any]:
@@ -46,6 +48,10 @@ def borrowing(module: str) -> Callable[[str], Any]:
     packages = [name for name in PACKAGES if module.startswith(f"{ROOM}.launch_ros") or "_ros" not in name]
     if module.removeprefix(f"{ROOM}.") in _FEW:
         packages = ["launch"]
+    elif module.startswith(f"{ROOM}.ament_index_python"):
+        packages = ["ament_index_python"]
+    elif module.removeprefix(f"{ROOM}.").startswith(_TYPES):
+        packages = ["launch", "launch.utilities"]
 
     def attribute(name: str) -> Any:
         for package in () if name.startswith("_") else packages:

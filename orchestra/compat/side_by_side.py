@@ -69,9 +69,17 @@ def _made(statement: ast.AST) -> Iterator[ast.expr]:
 
 
 def _used(tree: Tree) -> Iterator[ast.expr]:
-    """Yield what stands as an action among others, or is added to a launch description."""
+    """Yield what stands as an action among others, or is added to a launch description; not what is repeated."""
+    repeated = [
+        child
+        for node in tree.nodes
+        if isinstance(node, ast.Call) and any(word.arg == "for_each" for word in node.keywords)
+        for child in ast.walk(node)
+    ]
     for node in tree.nodes:
         match node:
+            case ast.expr() if node in repeated:
+                continue
             case ast.List(elts=items) | ast.Tuple(elts=items):
                 yield from items
             case ast.Call(args=[item]) if called_by(node) in ("add_action", "add_entity", "append"):

@@ -94,13 +94,19 @@ def _no_name(name: str, module: ModuleType, place: Place) -> Explanation:
     module_name = module.__name__.removeprefix(f"{ROOM}.")
     elsewhere = [package for package in exporting(name) if package != module_name]
     other = word_in(place.file, place.span, module_name)
-    if elsewhere and other is not None and is_slip(module_name, elsewhere[0]):
+    if elsewhere and other is not None and _is_alike(module_name, elsewhere[0]):
         return Explanation(f"{module_name} has no '{name}'", span=other, suggestion=elsewhere[0])
     meant = nearest(name, _public(getattr(module, "__all__", dir(module))))
     span, told = word_in(place.file, place.span, name), f"{module_name} has no '{name}'"
     if elsewhere:
         told, meant = f"{told}: it is in {elsewhere[0]}", importing(name)
     return Explanation(told, span=span, suggestion=meant)
+
+
+def _is_alike(module: str, other: str) -> bool:
+    """Return whether one module is surely written for another one: `launch.substitution` for `launch.substitutions`."""
+    (parent, _, last), (other_parent, _, other_last) = module.rpartition("."), other.rpartition(".")
+    return parent == other_parent and (is_one_slip(last, other_last) or other_last.startswith(last))
 
 
 def _no_module(name: str, place: Place) -> Explanation:

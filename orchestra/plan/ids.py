@@ -98,7 +98,9 @@ def _tell_twice(processes: Sequence[ResolvedProcess | ResolvedComponent], proble
     seen: set[int] = set()
     for process in processes:
         origin = process.origin
-        if origin is None or isinstance(process, ResolvedComponent) or id(origin) not in seen:
+        if origin is None or isinstance(process, ResolvedComponent):
+            continue
+        if id(origin) not in seen:
             seen.add(id(origin))
             continue
         # Here, because few actions are, and what it imports.

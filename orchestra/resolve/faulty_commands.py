@@ -73,7 +73,7 @@ def _without_blank(word: str, written: Template, command: Value, context: Contex
         at = command.text.find(word)
         if is_program and at >= 0:
             span, text = stands_at(written, command.text, at, at + end)
-            told = f"a blank is missing between {displayed(program)} and {displayed(path)}"
+            told = f"a blank, ' ', is missing between {displayed(program)} and {displayed(path)}"
             instead = None if text is None else f"{text} "
             context.problems.error(Code.COMMAND_FAILED, told, context.at(span), suggestion=instead)
             return True
