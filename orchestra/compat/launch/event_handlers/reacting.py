@@ -6,15 +6,15 @@ from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.building import models_of
+from orchestra.compat.launch.event import Event
 from orchestra.compat.launch.event_handler import BaseEventHandler, entities_of, is_of_ours
+from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.compat.wrong import WrongType
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from orchestra.compat.launch.event import Event
     from orchestra.compat.launch.launch_context import LaunchContext
-    from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 
 _GIVEN = 2
 _ANY_NUMBER = 4  # `inspect.CO_VARARGS`, which is slow to import
@@ -27,6 +27,12 @@ class ReactingEventHandler(BaseEventHandler):
         super().__init__(matcher=matcher, **kwargs)
         if type(reaction) is FunctionType:
             _check_arguments(reaction)
+        elif isinstance(reaction, type) and issubclass(reaction, Event | LaunchDescriptionEntity):
+            name = reaction.__name__
+            told_so = (
+                f"actions or a function are expected here, this is the class {name}: brackets make an object"
+            )
+            raise WrongType(told_so, reaction)
         self.__function = reaction if callable(reaction) else None
         self.__entities = [] if callable(reaction) else entities_of(reaction)
 
