@@ -42,10 +42,16 @@ def has_doubled_keys(module: ModuleType, source: bytes) -> bool:
 def _repeats(code: CodeType) -> bool:
     """Return whether a text is twice in one constant."""
     return any(
-        (type(item) is tuple and len(item) > 1 and len(set(item)) < len(item))
+        (type(item) is tuple and len(set(item)) < len(item) and _repeats_text(item))
         or (type(item) is CodeType and _repeats(item))
         for item in code.co_consts
     )
+
+
+def _repeats_text(items: tuple[object, ...]) -> bool:
+    """Return whether a text is twice among others, as numbers often are."""
+    texts = [item for item in items if type(item) is str]
+    return len(set(texts)) < len(texts)
 
 
 def _lists_names(code: CodeType) -> bool:

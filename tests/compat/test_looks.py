@@ -20,7 +20,11 @@ DOUBLED = {
     "in a class": f"{_SOUND}class Known:\n    names = {{'a': 1, 'a': 2}}\n",
     "in a branch": f"{_SOUND}if sound:\n    names = {{'a': 1, 'a': 2}}\n",
 }
-SOUND = {"many": _SOUND, "a long one": f"{_SOUND}def other():\n    return {{{_LONG}}}\n"}
+SOUND = {
+    "numbers in a list": f"{_SOUND}def other():\n    return {{'pose': [0.0, 0.0, 1.0], 'flags': [1, 1, 0]}}\n",
+    "many": _SOUND,
+    "a long one": f"{_SOUND}def other():\n    return {{{_LONG}}}\n",
+}
 
 
 @pytest.mark.parametrize("name", [*DOUBLED, *SOUND])
