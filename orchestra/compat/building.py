@@ -9,7 +9,6 @@ from orchestra.compat.explanation import told
 from orchestra.compat.launch.action import Action, ModelledAction
 from orchestra.compat.launch.condition import Condition
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
-from orchestra.compat.literals import item_span
 from orchestra.compat.place import Place, here
 from orchestra.compat.wrong import WrongType
 
@@ -65,6 +64,9 @@ def _model_or_opaque(entities: list[Any], index: int, place: Place) -> Model:
 
     entity = entities[index]
     if not isinstance(entity, LaunchDescriptionEntity):
+        # Here, because only mistakes need it, and what it imports.
+        from orchestra.compat.literals import item_span  # noqa: PLC0415
+
         return OpaqueAction.at(item_span(place, index, len(entities)), target=entity, origin=entity)
     try:
         return model_of(entity)

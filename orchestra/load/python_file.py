@@ -6,7 +6,6 @@ written beside it.
 
 from __future__ import annotations
 
-import linecache
 import sys
 from contextlib import contextmanager
 from importlib.machinery import ModuleSpec
@@ -44,7 +43,8 @@ _MODULE: Final = "python_launch_file"
 
 def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Description | None:
     """Run a launch file and return what it describes. What goes wrong is reported; None where nothing comes of it."""
-    linecache.checkcache(path)
+    if "linecache" in sys.modules:  # else nobody can have read the file by it
+        sys.modules["linecache"].checkcache(path)
     file = displayed(path, real)
     at = point(file)
     try:
