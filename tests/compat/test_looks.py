@@ -1,12 +1,19 @@
-"""Names that stand twice in dictionaries of launch files: a short look tells whether a syntax tree is worth it."""
+"""Mistakes in launch files that take a syntax tree to be found: a short look tells whether it is worth it."""
 
 from __future__ import annotations
 
 from types import ModuleType
+from typing import TYPE_CHECKING
 
 import pytest
 
+from orchestra.compat import syntax_trees
 from orchestra.compat.looks import has_doubled_keys
+from orchestra.errors import Problems
+from orchestra.pipeline import collect, inputs_from
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 # Many dictionaries with the same names, none of which is wrong.
 _SOUND = "def sound(make, name):\n    return [\n" + "        make({'a': 1, 'b': 2}),\n" * 20 + "    ]\n"
@@ -34,3 +41,52 @@ def test_names_that_may_stand_twice_are_looked_for(name: str) -> None:
     module.__file__ = "file.launch.py"
     exec(compile(source, "file.launch.py", "exec"), vars(module))  # noqa: S102 - a launch file is code
     assert has_doubled_keys(module, source) == (name in DOUBLED)
+
+
+_WHOLE = """\
+import os
+
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, GroupAction
+from launch.conditions import IfCondition
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution, PythonExpression
+from launch_ros.actions import Node, PushRosNamespace, SetParameter
+
+FOLDER = os.path.dirname(__file__)
+FLAGS = [True, True, False]
+
+
+def node(number, *, robot):
+    return Node(
+        executable="true",
+        name=f"node{number}",
+        namespace=robot,
+        arguments=["--level", str(number), "-v"],
+        parameters=[{"pose": [0.0, 0.0, 0.5], "flags": FLAGS, "inner": {"rate": 5, "frame": [robot, "/base"]}}],
+        remappings=[("scan", f"scan{number}"), ("/tf", "tf"), ("/tf_static", "tf_static")],
+    )
+
+
+def generate_launch_description():
+    robot = LaunchConfiguration("robot")
+    unread = LaunchConfiguration("robot")
+    enabled = PythonExpression(["'", robot, "' != ''"])
+    ld = LaunchDescription([DeclareLaunchArgument("robot", default_value="robot", description="robot: '/' or a name")])
+    ld.add_action(GroupAction([PushRosNamespace("arm"), SetParameter("use", True), node(0, robot=robot)]))
+    for number in range(1, 4):
+        ld.add_action(node(number, robot=robot))
+    last = Node(executable="true", name="last", condition=IfCondition(enabled), output={"both": "log"})
+    ld.add_action(last)
+    return ld
+"""
+
+
+def test_a_sound_file_takes_no_syntax_tree(tmp_path: Path) -> None:
+    path = tmp_path / "sound.launch.py"
+    path.write_text(_WHOLE, "utf-8")
+    before, problems = syntax_trees._tree.cache_info().misses, Problems()
+    plan = collect(str(path), inputs_from([], environment={"PATH": "/usr/bin:/bin"}), problems)
+    assert plan is not None
+    assert not [*problems]
+    assert len(plan.processes) == 5
+    assert syntax_trees._tree.cache_info().misses == before
