@@ -14,6 +14,7 @@ _Parameter = inspect.Parameter
 _SHORT: Final = 3
 # Words of other languages of launch files, of former releases, and what people write for them.
 _MEANINGS: Final = {
+    "action": ("actions", "target_action"),
     "args": ("arguments",),
     "command": ("cmd", "command"),
     "cmd_args": ("arguments",),

@@ -23,6 +23,8 @@ _ANY_NUMBER = 4  # `inspect.CO_VARARGS`, which is slow to import
 class ReactingEventHandler(BaseEventHandler):
     """Visit entities, or call `reaction(event, context)` and visit what it returns. Raises `TypeError` for others."""
 
+    _given_by_subclasses: tuple[str, ...] = ("matcher", "reaction")
+
     def __init__(self, *, matcher: Callable[[Any], bool], reaction: Any, **kwargs: Any) -> None:
         super().__init__(matcher=matcher, **kwargs)
         if type(reaction) is FunctionType:
