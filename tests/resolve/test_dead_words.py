@@ -158,6 +158,7 @@ ALIVE: dict[str, str] = {
     "settings for what comes later": "- timer:\n    period: 1.0\n    children:\n    "
     + node("a")
     + "- set_parameter: {name: use_sim_time, value: true}\n",
+    "an environment at the end of a file": node("a") + "- set_env: {name: A, value: b}\n",
     "nothing but settings": "- group:\n    children:\n    - set_env: {name: A, value: b}\n",
     "the ends of signals": node("a", success_exit_codes="[0, 130, -15]"),
 }

@@ -13,6 +13,7 @@ from orchestra.errors import Code
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from collections.abc import Set as AbstractSet
 
     from orchestra.description.entity import Action
     from orchestra.resolve.resolution import Resolution
@@ -30,7 +31,9 @@ _NODES: Final = frozenset({"Include", "LifecycleNode", "LoadComposableNode", "No
 _PROCESSES: Final = _NODES | {"Executable"}
 
 
-def check_late(children: Sequence[Action], run: Resolution) -> None:
+def check_late(
+    children: Sequence[Action], run: Resolution, *, settings: AbstractSet[str] = _SETTINGS
+) -> None:
     """Tell of settings in a scope that nothing follows although what they could count for stands before them."""
     if not children or type(children[-1]).__name__ not in _BESIDE:
         return
@@ -38,7 +41,7 @@ def check_late(children: Sequence[Action], run: Resolution) -> None:
     last = max((at for at, name in enumerate(names, 1) if name not in _BESIDE), default=0)
     before = _started(children[:last])
     for child, name in zip(children[last:], names[last:], strict=True):
-        if name in _SETTINGS and before & (_PROCESSES if name in _ENVIRONMENT else _NODES):
+        if name in settings and before & (_PROCESSES if name in _ENVIRONMENT else _NODES):
             what = "process" if name in _ENVIRONMENT else "node"
             message = f"this counts for what follows it, and no {what} does"
             run.problems.warning(Code.IDLE_KEY, message, run.at(child.span))
@@ -53,7 +56,10 @@ def _started(actions: Sequence[Action]) -> set[str]:
 
 
 def check_late_in_file(children: Sequence[Action], run: Resolution) -> None:
-    """Do the same for all of a description: what is carried out when something happens sees what is set until then."""
+    """Do the same for all of a description: what is carried out when something happens sees what is set until then.
+
+    Variables of the environment are left alone: people end files with one that does no harm, or set it for includers.
+    """
     later = any(item.delay is not None or item.on.event != "run_started" for item in run.found.occasions)
     if not later and not any(isinstance(child, OpaqueAction) for child in children):
-        check_late(children, run)
+        check_late(children, run, settings=_SETTINGS - _ENVIRONMENT)
