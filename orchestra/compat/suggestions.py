@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.as_texts import without_echoes
+from orchestra.compat.glued_paths import without_slash
 from orchestra.compat.late_roots import without_followers
 from orchestra.compat.literals import Literal, argument
 from orchestra.compat.place import Argument
@@ -52,7 +53,7 @@ def in_place(problem: Problem) -> Problem:
     found = _found(span)
     if isinstance(span, Argument):
         problem = replace(problem, span=found.span)
-    root = _late_root(found) if problem.code is Code.MISSING_FILE else None
+    root = _late_root(found) or _glued(found, problem.message) if problem.code is Code.MISSING_FILE else None
     if root is not None:
         return replace(problem, span=root[0], suggestion=root[1])
     if meant is None:
@@ -90,6 +91,14 @@ def _late_root(found: Literal) -> tuple[Span, str] | None:
         if isinstance(part, ast.Constant) and isinstance(part.value, str) and part.value.startswith("/"):
             return node_span(found.file, part), part.value.lstrip("/")
     return None
+
+
+def _glued(found: Literal, message: str) -> tuple[Span, str] | None:
+    """Return a later part of a path that lacks the slash before it, and with it."""
+    tree = tree_of(found.file)
+    node = found.node if found.node is None or tree is None else tree.meaning(found.node)
+    part = without_slash(node, message)
+    return None if part is None else (node_span(found.file, part[0]), part[1])
 
 
 def _later_parts(node: ast.expr | None) -> Sequence[ast.expr]:
