@@ -215,3 +215,25 @@ def test_the_loggers_of_python_are_left_alone() -> None:
     launch_logging.reset()
     assert launch_logging.get_logger("of.launch").handlers == launch_logging.get_logger("other").handlers
     assert launch_config.level == logging.INFO
+
+
+@pytest.mark.conforms("1.11 launch_config")
+@pytest.mark.parametrize(
+    ("variables", "folder"),
+    [
+        ({}, "/home/her/.ros/log"),
+        ({"ROS_HOME": "/ros"}, "/ros/log"),
+        ({"ROS_HOME": "/ros", "ROS_LOG_DIR": "~/logs//own/"}, "/home/her/logs/own"),
+        ({"ROS_HOME": "", "ROS_LOG_DIR": ""}, "/home/her/.ros/log"),
+    ],
+)
+def test_launch_files_get_the_folder_of_all_logs(
+    monkeypatch: pytest.MonkeyPatch, variables: dict[str, str], folder: str
+) -> None:
+    for name in ("ROS_HOME", "ROS_LOG_DIR"):
+        monkeypatch.delenv(name, raising=False)
+    for name, value in {"HOME": "/home/her", **variables}.items():
+        monkeypatch.setenv(name, value)
+    assert launch_logging._get_logging_directory() == folder
+    launch_config._log_dir = f"{folder}/mine"
+    assert launch_config.log_dir == launch_config.given_log_dir == f"{folder}/mine"

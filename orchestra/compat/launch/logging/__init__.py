@@ -6,6 +6,7 @@ The loggers are a tree of their own, so that nothing of a launch file is left in
 from __future__ import annotations
 
 import logging
+import os
 
 from orchestra.compat.launch.logging import handlers
 from orchestra.compat.launch.logging.config import LaunchConfig
@@ -35,6 +36,13 @@ def get_logger(name: str | None = None) -> logging.Logger:
         if handler not in logger.handlers:
             logger.addHandler(handler)
     return logger
+
+
+def _get_logging_directory() -> str:
+    """Return the folder that ROS 2 keeps its logs in; launch files import it to put those of theirs beside them."""
+    home = os.environ.get("ROS_HOME") or "~/.ros"
+    folder = os.environ.get("ROS_LOG_DIR") or os.path.join(home, "log")  # noqa: PTH118 - text in, text out
+    return os.path.normpath(os.path.expanduser(folder))  # noqa: PTH111 - text in, text out
 
 
 def log_launch_config(*, logger: logging.Logger = root) -> None:
