@@ -19,8 +19,8 @@ _OUTSIDE: Final = re.compile(
     rb"|(?:async|class|el|except|finally|for|if|match|try|w[hi]))",
     re.MULTILINE,
 )
-_BLANKS: Final = b" \t\n"
-_QUOTES: Final = (b"'", b'"')
+_BLANKS: Final = b" \t\r\n\f"
+_QUOTES: Final = b"'\""
 _OPTIONS: Final = (b"'-", b'"-')
 _TOPICS: Final = (b"'/", b'"/')
 
@@ -103,7 +103,10 @@ def has_joined_words(source: bytes) -> bool:
 def _is_behind_text(source: bytes, sign: bytes) -> bool:
     place = source.find(sign)
     while place > 0:
-        if source[place - 1] in _BLANKS and source[:place].rstrip()[-1:] in _QUOTES:
+        last = place - 1
+        while last > 0 and source[last] in _BLANKS:
+            last -= 1
+        if last < place - 1 and source[last] in _QUOTES:
             return True
         place = source.find(sign, place + 2)
     return False

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.compat import syntax_trees
-from orchestra.compat.looks import has_doubled_keys
+from orchestra.compat.looks import has_doubled_keys, has_joined_words
 from orchestra.errors import Problems
 from orchestra.pipeline import collect, inputs_from
 
@@ -41,6 +41,25 @@ def test_names_that_may_stand_twice_are_looked_for(name: str) -> None:
     module.__file__ = "file.launch.py"
     exec(compile(source, "file.launch.py", "exec"), vars(module))  # noqa: S102 - a launch file is code
     assert has_doubled_keys(module, source) == (name in DOUBLED)
+
+
+@pytest.mark.parametrize(
+    ("source", "joined"),
+    [
+        ("['-topic' '-z']", True),
+        ("['-topic'\n    \"-z\"]", True),
+        ("['-topic'\r\n    '-z']", True),
+        ("['/scan@x' '/map@y']", True),
+        ("['/scan' '/map']", False),
+        ("['-topic', '-z']", False),
+        ("['-topic','-z']", False),
+        ("f('-z') + \n '-z'", False),
+        ("  '-z'", False),
+        ("'-z'", False),
+    ],
+)
+def test_words_that_may_lack_a_comma_are_looked_for(source: str, joined: bool) -> None:
+    assert has_joined_words(source.encode()) is joined
 
 
 _WHOLE = """\
