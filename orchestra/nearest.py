@@ -58,11 +58,13 @@ def is_one_slip(word: str, meant: str) -> bool:
     """Return whether one slip is all that tells two words apart, and neither is a word of its own.
 
     Two letters are in each other's place, or one after the first is wrong, missing or too many. `sockets` is no slip
-    for `socket`, nor `map` for `mcap`.
+    for `socket`, nor `map` for `mcap`, nor `pose_x` for `pose_y`.
     """
     one, other = _folded(word), _folded(meant)
     if one == other or _is_swapped(one, other):
         return True
+    if _differ_in_a_name(one, other):
+        return False
     short = min(len(one), len(other)) < _LETTERS_OF_A_SHORT_WORD
     plural = one == f"{other}s" or (other == f"{one}s" and not other.endswith("ss"))
     if short or plural or one[0] != other[0] or _digits(word) != _digits(meant):
@@ -92,6 +94,15 @@ def _one_slip(word: str, other: str) -> bool:
         return abs(len(word) - len(other)) == 1
     one, two = word[same:], other[same:]
     return one[2:] == two[2:] if one[:2] == two[1::-1] else two[1:] in (one, one[1:]) or one[1:] == two
+
+
+def _differ_in_a_name(word: str, other: str) -> bool:
+    """Return whether all that tells two words apart is a letter that stands alone in both."""
+    if len(word) != len(other):
+        return False
+    at = next((at for at, (one, two) in enumerate(zip(word, other, strict=True)) if one != two), 0)
+    around = word[max(at - 1, 0) : at] + word[at + 1 : at + 2]
+    return word[at + 1 :] == other[at + 1 :] and not any(map(str.isalnum, around))
 
 
 def _folded(word: str) -> str:

@@ -56,6 +56,10 @@ def test_a_slip_of_the_keys(word: str, meant: str, slip: bool) -> None:
         ("lxml", "xml", False),
         ("map", "mcap", False),
         ("tf2_msgs", "tf3_msgs", False),
+        ("pose_x", "pose_y", False),
+        ("port-b", "port_a", False),
+        ("x_offset_m", "x_offset_n", False),
+        ("pose_yaq", "pose_yaw", True),
     ],
 )
 def test_one_slip_of_the_keys(word: str, meant: str, slip: bool) -> None:
