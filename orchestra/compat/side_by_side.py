@@ -70,12 +70,12 @@ def _made(statement: ast.AST) -> Iterator[ast.expr]:
 
 def _used(tree: Tree) -> Iterator[ast.expr]:
     """Yield what stands as an action among others, or is added to a launch description; not what is repeated."""
-    repeated = [
+    repeated = {
         child
         for node in tree.nodes
         if isinstance(node, ast.Call) and any(word.arg == "for_each" for word in node.keywords)
         for child in ast.walk(node)
-    ]
+    }
     for node in tree.nodes:
         match node:
             case ast.expr() if node in repeated:

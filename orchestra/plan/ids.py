@@ -17,6 +17,8 @@ if TYPE_CHECKING:
     from orchestra.errors import Problems
     from orchestra.location import Location, Span
 
+_TWICE = 2
+
 
 def identities(
     processes: Sequence[ResolvedProcess | ResolvedComponent], others: Iterable[str] = ()
@@ -95,19 +97,19 @@ def _tell_twice(processes: Sequence[ResolvedProcess | ResolvedComponent], proble
     What is repeated, and made once in the code, is left alone.
     """
     found: set[int] = set()
-    seen: set[int] = set()
+    times: dict[int, int] = {}
     for process in processes:
         origin = process.origin
         if origin is None or isinstance(process, ResolvedComponent):
             continue
-        if id(origin) not in seen:
-            seen.add(id(origin))
+        count = times[id(origin)] = times.get(id(origin), 0) + 1
+        if count != _TWICE:  # the code is looked at once, however often a loop starts it
             continue
         # Here, because few actions are, and what it imports.
         from orchestra.compat.side_by_side import second_use  # noqa: PLC0415
 
         place = getattr(origin, "_place", None)
-        span = None if place is None or id(origin) in found else second_use(place)
+        span = None if place is None else second_use(place)
         if span is not None:
             found.add(id(origin))
             message = f"the same {type(origin).__name__} is started a second time here: ROS 2 refuses that"
