@@ -5,6 +5,7 @@ CPython tells of the next bracket of another kind, or of the one that is open to
 
 from __future__ import annotations
 
+from itertools import islice
 from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.scanned import CLOSING, signs
@@ -15,7 +16,9 @@ if TYPE_CHECKING:
     from orchestra.compat.scanned import Sign
 
 _Slip = tuple[int, int, str | None, tuple[str, ...]]  # first and last offset, what was meant, notes
-_MOST: Final = 60  # places that are tried
+_MOST: Final = 60  # places that are tried, and fewer in a long file, for each takes a pass over it
+_FEWEST: Final = 4
+_MOST_READ: Final = 2_000_000  # characters
 _LONGEST: Final = 100  # characters of a suggestion
 
 
@@ -33,12 +36,13 @@ def bracket_missing(source: str) -> _Slip | None:
     if last.text in CLOSING.values() and not is_other:
         open_at_end = open_at_end[:-1]
     opening, end = open_at_end[-1], last.offset if is_other else len(source.rstrip())
-    for begin, place in _of_lines(source, opening, end):
+    most = min(max(_MOST_READ // len(source), _FEWEST), _MOST)
+    for begin, place in islice(_of_lines(source, opening, end), most):
         mended = f"{source[begin:place]}{CLOSING[source[begin]]}"
         if _reads(f"{source[:begin]}{mended}{source[place:]}"):
             return begin, place, mended, ()
     sign = CLOSING[source[opening]]
-    for place in list(_places(source, found, opening, end))[:_MOST]:
+    for place in islice(_places(source, found, opening, end), most):
         if _reads(f"{source[:place]}{sign}{source[place:]}"):
             return _told(source, opening, place, sign, end if is_other else None)
     return None
