@@ -20,7 +20,7 @@ def sound_values(mapping: Keyed, wrong: AbstractSet[str], details: Sequence[Erro
     """Return the values of a mapping without those that are wrong; of some lists only the wrong items are left out."""
     values = {key: value for key, value in mapping.items() if key not in wrong}
     for key in wrong & _INDEPENDENT & mapping.keys():
-        ways = [error["loc"][1:2] for error in details if error["loc"][:1] == (key,)]
+        ways = {error["loc"][1:2] for error in details if error["loc"][:1] == (key,)}
         items = mapping[key]
         if isinstance(items, list) and all(ways):
             values[key] = [item for at, item in enumerate(items) if (at,) not in ways]

@@ -79,7 +79,8 @@ def written_mapping(known: AbstractSet[str], required: AbstractSet[str], text: W
 
 
 def _parted(text: str, pair: tuple[str, str]) -> str | None:
-    found = None if "\n" in text else _JOINTS[_RULE if pair == _RULE else _NAMED].fullmatch(text.strip())
+    is_short = "\n" not in text and len(text) <= _LONGEST
+    found = _JOINTS[_RULE if pair == _RULE else _NAMED].fullmatch(text.strip()) if is_short else None
     return None if found is None else f"{{{pair[0]}: {_plain(found[1])}, {pair[1]}: {_plain(found[2])}}}"
 
 

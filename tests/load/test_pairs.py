@@ -83,6 +83,7 @@ def test_a_name_in_the_place_of_a_key_is_told_once(
         ("env: [A=b c]", "{name: A, value: b c}"),
         ("env: ['A=b, c']", '{name: A, value: "b, c"}'),
         ("env: A", None),
+        (f"remap: '{':' * 20_000} /a /b'", None),
     ],
 )
 def test_a_text_in_the_place_of_a_pair_is_shown_as_one(
