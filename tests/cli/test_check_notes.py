@@ -104,6 +104,18 @@ def test_notes_are_no_problems_and_stay_where_warnings_are_errors(orchestra: Com
     assert orchestra(".", "--notes", "none", "--format", "github").stdout == ""
 
 
+@pytest.mark.parametrize(("number", "last"), [(10, None), (11, "1 other"), (12, "2 others")])
+def test_no_more_notes_are_shown_than_can_be_taken_in(
+    orchestra: Command, folder: Path, number: int, last: str | None
+) -> None:
+    nodes = "".join(f"- node: {{pkg: qq_arm_{letter}, exec: zzzzzz}}\n" for letter in "abcdefghijkl"[:number])
+    (folder / "a.launch.yaml").write_text(f"launch:\n{nodes}", "utf-8")
+    *shown, _, counted, _ = orchestra("a.launch.yaml").stdout.splitlines()
+    assert counted == f"{number} notes"
+    assert len(shown) == min(number, 11)
+    assert shown[-1] == f"... and {last}: see --notes all" if last else "qq_arm_j" in shown[-1]
+
+
 def test_what_is_nearly_the_name_of_something_that_is_here_is_no_note(
     orchestra: Command, folder: Path, prefix: Path
 ) -> None:

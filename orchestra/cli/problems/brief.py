@@ -28,7 +28,8 @@ def render(problems: Sequence[Problem], sources: Sources, paint: Paint) -> str:
     alike = _alike(problem for problem in problems if problem.severity is Severity.NOTE)
     lines = [f"{headline(places[0], paint)}{paint('note', _extent(places))}" for places in alike[:_MOST]]
     if len(alike) > _MOST:
-        lines.append(paint("note", f"... and {len(alike) - _MOST} others: see --notes all"))
+        others = len(alike) - _MOST
+        lines.append(paint("note", f"... and {others} other{'s' * (others != 1)}: see --notes all"))
     parts = [*blocks(grave, sources, paint), "".join(f"{line}\n" for line in lines)]
     return "\n".join([*filter(None, parts), f"{counts(problems)}\n"])
 
