@@ -51,7 +51,7 @@ def report_program(name: str, at: Span, context: Context) -> None:
     # Here, because most programs are there.
     from orchestra.resolve.lacking import missing_program  # noqa: PLC0415
 
-    missing = missing_program(name, context.environment, context.weights.package)
+    missing = missing_program(name, context.environment, context.weights.program)
     if missing.severity is Severity.ERROR:
         context.problems.error(
             Code.MISSING_EXECUTABLE, missing.told, context.at(at), suggestion=missing.meant

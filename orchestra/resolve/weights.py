@@ -3,14 +3,15 @@
 | what is lacking                  | launch | plan    | check                                                   |
 |----------------------------------|--------|---------|---------------------------------------------------------|
 | a package, and what comes in one | error  | warning | a note; a warning where a workspace is sourced          |
+| a program of the PATH            | error  | warning | a note                                                  |
 | an environment variable          | error  | error   | a note                                                  |
 | a file of the machine            | error  | error   | a note                                                  |
 | a required argument              | error  | error   | a note; an error where arguments are given              |
 
-What comes in packages are their executables, components, Python modules and actions, programs of the PATH such as
-xacro, and interpreters. A file of the machine is neither in the project of the launch file nor where packages are.
-Where a workspace is sourced, what the files need should be in it. A name that is hardly anything but a slip for one
-that is here is an error in any case: that is decided where the names are known.
+What comes in packages are their executables, components, Python modules and actions, and interpreters. A program of the
+PATH, such as xacro, is started for what it gives. A file of the machine is neither in the project of the launch file
+nor where packages are. Where a workspace is sourced, what the files need of packages should be in it. A name that is
+hardly anything but a slip for one that is here is an error in any case: that is decided where the names are known.
 """
 
 from __future__ import annotations
@@ -45,6 +46,13 @@ class Weights:
         return Severity.NOTE if is_note else Severity.WARNING
 
     @property
+    def program(self) -> Severity:
+        """How much a program weighs that is not on the PATH, which no workspace need have."""
+        if self.launching:
+            return Severity.ERROR
+        return Severity.WARNING if self.planning else Severity.NOTE
+
+    @property
     def variable(self) -> Severity:
         """How much an environment variable weighs that is not set."""
         return Severity.ERROR if self.planning else Severity.NOTE
@@ -56,4 +64,6 @@ class Weights:
 
     def of(self, code: Code) -> Severity:
         """Return how much it weighs that code of a file, or an action of it, goes no further for such a lack."""
+        if code is Code.MISSING_EXECUTABLE:
+            return self.program
         return self.variable if code in _OUTSIDE else self.package

@@ -106,7 +106,7 @@ class LoadingConnection:
         """Return what is to be said where code goes no further without a program, and the name that was meant."""
         from orchestra.resolve.lacking import missing_program  # noqa: PLC0415 - as above
 
-        missing = missing_program(name, environment_now(), self._inputs.weights.package)
+        missing = missing_program(name, environment_now(), self._inputs.weights.program)
         return missing.severity, missing.told, missing.meant
 
     def package_prefix(self, package: str) -> str | None:
