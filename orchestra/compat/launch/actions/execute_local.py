@@ -38,7 +38,7 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 OVERRIDE = "OVERRIDE_LAUNCH_PROCESS_OUTPUT"
-_USUAL = frozenset({bool, type(None)})
+_TRUTHS, _NUMBERS = frozenset({bool, type(None)}), frozenset({float, int, type(None)})
 
 
 class ExecuteLocal(ModelledAction):
@@ -89,11 +89,12 @@ class ExecuteLocal(ModelledAction):
         self._details: dict[str, Any] | None = None
         self._return_code: int | None = None
         self.__written = {"stdout": bytearray(), "stderr": bytearray()}
-        given = respawn, shell, cached_output, log_cmd, emulate_tty, respawn_delay, respawn_max_retries
-        if not _USUAL.issuperset(map(type, (*given, *self.__timeouts.values()))):
+        flags = respawn, shell, cached_output, log_cmd, emulate_tty
+        numbers, others = (respawn_delay, respawn_max_retries), map(type, (*flags, *self.__timeouts.values()))
+        if not (_TRUTHS.issuperset(others) and _NUMBERS.issuperset(map(type, numbers))):
             from orchestra.compat.refused_upstream import tell_of_process  # noqa: PLC0415 - few have such
 
-            tell_of_process(given, self.__timeouts, self._place)
+            tell_of_process((*flags, *numbers), self.__timeouts, self._place)
 
     @property
     def process_description(self) -> Executable:
