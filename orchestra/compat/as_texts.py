@@ -127,8 +127,7 @@ def _performed(node: ast.expr, tree: Tree | None, file: str) -> Rewritten | None
     """Return a comparison with the text of the substitution in it, in a function that has the context."""
     if tree is None or not isinstance(node, ast.Compare):
         return None
-    arguments = [item.arg for around in tree.functions_around(node) for item in around.args.args]
-    context = next((name for name in arguments if "context" in name or name == "ctx"), None)
+    context = tree.context_around(node)
     sides = [node.left, *node.comparators]
     texts = [text_at(file, node_span(file, side, quotes=True)) for side in sides]
     early = [index for index, side in enumerate(sides) if _is_substitution(tree.meaning(side))]

@@ -15,8 +15,8 @@ if TYPE_CHECKING:
 _Form: TypeAlias = "Callable[[str, Any], str | None]"
 _TWO: Final = 2
 _OPEN: Final = (Parameter.VAR_KEYWORD, Parameter.VAR_POSITIONAL)
-_TRUE: Final = frozenset({"1", "on", "t", "true", "y", "yes"})
-_UNTRUE: Final = frozenset({"0", "f", "false", "n", "no", "off"})
+MEANT_TRUE: Final = frozenset({"1", "on", "t", "true", "y", "yes"})
+MEANT_FALSE: Final = frozenset({"0", "f", "false", "n", "no", "off"})
 _VARIABLE: Final = re.compile(r"""LaunchConfiguration\((?:variable_name=)?(["']\w+["'])\)""")
 _DECIMAL: Final = re.compile(r"-?\d+(\.\d*)?(e-?\d+)?")
 _PLAIN: Final = re.compile(r"[\w./:=@%+, -]+")
@@ -62,7 +62,7 @@ def _as_truth(source: str, value: Any) -> str | None:
         return None
     word = str(value).strip().lower()
     is_literal = source.strip("'\"") == str(value)
-    return str(word in _TRUE) if word in _TRUE | _UNTRUE and is_literal else None
+    return str(word in MEANT_TRUE) if word in MEANT_TRUE | MEANT_FALSE and is_literal else None
 
 
 def _as_float(source: str, value: Any) -> str:

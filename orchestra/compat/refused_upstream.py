@@ -9,6 +9,7 @@ import re
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.explanation import told
+from orchestra.compat.forms_meant import MEANT_FALSE, MEANT_TRUE
 from orchestra.compat.remarks import remark_of_value
 
 if TYPE_CHECKING:
@@ -20,20 +21,18 @@ _OF_PROCESSES: Final = (
     *("respawn_delay", "respawn_max_retries"),
 )
 _NUMBER: Final = re.compile(r"\s*[-+]?\d+(\.\d*)?\s*")
-_TRUE: Final = frozenset({"1", "on", "t", "true", "y", "yes"})
-_FALSE: Final = frozenset({"0", "f", "false", "n", "no", "off"})
 
 
 def tell_text_of_truth(name: str, value: Any, place: Place) -> None:
     """Warn of a text where a truth value or a substitution is taken."""
-    if isinstance(value, str) and value.strip().lower() in _FALSE | _TRUE:
+    if isinstance(value, str) and value.strip().lower() in MEANT_FALSE | MEANT_TRUE:
         _tell(f"{name} is True or False, this is {value!r}: {_REFUSED}", value, place, name)
 
 
 def tell_counted_as_true(given: dict[str, Any], place: Place) -> None:
     """Warn of what only counts as true, where nothing but a truth value is looked at."""
     for name, value in given.items():
-        is_false = isinstance(value, str) and value.strip().lower() in _FALSE
+        is_false = isinstance(value, str) and value.strip().lower() in MEANT_FALSE
         if is_false or callable(getattr(value, "perform", None)):
             _tell(
                 f"{name} is True or False, this is {told(value)}: ROS 2 takes it for true", value, place, name

@@ -52,6 +52,11 @@ class Tree:
         around = [item for item in self.nodes if isinstance(item, Function) and _holds(_range(item), place)]
         yield from sorted(around, key=_range, reverse=True)
 
+    def context_around(self, node: ast.AST) -> str | None:
+        """Return what functions around a node call the launch context that they are given, None where none is."""
+        given = (item.arg for around in self.functions_around(node) for item in around.args.args)
+        return next((name for name in given if "context" in name or name == "ctx"), None)
+
     def function(self, name: str, line: int) -> Function | None:
         """Return a function by its name, and the line where it or its first decorator stands."""
         for node in self.nodes:

@@ -58,8 +58,7 @@ def _in_square_brackets(
 
 def _without_context(call: ast.Call, tree: Tree, place: Place) -> Explanation:
     """Return that a substitution is performed without the context, which the function around it may have."""
-    arguments = [item.arg for around in tree.functions_around(call) for item in around.args.args]
-    context = next((item for item in arguments if "context" in item or item == "ctx"), None)
+    context = tree.context_around(call)
     meant = None if context is None else Rewritten(f"{ast.unparse(call.func)}({context})")
     return Explanation("perform needs 'context'", Code.MISSING_KEY, place.span, meant)
 
