@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from orchestra.resolve.context import Context
     from orchestra.resolve.substitutions.arguments import Evaluate
 
+_ASKS_THE_GRAPH = "ros2"  # whose words are names of nodes and topics
+
 
 def explained(
     argv: tuple[str, ...], written: Template, command: Value, context: Context, *, started: bool
@@ -28,7 +30,8 @@ def explained(
     """Report why a command has failed, where more is known of it than that; return whether something is."""
     if not started and _without_blank(argv[0], written, command, context):
         return True
-    for word in argv[1:]:
+    files = () if Path(argv[0]).name == _ASKS_THE_GRAPH else argv[1:]
+    for word in files:
         if _lacks(word):
             _report_file(Path(word), written, command, context)
             return True
@@ -81,10 +84,18 @@ def _without_blank(word: str, written: Template, command: Value, context: Contex
 
 
 def _lacks(word: str) -> bool:
-    """Return whether a word is the path of a file that is not there in a folder that is, or near one that is there."""
+    """Return whether a word is the path of a file that is not there in a folder that is, or near one that is there.
+
+    A name right below the root is hardly a file's: `/map` is a topic, `/talker` a node.
+    """
     path = Path(word)
     try:
-        return path.is_absolute() and not path.exists() and (path.parent.is_dir() or bool(near_names(path)))
+        return (
+            path.is_absolute()
+            and path.parent != path.parent.parent
+            and not path.exists()
+            and (path.parent.is_dir() or bool(near_names(path)))
+        )
     except OSError:
         return False
 

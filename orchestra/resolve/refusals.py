@@ -10,7 +10,7 @@ from orchestra.dataclass import dataclass
 from orchestra.description.source import shortened
 from orchestra.errors import HERE, Code, Severity
 from orchestra.location import displayed, is_file, is_python
-from orchestra.nearest import is_slip, nearest
+from orchestra.nearest import is_one_slip, is_slip, nearest
 from orchestra.resolve.command_line import COMMAND_LINE
 from orchestra.resolve.context import POISON
 
@@ -196,12 +196,16 @@ def unset_environment(name: str, known: Iterable[str], weight: Severity) -> Miss
 def _is_slip_in_words(name: str, meant: str) -> bool:
     """Return whether a name is hardly anything but a slip in the words of another.
 
-    `ROBOT_NAME` is none of `ROBOT_TYPE`, nor `joint_state_publisher` of `robot_state_publisher`.
+    `ROBOT_NAME` is none of `ROBOT_TYPE`, nor `joint_state_publisher` of `robot_state_publisher`, nor `utils` of
+    `rcutils`.
     """
     words, others = name.split("_"), meant.split("_")
     if len(words) != len(others):
-        return is_slip(name, meant)
-    return all(word == other or is_slip(word, other) for word, other in zip(words, others, strict=True))
+        return is_one_slip(name, meant)
+    return all(
+        word == other or (is_slip(word, other) and (word[:1] == other[:1] or is_one_slip(word, other)))
+        for word, other in zip(words, others, strict=True)
+    )
 
 
 def report_missing_executable(

@@ -156,6 +156,13 @@ def test_a_program_is_a_slip_only_for_one_that_a_single_slip_turns_into_it(
     assert (problem["code"], problem["severity"], problem["suggestion"]) == ("ORC031", *told)
 
 
+def test_names_of_the_graph_that_a_command_asks_for_are_no_files(orchestra: Command, folder: Path) -> None:
+    for command in ("ros2 param get --hide-type /robot_state_publisher robot_description", "qq_tool /map"):
+        (folder / "a.launch.yaml").write_text(f"launch: [log: {{message: $(command '{command}')}}]\n")
+        (problem,) = json.loads(orchestra(".", "--format", "json", PATH="/usr/bin:/bin").stdout)
+        assert (problem["code"], problem["severity"]) == ("ORC031", "note")
+
+
 @pytest.mark.parametrize(
     ("code", "told"),
     [

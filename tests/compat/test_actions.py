@@ -341,6 +341,7 @@ _SAME: list[tuple[str, list[dict[str, Any]]]] = [
         "ExecuteProcess(cmd=['echo'], output={'stdout': 'screen', 'stderr': {'log', 'own_log'}})",
         [{"executable": {"cmd": "echo", "output": {"stdout": "screen", "stderr": ["log", "own_log"]}}}],
     ),
+    ("ExecuteProcess(cmd=['echo'], output={})", [{"executable": {"cmd": "echo", "output": {"both": []}}}]),
     (
         "ExecuteLocal(process_description=Executable(cmd=['echo'], arguments=['a']))",
         [{"executable": {"cmd": "echo a"}}],

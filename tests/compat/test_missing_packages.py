@@ -176,12 +176,15 @@ def generate_launch_description():
         ("joint_state_publisher", "warning", None),
         ("turtlebot3_gazebo", "warning", None),
         ("ros_gz_image", "warning", None),
+        ("utils", "warning", None),
+        ("rcl_utils", "warning", None),
+        ("cpputils", "warning", None),
     ],
 )
 def test_a_package_whose_name_has_another_word_is_no_slip(
     package: str, severity: str, meant: str | None
 ) -> None:
     """A machine may have one package of a family and not the others."""
-    known = ("robot_state_publisher", "ros_gz_sim", "sensor_msgs", "tf2_ros", "turtlebot3_node")
+    known = ("rcutils", "robot_state_publisher", "ros_gz_sim", "sensor_msgs", "tf2_ros", "turtlebot3_node")
     missing = missing_package(package, known, Severity.WARNING)
     assert (missing.severity, missing.meant) == (severity, meant)

@@ -292,6 +292,8 @@ def _output_field(output: Any, span: Span) -> Any:
     """Return where the output goes: a word, or places by stream."""
     if not isinstance(output, dict):
         return template(output, span)
+    if not output:
+        return {"both": ()}  # it goes nowhere
     return {stream: _places(places, within(span, stream)) for stream, places in output.items()}
 
 
