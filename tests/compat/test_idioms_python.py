@@ -233,6 +233,9 @@ COMMANDS: dict[str, tuple[str, list[str]]] = {
         made: launch.some_substitutions_type.SomeSubstitutionsType = ["a", "b"]
         assert launch.launch_context.LaunchContext is LaunchContext
         assert launch_ros.parameter_descriptions.ParameterFile is File
+        from launch_ros.parameters_type import ParameterDescription, ParameterValueDescription
+        assert ParameterDescription is launch_ros.parameter_descriptions.Parameter
+        assert ParameterValueDescription is launch_ros.parameter_descriptions.ParameterValue
         return LaunchDescription([Process(cmd=["ls", made])])
         """,
         ["ls ab"],

@@ -11,9 +11,13 @@ from orchestra.compat.launch.some_substitutions_type import SomeSubstitutionsTyp
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch_ros.parameter_descriptions import Parameter, ParameterFile, ParameterValue
 
+ParameterDescription = Parameter
+ParameterValueDescription = ParameterValue
+
 SomeParameterFile = Union[SomeSubstitutionsType, PathLike[str], ParameterFile]  # noqa: UP007 - evaluated by users' own annotations
 SomeParameterName = Sequence[Union[Substitution, str]]  # noqa: UP007
 SomeParameterValue = Any
+SomeParameterValue_types_tuple = (str, Substitution, list, tuple, int, float, bool)
 SomeParametersDict = Mapping[Any, Any]
 SomeParameters = Sequence[Union[SomeParameterFile, Parameter, Mapping[Any, Any]]]  # noqa: UP007
 
@@ -28,14 +32,17 @@ __all__ = [
     "EvaluatedParameterValue",
     "EvaluatedParameters",
     "Parameter",
+    "ParameterDescription",
     "ParameterFile",
     "ParameterName",
     "ParameterValue",
+    "ParameterValueDescription",
     "Parameters",
     "ParametersDict",
     "SomeParameterFile",
     "SomeParameterName",
     "SomeParameterValue",
+    "SomeParameterValue_types_tuple",
     "SomeParameters",
     "SomeParametersDict",
 ]
