@@ -42,7 +42,7 @@ _TOLD: Final = frozenset(
 
 
 def rehearsed(action: Conditional, run: Resolution, variables: Mapping[str, Variable]) -> Iterator[Problem]:
-    """Yield what is wrong with an action and those in it; `variables` do not depend on why it is left out."""
+    """Yield what is wrong with an action and those in it; `variables` are what they are whatever the condition says."""
     found = Problems()
     aside = _aside(run, variables, found)
     for entity in entities_in(action):

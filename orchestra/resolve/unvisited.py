@@ -88,11 +88,22 @@ class _Look:
 
     def aside(self, action: Conditional) -> None:
         """Report what is wrong with names and values that nothing else can make right."""
-        for problem in rehearsed(action, self.run, self.variables):
+        for problem in rehearsed(action, self.run, self._lasting()):
             if self.known:
                 notes = (*problem.notes, _LEFT_OUT)
                 problem = replace(problem, severity=Severity.WARNING, notes=notes)  # noqa: PLW2901 - the same one
             self.found.report(problem)
+
+    def _lasting(self) -> dict[str, Variable]:
+        """Return the variables that nobody can give another value, as whoever launches the file does to arguments."""
+        if any(isinstance(item, Include) for item in entities_in(self.action)):
+            return {}  # what it includes may set any
+        open_to_all = self.run.found.arguments.keys() | {given.name for given in self.run.inputs.arguments}
+        return {
+            name: variable
+            for name, variable in self.variables.items()
+            if name not in open_to_all and open_to_all.isdisjoint(_behind(variable))
+        }
 
     def at_packages(self, entity: Entity) -> None:
         """Report packages whose names are slips for others, in whatever names them."""
