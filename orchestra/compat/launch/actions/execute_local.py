@@ -275,9 +275,8 @@ class ExecuteLocal(ModelledAction):
 def _checked_exit(done: Any) -> Any:
     """Return what is to be done at the end. Raises `TypeError` for what can be seen to be no action."""
     if isinstance(done, type):
-        raise WrongType(
-            f"on_exit is actions or a function, this is {told(done)}: brackets make an object", done
-        )
+        told_so = f"on_exit is actions or a function, this is {told(done)}: brackets make an object"
+        raise WrongType(told_so, done)
     if isinstance(done, str | list | tuple):
         entities_of(done)
     return done
@@ -292,9 +291,8 @@ def _output_field(output: Any, span: Span) -> Any:
     """Return where the output goes: a word, or places by stream."""
     if not isinstance(output, dict):
         return template(output, span)
-    if not output:
-        return {"both": ()}  # it goes nowhere
-    return {stream: _places(places, within(span, stream)) for stream, places in output.items()}
+    made = {stream: _places(places, within(span, stream)) for stream, places in output.items()}
+    return made or {"both": ()}  # without any it goes nowhere
 
 
 def _places(places: Any, span: Span) -> Any:
