@@ -128,8 +128,12 @@ def _better(error: BaseException, call: TracebackType) -> Explanation | None:
             return unknown_names.not_in_module(error, place)
         case TypeError():
             without_comma = missing_commas.before_brackets(error, place) if call.tb_next is None else None
-            without_comma = without_comma or wrong_brackets.explained(error, frame, place)
-            return without_comma or refused_calls.explained(error, frame, place) or too_early.explained(error)
+            return (
+                without_comma
+                or wrong_brackets.explained(error, frame, place)
+                or refused_calls.explained(error, frame, place)
+                or too_early.explained(error, frame, place)
+            )
         case KeyError():
             return missing_keys.explained(error, frame, place)
         case NameError() if call.tb_next is None:

@@ -50,6 +50,10 @@ def _pieces(node: ast.expr) -> list[_Piece] | None:
         case ast.Call(func=ast.Attribute(value=ast.Constant(value=str(text)), attr="format"), args=given):
             gaps = [gap for _, gap, *_ in string.Formatter().parse(text) if gap is not None]
             return _filled(text.split("{}"), given) if not any(gaps) else None
+        case ast.Call(
+            func=ast.Attribute(value=ast.Constant(value=""), attr="join"), args=[ast.List(elts=given)]
+        ):
+            return _together([_pieces(each) for each in given])
         case ast.Call(func=ast.Name(id="str"), args=[one], keywords=[]):
             return [one]
     return [node]

@@ -22,10 +22,11 @@ _MEANINGS: Final = {
     "delay": ("period",),
     "destination": ("dst",),
     "env": ("additional_env",),
-    "exec": ("executable",),
+    "exec": ("executable", "plugin"),
+    "executable": ("plugin",),
     "file": ("launch_description_source",),
     "message": ("msg",),
-    "node_executable": ("executable",),
+    "node_executable": ("executable", "plugin"),
     "node_name": ("name",),
     "node_namespace": ("namespace",),
     "node_plugin": ("plugin",),
@@ -33,17 +34,20 @@ _MEANINGS: Final = {
     "param": ("parameters",),
     "params": ("parameters",),
     "pkg": ("package",),
+    "plugin": ("executable",),
     "remap": ("remappings",),
     "source": ("src",),
     "target": ("target_action", "target_container", "dst"),
     "text": ("msg",),
+    "type": ("executable", "plugin"),
 }
 
 
 def keyword_meant(written: str, known: Mapping[str, inspect.Parameter], given: Iterable[str]) -> str | None:
     """Return the keyword that was probably meant: first one that the class cannot be without and that is missing."""
+    have = set(given)
     for meaning in _MEANINGS.get(written, ()):
-        if meaning in known:
+        if meaning in known and meaning not in have:
             return meaning
     longer = [name for name in known if len(written) >= _SHORT and name.startswith(written)]
     if len(longer) == 1:
@@ -52,7 +56,6 @@ def keyword_meant(written: str, known: Mapping[str, inspect.Parameter], given: I
     if len(alike) == 1:
         return alike[0]
     word = nearest(written, [word for word, meanings in _MEANINGS.items() if known.keys() & set(meanings)])
-    have = set(given)
     missing = [name for name, item in known.items() if item.default is _Parameter.empty and name not in have]
     return (
         nearest(written, known)

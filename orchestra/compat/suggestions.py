@@ -11,6 +11,7 @@ from orchestra.compat.as_texts import without_echoes
 from orchestra.compat.glued_paths import without_slash
 from orchestra.compat.late_roots import without_followers
 from orchestra.compat.literals import Literal, argument
+from orchestra.compat.parameter_values import value_meant
 from orchestra.compat.place import Argument
 from orchestra.compat.rewritten import Rewritten
 from orchestra.compat.source_text import quoted_in, text_at
@@ -51,6 +52,10 @@ def in_place(problem: Problem) -> Problem:
     if isinstance(meant, Rewritten):
         return replace(problem, span=whole(span), suggestion=str(meant))
     found = _found(span)
+    if problem.code is Code.DECLARED_TYPE and meant is not None and isinstance(span, Argument):
+        value = value_meant(span, meant)
+        if value is not None:
+            return replace(problem, span=value[0], suggestion=str(value[1]))
     if isinstance(span, Argument):
         problem = replace(problem, span=found.span)
     root = _late_root(found) or _glued(found, problem.message) if problem.code is Code.MISSING_FILE else None

@@ -57,6 +57,21 @@ class Tree:
         given = (item.arg for around in self.functions_around(node) for item in around.args.args)
         return next((name for name in given if "context" in name or name == "ctx"), None)
 
+    def declared(self) -> Iterator[str]:
+        """Yield the launch arguments that the file declares by names that are written there."""
+        for node in self.nodes:
+            match node:
+                case ast.Call(args=[ast.Constant(value=str(name)), *_]) if (
+                    called_by(node) == "DeclareLaunchArgument"
+                ):
+                    yield name
+                case ast.Call(keywords=words) if called_by(node) == "DeclareLaunchArgument":
+                    yield from (
+                        str(word.value.value)
+                        for word in words
+                        if word.arg == "name" and isinstance(word.value, ast.Constant)
+                    )
+
     def function(self, name: str, line: int) -> Function | None:
         """Return a function by its name, and the line where it or its first decorator stands."""
         for node in self.nodes:

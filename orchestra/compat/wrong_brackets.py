@@ -11,6 +11,7 @@ from orchestra.compat.rewritten import Rewritten
 from orchestra.compat.source_text import text_at
 from orchestra.compat.syntax_trees import node_span, tree_of
 from orchestra.errors import Code
+from orchestra.fields import replace
 
 if TYPE_CHECKING:
     from types import FrameType
@@ -18,6 +19,7 @@ if TYPE_CHECKING:
     from orchestra.compat.place import Place
     from orchestra.compat.syntax_trees import Tree
 
+_PERFORM: Final = "perform"
 _MOST: Final = 100  # characters: what is longer is read better in the message alone
 _TAKE_A_LIST: Final = ("GroupAction", "LaunchDescription", "PathJoinSubstitution")
 
@@ -58,9 +60,11 @@ def _in_square_brackets(
 
 def _without_context(call: ast.Call, tree: Tree, place: Place) -> Explanation:
     """Return that a substitution is performed without the context, which the function around it may have."""
-    context = tree.context_around(call)
-    meant = None if context is None else Rewritten(f"{ast.unparse(call.func)}({context})")
-    return Explanation("perform needs 'context'", Code.MISSING_KEY, place.span, meant)
+    context, called = tree.context_around(call), node_span(place.file, call.func)
+    # The name and its brackets, without what is before them.
+    at = replace(place.span, line=called.end_line, column=called.end_column - len(_PERFORM))
+    meant = None if context is None else Rewritten(f"{_PERFORM}({context})")
+    return Explanation("perform needs 'context'", Code.MISSING_KEY, at, meant)
 
 
 def _uncalled(name: ast.Name, frame: FrameType, place: Place, tree: Tree) -> Explanation | None:

@@ -19,6 +19,11 @@ _LISTS: Final[dict[type, RosType]] = {
     float: "double_array",
     str: "string_array",
 }
+# What texts in quotes say that are meant as truth values.
+_TRUTHS: Final = {
+    **dict.fromkeys(("1", "on", "true", "y", "yes"), "true"),
+    **dict.fromkeys(("0", "false", "n", "no", "off"), "false"),
+}
 
 
 def type_of(value: ParameterValue) -> RosType | None:
@@ -81,7 +86,7 @@ def _scalar(value: ParameterValue, kind: str) -> str | None:
 def _unquoted(text: str, kind: str) -> str | None:
     """Return a text in quotes as what it says."""
     if kind == "bool":
-        return text.lower() if text.lower() in ("true", "false") else nearest(text, ("true", "false"))
+        return _TRUTHS.get(text.lower()) or nearest(text, ("true", "false"))
     try:
         return str(int(text)) if kind == "integer" else written(float(text)) if kind == "double" else None
     except ValueError:

@@ -338,10 +338,9 @@ _VALUES = {
         note="a list joins texts and substitutions: ['a', LaunchConfiguration('b')]",
     ),
     "a substitution in a path": Mistake(
-        "[LogInfo(msg=«os.path.join(FindPackageShare('demo'), 'x')»)]",
-        "FindPackageShare is no text before the launch file is visited",
-        suggestion="PathJoinSubstitution([FindPackageShare('demo'), 'x'])",
-        note="PathJoinSubstitution joins the parts of a path",
+        "[LogInfo(msg=os.path.join(«FindPackageShare('demo')», 'x'))]",
+        "FindPackageShare is no text before the launch file is visited: PathJoinSubstitution joins the parts of a path",
+        note="did you mean 'PathJoinSubstitution([FindPackageShare('demo'), 'x'])'?",
     ),
 }
 

@@ -205,7 +205,20 @@ def _refuse(entity: Any, error: ValidationError, run: Resolution) -> None:
         told_so = f"{_name(entity)}: {place}: {detail['msg']}"
         at = run.at(span if isinstance(span, Argument) else _span(entity, run))
         suggestion = detail.get("ctx", {}).get("suggestion")
+        if suggestion is None and isinstance(span, Argument):
+            suggestion = _variable(getattr(detail["input"], "constant", None), span.place.file, run)
         run.problems.error(Code.WRONG_TYPE, told_so, at, suggestion=suggestion)
+
+
+def _variable(text: str | None, file: str, run: Resolution) -> str | None:
+    """Return the argument whose name was written in place of its value."""
+    # Here, because only mistakes need it, and what it imports.
+    from orchestra.compat.rewritten import Rewritten  # noqa: PLC0415
+    from orchestra.compat.syntax_trees import tree_of  # noqa: PLC0415
+
+    tree = tree_of(file)
+    declared = set(run.scope.variables) if tree is None else {*run.scope.variables, *tree.declared()}
+    return Rewritten(f"LaunchConfiguration({text!r})") if text in declared else None
 
 
 def _name(entity: Any) -> str:

@@ -1,0 +1,36 @@
+"""Values of parameters as Python writes them, where those that were meant are known as YAML has them."""
+
+from __future__ import annotations
+
+import ast
+import json
+from typing import TYPE_CHECKING, Final
+
+from orchestra.compat.literals import argument
+from orchestra.compat.rewritten import Rewritten
+
+if TYPE_CHECKING:
+    from orchestra.compat.place import Argument
+    from orchestra.location import Span
+
+_NO_JSON: Final = {".inf": "float('inf')", "-.inf": "float('-inf')", ".nan": "float('nan')"}
+_LITERALS: Final = ast.Constant | ast.List | ast.Tuple | ast.UnaryOp
+
+
+def value_meant(span: Argument, meant: str) -> tuple[Span, Rewritten] | None:
+    """Return where a parameter of a node is written as a value, and the one that was meant; None where it is not.
+
+    What stands for a value, as the default of an argument does, is a text and remains one.
+    """
+    if span.path[:1] != ("parameters",):
+        return None
+    found = argument(span.place, span.path)
+    return (found.whole, _written(meant)) if isinstance(found.node, _LITERALS) else None
+
+
+def _written(meant: str) -> Rewritten:
+    """Return a value of YAML, of which numbers, texts, and lists are those of JSON, but for a few numbers."""
+    try:
+        return Rewritten(repr(json.loads(meant)))
+    except ValueError:
+        return Rewritten(_NO_JSON.get(meant, meant))
