@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.literals import argument
 from orchestra.compat.rewritten import Rewritten
+from orchestra.compat.syntax_trees import tree_of
 
 if TYPE_CHECKING:
     from orchestra.compat.place import Argument
@@ -20,12 +21,14 @@ _LITERALS: Final = ast.Constant | ast.List | ast.Tuple | ast.UnaryOp
 def value_meant(span: Argument, meant: str) -> tuple[Span, Rewritten] | None:
     """Return where a parameter of a node is written as a value, and the one that was meant; None where it is not.
 
-    What stands for a value, as the default of an argument does, is a text and remains one.
+    A name of such a value gives way to it. What else stands for one, as the default of an argument, remains a text.
     """
     if span.path[:1] != ("parameters",):
         return None
     found = argument(span.place, span.path)
-    return (found.whole, _written(meant)) if isinstance(found.node, _LITERALS) else None
+    tree = tree_of(found.file)
+    node = found.node if found.node is None or tree is None else tree.meaning(found.node)
+    return (found.whole, _written(meant)) if isinstance(node, _LITERALS) else None
 
 
 def _written(meant: str) -> Rewritten:
