@@ -2,8 +2,12 @@
 """Tells everything that a program finds around it when it begins, as one line of JSON."""
 
 import os
+import time
 
-FILES = sorted(os.listdir("/proc/self/fd"))  # noqa: PTH208 - before anything opens more
+# Before anything opens more. The threads of tracing, which libraries of ROS begin, have a socket open for a moment.
+_END = time.monotonic() + 5.0
+while len(FILES := sorted(os.listdir("/proc/self/fd"))) > len("0123") and time.monotonic() < _END:  # noqa: PTH208
+    os.sched_yield()
 
 import ctypes  # noqa: E402
 import faulthandler  # noqa: E402
@@ -15,7 +19,6 @@ import resource  # noqa: E402
 import signal  # noqa: E402
 import sys  # noqa: E402
 import threading  # noqa: E402
-import time  # noqa: E402
 import warnings  # noqa: E402
 from pathlib import Path  # noqa: E402
 from typing import Any  # noqa: E402
