@@ -200,9 +200,10 @@ def set_size(descriptor: int, columns: int, lines: int) -> None:
 
 def test_another_size_of_our_terminal_is_that_of_the_programs(tmp_path: Path) -> None:
     code = (
-        "print(*os.get_terminal_size())\n"
-        "signal.signal(signal.SIGWINCH, lambda *_: print('now', *os.get_terminal_size()))\n"
-        "print('ready')\nwhile True: signal.pause()"
+        "signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGWINCH})\n"
+        "print(*os.get_terminal_size())\nprint('ready')\n"
+        # With a handler, one that comes right before the call that pauses would wait for the next.
+        "while signal.sigwait({signal.SIGWINCH}): print('now', *os.get_terminal_size())"
     )
     own = process(
         "own", command=(sys.executable, "-E", "-u", "-c", f"import os, signal\n{code}"), emulate_tty=True
