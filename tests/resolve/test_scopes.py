@@ -39,7 +39,8 @@ MESSAGES = {
         ["b"],
     ),
     "unless is the negation": (
-        "launch:\n- let: {name: t, value: a, unless: false}\n- let: {name: t, value: b, unless: true}\n" + SAY,
+        "launch:\n- let: {name: t, value: a, unless: false}\n- let: {name: t, value: b, unless: true}\n"
+        + SAY,
         ["a"],
     ),
     "a group is repeated once per value": (
