@@ -77,6 +77,12 @@ def offsets_of(span: Span) -> tuple[int, int] | None:
     return None if offsets is None else offsets[1:]
 
 
+def whole_of(span: Span) -> Whole | None:
+    """Return the text that a span was made in by offsets, None where it was made of lines and columns."""
+    offsets: tuple[Whole, int, int] | None = getattr(span, "_offsets", None)
+    return None if offsets is None else offsets[0]
+
+
 def stretches(span: Span, skipped: int = 0) -> Callable[[int, int], Span]:
     """Return what gives parts of a span that was made of offsets, by offsets from so far behind its beginning."""
     whole, begin, _ = span._offsets  # type: ignore[attr-defined] # noqa: SLF001 - its own module

@@ -7,7 +7,7 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
-from orchestra.location import stretch
+from orchestra.location import offsets_of, stretch, whole_of
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
@@ -51,6 +51,14 @@ class Source:
 def source(file: str, text: str) -> Source:
     """Return the text of a file."""
     return Source(file, text)
+
+
+def is_on_one_line(span: Span) -> bool:
+    """Return whether a span begins and ends on one line; the lines of its file are not counted for that."""
+    whole, offsets = whole_of(span), offsets_of(span)
+    if type(whole) is not Source or offsets is None:
+        return span.line == span.end_line
+    return _BREAK.search(whole.text, *offsets) is None
 
 
 def spans_of(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import maker
@@ -13,7 +14,16 @@ from orchestra.plan.components import components
 from orchestra.plan.digest import digest_of
 from orchestra.plan.edges import Targets, check_cycles, dependencies
 from orchestra.plan.ids import check_names, identities
-from orchestra.plan.model import VERSION, Argument, ParameterFile, Plan, Process, Provenance, Skipped
+from orchestra.plan.model import (
+    VERSION,
+    Argument,
+    ParameterFile,
+    Plan,
+    Process,
+    Provenance,
+    Skipped,
+    late_provenance,
+)
 from orchestra.plan.parameter_file import path_of
 from orchestra.plan.parameters import check_given, parameters_of
 from orchestra.plan.passed_on import Sections
@@ -28,6 +38,7 @@ if TYPE_CHECKING:
 
     from orchestra.errors import Problems
     from orchestra.plan.conditions import Dependency
+    from orchestra.plan.parameters import Parameters
     from orchestra.resolve.model import Resolved, ResolvedComponent, ResolvedProcess
     from orchestra.values import ParameterValue
 
@@ -111,7 +122,7 @@ def _process(
     parameters = parameters_of(process, sections, problems, whole=whole)
     check_remaps(process, problems)
     path = path_of(identity) if parameters.is_passed and (parameters.values or parameters.files) else None
-    files = tuple(ParameterFile(path or file.path, file.content) for file in parameters.files)
+    files = tuple([ParameterFile(path or file.path, file.content) for file in parameters.files])
     words, environment = command(process, path) if whole else (), environment_of(process)
     return new_process(
         id=identity,
@@ -128,7 +139,7 @@ def _process(
         cwd=process.cwd,
         parameters=parameters.values,
         parameter_files=files,
-        remappings=tuple((rule.source.text, rule.target.text) for rule in process.remaps),
+        remappings=tuple([(rule.source.text, rule.target.text) for rule in process.remaps]),
         arguments=process.arguments,
         output=process.output,
         emulate_tty=process.emulate_tty,
@@ -146,9 +157,13 @@ def _process(
         machine=None,
         digest=_digest(process, words, environment, parameters.values, files) if whole else "",
         location=process.location,
-        provenance=provenance(process, parameters) if whole else Provenance(parameters=parameters.candidates),
+        provenance=late_provenance(partial(_provenance, process, parameters, whole=whole)),
         params_schema=None if process.params_schema is None else process.params_schema.text,
     )
+
+
+def _provenance(process: ResolvedProcess, parameters: Parameters, *, whole: bool) -> Provenance:
+    return provenance(process, parameters) if whole else Provenance(parameters=parameters.written())
 
 
 def _stdin(process: ResolvedProcess) -> bool | None:
@@ -164,4 +179,6 @@ def _digest(
 ) -> str:
     around = (environment, process.inherit_environment)
     how = (_stdin(process), process.shell, process.limits)
-    return digest_of(words, around, process.cwd, values, files, *how)
+    # As the encoder of plans has them.
+    given = [{"path": file.path, "content": file.content} for file in files]
+    return digest_of(words, around, process.cwd, values, given, *how)

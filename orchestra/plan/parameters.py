@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from collections.abc import Callable
+from typing import TYPE_CHECKING, Final, TypeAlias
 
-from orchestra.dataclass import dataclass
+from orchestra.dataclass import dataclass, maker
 from orchestra.errors import Code, Problems
 from orchestra.fields import field
 from orchestra.location import is_python
@@ -19,11 +20,13 @@ from orchestra.resolve.model import InlineParameter
 from orchestra.resolve.rcl.effective import effective
 from orchestra.resolve.rcl.indexed import absolute
 from orchestra.resolve.rcl.patterns import matches
+from orchestra.resolve.rcl.table import alone
 from orchestra.values import ParameterValue
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
+    from orchestra.location import Location
     from orchestra.resolve.model import (
         ParameterSource,
         Resolved,
@@ -36,13 +39,13 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class Parameters:
-    """What a node gets: values by name, all that was written for each, and what goes to other nodes in the process.
+    """What a node gets: values by name, what tells all that was `written` for each, and what goes to other nodes.
 
     Where they are not `is_passed` all of them are on the node's command line as it is.
     """
 
     values: dict[str, ParameterValue] = field(default_factory=dict)
-    candidates: dict[str, tuple[Candidate, ...]] = field(default_factory=dict)
+    written: Callable[[], dict[str, tuple[Candidate, ...]]] = dict
     files: tuple[ParameterFile, ...] = ()
     is_passed: bool = False
 
@@ -57,44 +60,124 @@ def parameters_of(
     """
     is_passed = bool(process.parameters or sections.given)
     if process.kind == "process" or not (is_passed or process.parameter_arguments):
-        return Parameters()
+        return _NONE
     full = node_name(process)
     own = full if full is not None and process.namespace is not None else EVERY_NODE
-    plain = None if sections.given or process.parameter_arguments else _plain(process, own, whole=whole)
+    plain = (
+        None if sections.given or process.parameter_arguments else _plain(process, own, sections, whole=whole)
+    )
     if plain is not None:
         return plain
     settings = settings_of(sections.for_node(process, own, full), full)
     overrides = settings_of(sections.given_to(process), full)
     _report(settings, overrides, problems)
-    known = candidates.origins((*process.parameter_arguments, *process.parameters) if whole else ())
     every = {**settings, **overrides}
+
+    def written() -> dict[str, tuple[Candidate, ...]]:
+        known = _origins(process, whole=whole)
+        return {
+            name: candidates.of_parameter(settings.get(name), overrides.get(name), known) for name in every
+        }
+
     return Parameters(
         {name: setting.value for name, setting in every.items() if setting.value is not None},
-        {name: candidates.of_parameter(settings.get(name), overrides.get(name), known) for name in every},
+        written,
         sections.passed_on(process, own) if whole else (),
         is_passed,
     )
 
 
-def _plain(process: ResolvedProcess, own: str, *, whole: bool) -> Parameters | None:
-    """Return the parameters of a node where each is written once, at the node; None where it takes a closer look.
+_NONE: Final = Parameters()
+
+
+def _origins(process: ResolvedProcess, *, whole: bool) -> candidates.Origins:
+    return candidates.origins((*process.parameter_arguments, *process.parameters) if whole else ())
+
+
+# The value of a parameter, its place, and whether it is one of a file.
+_Single: TypeAlias = "tuple[ParameterValue | None, Location, InlineParameter | None]"
+
+
+def _plain(process: ResolvedProcess, own: str, sections: Sections, *, whole: bool) -> Parameters | None:
+    """Return the parameters of a node where each is written once; None where it takes a closer look.
 
     In Python several may have one place, so that what was read for one is taken for what was read for all. Where the
     full name is not known, other nodes in the process may read them too.
     """
     if is_python(process.location) and not _are_apart(process.parameters):
         return None
-    values: dict[str, ParameterValue] = {}
-    written: dict[str, tuple[Candidate, ...]] = {}
-    rule = f"set for '{own}'"
+    found = _each_once(process, own, sections)
+    if found is None:
+        return None
+    values = {
+        name: single[0]
+        for singles in found.values()
+        for name, single in singles.items()
+        if single[0] is not None
+    }
+    if own != EVERY_NODE:
+        of_files = any(kind is not InlineParameter for kind in set(map(type, process.parameters)))
+        files = sections.passed_on(process, own) if whole and of_files else ()
+    else:
+        files = (ParameterFile("", rendered(own, values)),) if whole and values else ()
+
+    def written() -> dict[str, tuple[Candidate, ...]]:
+        known = _origins(process, whole=whole)
+        return {
+            name: _candidate(*single, f"set for '{pattern}'", known)
+            for pattern, singles in found.items()
+            for name, single in singles.items()
+        }
+
+    return new_parameters(values, written, files, True)
+
+
+new_parameters = maker(Parameters)
+
+
+def _candidate(
+    value: ParameterValue | None,
+    at: Location,
+    source: InlineParameter | None,
+    rule: str,
+    known: candidates.Origins,
+) -> tuple[Candidate, ...]:
+    through = candidates.behind(at, known) if source is None else candidates.passage(source.through)
+    return (candidates.new_candidate(value, at, True, rule, through),)
+
+
+def _each_once(
+    process: ResolvedProcess, own: str, sections: Sections
+) -> dict[str, dict[str, _Single]] | None:
+    """Return the parameters by pattern and name, the patterns in the order in which they appear first.
+
+    None where one is written twice, or may take the slot of another. What is set for all nodes is left out of it, and
+    files where they are given to a node whose full name is not known.
+    """
+    found: dict[str, dict[str, _Single]] = {}
+    taken: set[str] = set()
     for source in process.parameters:
-        if not isinstance(source, InlineParameter) or source.everywhere or source.name in values:
+        if type(source) is InlineParameter:
+            if source.everywhere or source.name in taken:
+                return None
+            taken.add(source.name)
+            single = (source.value, source.location, source)
+            if own in found:
+                found[own][source.name] = single
+            else:
+                found[own] = {source.name: single}
+            continue
+        if own == EVERY_NODE or is_python(source.location):
             return None
-        values[source.name] = source.value
-        through = candidates.passage(source.through)
-        written[source.name] = (candidates.new_candidate(source.value, source.location, True, rule, through),)
-    shared = own == EVERY_NODE and whole and values
-    return Parameters(values, written, (ParameterFile("", rendered(own, values)),) if shared else (), True)
+        for section in sections.of_file(source, own):  # type: ignore[arg-type]  # the other kind of source
+            entries = alone(section)
+            if entries is None or not taken.isdisjoint(entries[1]):
+                return None
+            taken.update(entries[1])
+            singles = found.setdefault(section.pattern, {})
+            for name, entry in entries[0].items():
+                singles[name] = (entry.value, entry.location, None)
+    return found
 
 
 def _are_apart(sources: Sequence[ParameterSource]) -> bool:

@@ -27,7 +27,7 @@ def provenance(process: ResolvedProcess, parameters: Parameters) -> Provenance:
     return _new_provenance(
         name=process.name.location if process.name is not None else None,
         namespace=process.namespace.location if process.namespace is not None else None,
-        parameters=parameters.candidates,
+        parameters=parameters.written(),
         remappings=tuple(rule.source.location for rule in process.remaps),
         environment={
             name: candidates.of_environment(changes) for name, changes in process.environment.items()

@@ -16,10 +16,11 @@ from orchestra.description.text import (
     whole_span_of,
 )
 from orchestra.errors import Code
+from orchestra.load.offsets import is_on_one_line
 from orchestra.location import is_python, point
 from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON, Poison, Value
-from orchestra.resolve.model import InlineParameter, ParameterSource, new_parameter
+from orchestra.resolve.model import FileParameters, InlineParameter, ParameterSource, new_parameter
 from orchestra.resolve.parameter_files import file_parameters
 from orchestra.resolve.paths import beside
 from orchestra.resolve.rcl.odd_names import may_be_odd, odd_name
@@ -73,8 +74,9 @@ def parameters(
             found.append(file if sound_flag else None)
         else:
             found += _inline(param, (), run, everywhere=isinstance(param, Override), quotes=quotes)
-    sound = tuple(item for item in found if item is not None)
-    return sound, len(sound) == len(found) and all(getattr(item, "sound", True) for item in sound)
+    sound = tuple([item for item in found if item is not None])
+    whole = len(sound) == len(found)
+    return sound, whole and all(item.sound for item in sound if type(item) is FileParameters)
 
 
 def everywhere(action: SetParameter, run: Resolution) -> list[InlineParameter | None]:
@@ -184,7 +186,7 @@ def _inline(
 
 def _place_of(value: Constant | tuple[Typed, ...]) -> Span | None:
     """Return where a value stands: all of a list that is on one line, else its first item."""
-    if isinstance(value, Items) and value.span.line == value.span.end_line:
+    if isinstance(value, Items) and is_on_one_line(value.span):
         return value.span
     return span_of(value)
 

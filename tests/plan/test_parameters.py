@@ -1,4 +1,4 @@
-"""Parameters that are each written once, at the node, come to the same without the closer look that others take."""
+"""Parameters that are each written once, at the node or in files, come to the same without the closer look that others take."""
 
 from __future__ import annotations
 
@@ -24,11 +24,41 @@ _VALUES = (
 _PLACES = ("", ", name: n{0}", ", name: n{0}, namespace: x", ", namespace: x", ", name: /n{0}, namespace: /")
 
 
+# The keys of sections, and lines of them; nested groups take the slots of others.
+_PATTERNS = ("/**", "n0", "/n1", "/**/n2", "/x/n3", "x/n3", "x: {n1", "n4", "/other", "/*")
+_SET = (
+    "a: 1",
+    "c: 2.5",
+    "d: {e: 1, f: [1, 2]}",
+    "a.b: x",
+    "b: true",
+    "g: [left, right]",
+    "h: {i: {j: 1}}",
+    "c: y",
+)
+
+
+def _file(chance: random.Random) -> str:
+    lines = []
+    for pattern in chance.sample(_PATTERNS, k=chance.randrange(1, 5)):
+        values = "".join(f"    {line}\n" for line in chance.sample(_SET, k=chance.randrange(1, 4)))
+        if "{" in pattern:
+            lines.append(
+                "x:\n  n1:\n    ros__parameters:\n" + "".join(f"  {line}\n" for line in values.splitlines())
+            )
+        else:
+            lines.append(f"{pattern}:\n  ros__parameters:\n{values}")
+    return "".join(lines)
+
+
 def _described(chance: random.Random) -> str:
     lines = ["launch:", "- arg: {name: v, default: '3'}", "- let: {name: w, value: $(var v)x}"]
     for number in range(5):
         names = chance.choices(_NAMES, k=chance.randrange(4))
-        given = ", ".join(f"{{name: {name}, value: {chance.choice(_VALUES)}}}" for name in names)
+        written = [f"{{name: {name}, value: {chance.choice(_VALUES)}}}" for name in names]
+        written += [f"{{from: $(dirname)/p{chance.randrange(3)}.yaml}}" for _ in range(chance.randrange(3))]
+        chance.shuffle(written)
+        given = ", ".join(written)
         place = chance.choice(_PLACES).format(number)
         lines.append(f"- node: {{exec: /bin/true, exec_name: e{number}{place}, param: [{given}]}}")
         if chance.random() < 0.15:
@@ -48,10 +78,12 @@ def _found(path: Path, *, whole: bool) -> tuple[Any, Any]:
         return (dumps(launch.plan) if whole else found), problems.ordered
 
 
-@pytest.mark.parametrize("seed", range(8))
+@pytest.mark.parametrize("seed", range(12))
 def test_a_closer_look_finds_the_same(seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path = tmp_path / "main.launch.yaml"
-    path.write_text(_described(random.Random(seed)))  # noqa: S311 - the same each time
+    path, chance = tmp_path / "main.launch.yaml", random.Random(seed)  # noqa: S311 - the same each time
+    path.write_text(_described(chance))
+    for number in range(3):
+        (tmp_path / f"p{number}.yaml").write_text(_file(chance))
     plainly = [_found(path, whole=whole) for whole in (True, False)]
     monkeypatch.setattr(parameters, "_plain", lambda *_, **__: None)
     assert plainly == [_found(path, whole=whole) for whole in (True, False)]

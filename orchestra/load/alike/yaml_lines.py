@@ -7,6 +7,7 @@ to every reader of YAML, and lists and mappings of such on one line. Anything el
 from __future__ import annotations
 
 import re
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.description.source import Written
@@ -46,6 +47,7 @@ _PAIR: Final = re.compile(rf" *+({_KEY}): ++(?:([\[{{])|(?:{_VALUE}|({_IN_FLOW})
 _ESCAPED: Final = re.compile(r'\\(["\\])')
 _NEXT: Final = re.compile(r" *+([,\]}])")
 # The groups of a line.
+_last_group: Final = attrgetter("lastindex")
 _INDENT, _DASH, _NAME, _IN_DOUBLE, _IN_SINGLE, _BARE, _OPEN, _ODD = range(1, 9)
 # Those of an item and of a pair in brackets.
 _PLAIN_IN_ITEM, _OPEN_IN_ITEM, _PLAIN_IN_PAIR = 3, 4, 5
@@ -54,7 +56,7 @@ _PLAIN_IN_ITEM, _OPEN_IN_ITEM, _PLAIN_IN_PAIR = 3, 4, 5
 def scanned(whole: Source, begin: int, end: int) -> Plainly | None:
     """Return the action that is the one item of a list between two offsets; None where it takes a parser."""
     lines = [line for line in _LINE.finditer(whole.text, begin, end) if line.lastindex != _INDENT]
-    if any(line.lastindex == _ODD for line in lines):
+    if _ODD in map(_last_group, lines):
         return None
     scan = _Scan(whole, lines, end)
     try:

@@ -78,7 +78,7 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
         arguments=() if isinstance(arguments, Poison) else arguments,
         ros_arguments=None if isinstance(ros_arguments, Poison) or action.ros_args is None else ros_arguments,
         parameters=(*run.scope.parameters, *own),
-        parameter_arguments=tuple(item for item in given if isinstance(item, FileParameters)),
+        parameter_arguments=tuple([item for item in given if isinstance(item, FileParameters)]),
         remaps=(*among, *run.scope.remaps, *rules),
         remaps_among_words=len(among),
         autostart=autostart is True,

@@ -85,10 +85,10 @@ def flat(sections: Iterable[Section]) -> dict[str, dict[str, Entry]] | None:
     found: dict[str, dict[str, Entry]] = {}
     taken: dict[str, set[str]] = {}
     for section in sections:
-        alone = _alone(section)
-        if alone is None:
+        apart = alone(section)
+        if apart is None:
             return None
-        entries, names = alone
+        entries, names = apart
         known = taken.get(section.pattern)
         if known is None:
             found[section.pattern], taken[section.pattern] = dict(entries), set(names)
@@ -106,7 +106,7 @@ _KNOWN: Final[dict[int, tuple[Section, _Alone]]] = {}
 _MOST_KNOWN: Final = 1_000
 
 
-def _alone(section: Section) -> _Alone:
+def alone(section: Section) -> _Alone:
     """Return the entries of a section by name, and all names that it takes; None where some may be in the way."""
     if len(section.entries) == 1:  # as those of values that are given alone
         (entry,) = section.entries
