@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-from types import ModuleType
-
 import pytest
 
 from orchestra.compat.idle_names import has_idle_actions
+from tests.compat.modules import loaded
 
 IDLE = {
     "an action": "def make():\n    node = Node()\n",
@@ -28,8 +27,5 @@ READ = {
 
 @pytest.mark.parametrize("name", [*IDLE, *READ])
 def test_only_actions_that_nobody_reads_are_looked_for(name: str) -> None:
-    source = {**IDLE, **READ}[name].encode()
-    module = ModuleType("launch_file")
-    module.__file__ = "file.launch.py"
-    exec(compile(source, "file.launch.py", "exec"), vars(module))  # noqa: S102 - a launch file is code
+    module, source = loaded({**IDLE, **READ}[name])
     assert has_idle_actions(module, source) == (name in IDLE)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from types import ModuleType
 from typing import TYPE_CHECKING
 
 import pytest
@@ -11,6 +10,7 @@ from orchestra.compat import syntax_trees
 from orchestra.compat.looks import has_doubled_keys, has_joined_words
 from orchestra.errors import Problems
 from orchestra.pipeline import collect, inputs_from
+from tests.compat.modules import loaded
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -36,10 +36,7 @@ SOUND = {
 
 @pytest.mark.parametrize("name", [*DOUBLED, *SOUND])
 def test_names_that_may_stand_twice_are_looked_for(name: str) -> None:
-    source = {**DOUBLED, **SOUND}[name].encode()
-    module = ModuleType("launch_file")
-    module.__file__ = "file.launch.py"
-    exec(compile(source, "file.launch.py", "exec"), vars(module))  # noqa: S102 - a launch file is code
+    module, source = loaded({**DOUBLED, **SOUND}[name])
     assert has_doubled_keys(module, source) == (name in DOUBLED)
 
 
