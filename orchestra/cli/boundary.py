@@ -63,7 +63,11 @@ def guarded(work: Callable[[], _ResultT], telling: Telling) -> _ResultT | int:
         result = work()
         sys.stdout.flush()
     except DescriptionError as error:
-        show_problems(error.problems, telling.problem_format, sys.stderr, command_line=telling.command_line)
+        tell(
+            problems_text(
+                error.problems, telling.problem_format, sys.stderr, command_line=telling.command_line
+            )
+        )
         return MISTAKE
     except UsageError as error:
         _say("error", str(error))
@@ -76,12 +80,12 @@ def guarded(work: Callable[[], _ResultT], telling: Telling) -> _ResultT | int:
     except KeyboardInterrupt:
         return INTERRUPTED
     except BrokenPipeError:
-        _forget_output()
+        _forget(sys.stdout)
         return BROKEN_PIPE
     except OSError as error:
         # The machine says no: no space, no permission. That is the user's to know, and no bug.
         _say("error", _refusal(error))
-        _forget_output()
+        _forget(sys.stdout)
         return FAILED
     except Exception as error:  # noqa: BLE001 - whatever else ends a command is a bug, and this is where it is shown
         _show_bug(error, debug=telling.debug)
@@ -138,14 +142,22 @@ def _show_bug(error: Exception, *, debug: bool) -> None:
     from orchestra.cli.report import traceback_of, write_report  # noqa: PLC0415 - there is none, most of the time
 
     if debug:
-        sys.stderr.write(traceback_of(error))
+        tell(traceback_of(error))
     _say("error", f"this is a bug in Orchestra: {type(error).__name__}: {error}")
     _say("help", f"please report it with the file {write_report(error)}")
 
 
 def _say(kind: str, text: str) -> None:
     paint = colour.painter(enabled=colour.wanted(sys.stderr, os.environ))
-    sys.stderr.write(f"{paint(kind, f'{kind}:')} {text}\n")
+    tell(f"{paint(kind, f'{kind}:')} {text}\n")
+
+
+def tell(text: str) -> None:
+    """Write to standard error. That nobody reads it, or that it is full, changes nothing of what is done."""
+    try:
+        sys.stderr.write(text)
+    except OSError:
+        _forget(sys.stderr)
 
 
 def _open_closed_streams() -> None:
@@ -155,7 +167,7 @@ def _open_closed_streams() -> None:
             setattr(sys, name, open(os.devnull, "w"))  # noqa: PTH123, SIM115 - it lives as long as the process
 
 
-def _forget_output() -> None:
+def _forget(stream: TextIO) -> None:
     """Let the interpreter's own last flush have somewhere to go (as docs.python.org advises for SIGPIPE)."""
     with open(os.devnull, "w") as nowhere:  # noqa: PTH123 - a descriptor is wanted
-        os.dup2(nowhere.fileno(), sys.stdout.fileno())
+        os.dup2(nowhere.fileno(), stream.fileno())

@@ -111,7 +111,7 @@ def launch_from(options: Namespace, lasting: ExitStack, postponed: list[Callable
 
 def warn(plan: Plan, options: Namespace) -> None:
     """Print the warnings of a plan on standard error."""
-    sys.stderr.write(warnings_text(plan.problems, options))
+    boundary.tell(warnings_text(plan.problems, options))
 
 
 def warnings_text(problems: tuple[Problem, ...], options: Namespace) -> str:

@@ -111,7 +111,7 @@ def prepare(options: Namespace, stream: BinaryIO, words: Sequence[str] = ()) -> 
             name = Path(launch.plan.file).name.partition(".")[0]
             files = launch.files.keep(more=launch.deferred)
             document = document_of(launch.plan, options, name, files=files)
-        sys.stderr.write(told)
+        boundary.tell(told)
         stream.write(document)
         if launch.deferred:
             return partial(_answer, lasting.pop_all(), launch)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import argparse
 import os
-import sys
 from typing import TYPE_CHECKING
 
 from orchestra.cli import boundary, run_options
@@ -51,6 +50,6 @@ def prepare(options: Namespace, stream: BinaryIO, words: Sequence[str] = ()) -> 
     package, executable, *arguments = options.words
     given = pipeline.inputs_from((), environment=os.environ)
     plan = pipeline.plan_of_node(package, executable, arguments, given, prefix=options.prefix)
-    sys.stderr.write(warnings_of(plan, options))
+    boundary.tell(warnings_of(plan, options))
     stream.write(document_of(plan, options, executable))
     return boundary.OK

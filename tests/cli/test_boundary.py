@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import io
 import os
+import sys
+from contextlib import contextmanager
 from typing import TYPE_CHECKING, NoReturn
 
 import pytest
@@ -14,7 +16,7 @@ from orchestra.errors import Code, DescriptionError, Problem, RunError, Severity
 from orchestra.location import Span
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
     from pathlib import Path
 
 _PROBLEM = Problem(
@@ -56,6 +58,30 @@ def _plain(monkeypatch: pytest.MonkeyPatch, home: Path) -> None:
 def test_statuses(error: BaseException, status: int, told: str, capsys: pytest.CaptureFixture[str]) -> None:
     assert guarded(_raising(error), Telling("plan", command_line="a:=1 wrld:=2")) == status
     assert capsys.readouterr() == ("", told)
+
+
+@contextmanager
+def deaf(manner: str) -> Iterator[None]:
+    """Standard error takes nothing, and what it has kept can be dropped at its end."""
+    if manner == "full":
+        descriptor = os.open("/dev/full", os.O_WRONLY)
+    else:
+        reader, descriptor = os.pipe()
+        os.close(reader)
+    # Within a test: pytest puts its own stream there after the fixtures.
+    with os.fdopen(descriptor, "w", buffering=1) as stream, pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sys, "stderr", stream)
+        yield
+
+
+@pytest.mark.parametrize("manner", ["closed", "full"])
+@pytest.mark.parametrize(
+    ("error", "status"),
+    [(UsageError("wrong"), 2), (RunError("wrong"), 1), (DescriptionError((_PROBLEM,)), 2)],
+)
+def test_statuses_are_the_same_where_nothing_can_be_told(error: Exception, status: int, manner: str) -> None:
+    with deaf(manner):
+        assert guarded(_raising(error), Telling("plan", command_line="a:=1 wrld:=2")) == status
 
 
 def test_a_working_directory_that_is_gone_is_told(

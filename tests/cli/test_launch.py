@@ -48,6 +48,25 @@ def test_a_description_is_run_to_its_end(orchestra: Command, home: Path) -> None
     assert [process.command for process in plan.processes] == [("echo", "hi", "moon")]
 
 
+def test_a_warning_that_cannot_be_told_holds_up_no_run(folder: Path, home: Path) -> None:
+    """A robot starts also where the disk is full to which its log would go."""
+    (folder / "warned.launch.yaml").write_text(
+        "launch: [include: {file: greet.launch.yaml, arg: [{name: how, value: hi}, {name: nobody, value: x}]}]"
+    )
+    with open("/dev/full", "w") as full:  # noqa: PTH123 - it is no file
+        done = subprocess.run(
+            [sys.executable, "-m", "orchestra", "launch", "warned.launch.yaml"],
+            cwd=folder,
+            env={**os.environ, "ORCHESTRA_HOME": str(home)},
+            stdin=subprocess.DEVNULL,
+            stderr=full,
+            check=False,
+            timeout=60,
+        )
+    assert done.returncode == 0
+    assert (_run_folder(home) / "logs" / "greet.log").read_text() == "hi world\n"
+
+
 def test_a_run_has_the_name_that_it_is_given(orchestra: Command, home: Path) -> None:
     assert orchestra("launch", "greet.launch.yaml", "how:=hi", "--name", "my / run").returncode == 0
     assert _run_folder(home).name.endswith("-my_run")
