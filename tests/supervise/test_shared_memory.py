@@ -18,6 +18,7 @@ from orchestra.supervise.environment import node_environment
 from orchestra.supervise.host import this_host
 from orchestra.supervise.keeping import proc, shared_memory
 from orchestra.values import Restart
+from tests.chaos.stage import unshare_words
 from tests.supervise.plans import PROCESSES, alive, launched, plan, process, wait_for
 
 if TYPE_CHECKING:
@@ -343,3 +344,30 @@ def test_a_run_of_which_something_was_killed_looks(tmp_path: Path, made: list[Pa
         run.send(signal.SIGINT)
         assert run.wait() == 130
         wait_for(lambda: not left.exists(), "the file to be removed", 1.0)
+
+
+MAPPING = """
+import mmap, sys
+with open(sys.argv[1], "w+b") as file:
+    file.truncate(mmap.PAGESIZE)
+    held = mmap.mmap(file.fileno(), mmap.PAGESIZE)
+print("up", flush=True)
+sys.stdin.read()
+"""
+APART = ("sh", "-c", 'mount -t tmpfs shm /dev/shm && exec "$@"', "sh")
+
+
+@pytest.mark.parametrize("apart", [False, True])
+def test_what_another_container_has_under_the_same_name_is_not_ours(made: list[Path], apart: bool) -> None:
+    """A segment, because another run on this machine closes ports that nobody locks."""
+    words = unshare_words() if apart else ()
+    if words is None:
+        pytest.skip("no namespaces")
+    left = make(made, "fastrtps_00000000deadbee5")
+    make(made, f"{left.name}_el")
+    command = (*(("unshare", *words, *APART) if words else ()), sys.executable, "-c", MAPPING, str(left))
+    with subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE) as other:
+        assert other.stdout
+        assert other.stdout.readline() == b"up\n"
+        shared_memory.remove_leftovers(time.time() - 50.0)
+        assert left.exists() is not apart

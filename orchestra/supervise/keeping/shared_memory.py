@@ -136,14 +136,28 @@ def _is_free(stem: str) -> bool:
 
 
 def _mapped(*, removed: bool = False) -> set[str]:
-    """Return the stems of all that a process, as far as we may look at it, has in its memory; also if it is removed."""
+    """Return the stems of all that a process, as far as we may look at it, has in its memory; also if it is removed.
+
+    Names of ports are the same in each container; those of one that has shared memory of its own are not meant.
+    """
     found: set[str] = set()
+    ours = os.stat(_FOLDER)  # noqa: PTH116 - as above
     for pid in filter(str.isdigit, os.listdir("/proc")):  # noqa: PTH208 - as above
         with suppress(OSError), open(f"/proc/{pid}/maps", "rb") as maps:  # noqa: PTH123 - as above
             names = (os.fsdecode(line.rpartition(b"/")[2].rstrip()) for line in maps if b"fastrtps_" in line)
             kept = (name.removesuffix(" (deleted)") if removed else name for name in names)
-            found.update(match[1] for name in kept if (match := _OURS.fullmatch(name)))
+            stems = {match[1] for name in kept if (match := _OURS.fullmatch(name))}
+            if stems - found and _sees(pid, ours):
+                found |= stems
     return found
+
+
+def _sees(pid: str, folder: os.stat_result) -> bool:
+    """Tell whether a process has the same shared memory; so does one of which that cannot be told."""
+    try:
+        return os.path.samestat(os.stat(f"/proc/{pid}/root{_FOLDER}"), folder)  # noqa: PTH116 - as above
+    except OSError:
+        return True
 
 
 def _remove(stem: str) -> list[str]:
