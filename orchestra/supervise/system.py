@@ -231,14 +231,11 @@ class System:
         return None
 
     def end_with(self, reason: str, told: str | None = None) -> None:
-        """End the run because the plan says so; a required process that failed just before gives it its status.
+        """End the run because the plan says so.
 
         Triggers on the end hear the reason; `told` is what the terminal shows instead of it.
         """
         told = reason if told is None else told
-        blamed = None if self.stopping.begun else self._verdict.blame()
-        if blamed:
-            self._show_last_lines(blamed)
         self._verdict.ended_by(told)
         self._stop(reason, f"{told}: stopping")
 
@@ -283,8 +280,11 @@ class System:
             self._around.journal.say(f"last lines of {unit.name}:\n{lines}")
 
     def _stop(self, cause: str, announcement: str | None = None, *, due_to_sigint: bool = False) -> None:
+        """End the run; a required process that failed just before gives it its status, whatever the cause."""
         if self.stopping.begun:
             return
+        if blamed := self._verdict.blame():
+            self._show_last_lines(blamed)
         if announcement:
             self._around.journal.say(announcement)
         self._around.questions.hurry()

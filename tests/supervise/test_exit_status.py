@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
 import signal
 from typing import TYPE_CHECKING
 
 import pytest
 
+from orchestra.supervise.keeping import proc
 from orchestra.supervise.options import RunOptions
 from orchestra.values import Restart
 from tests.supervise.plans import (
@@ -20,6 +22,7 @@ from tests.supervise.plans import (
     ready_when,
     shutdown,
     start,
+    wait_for,
     when_ended,
 )
 
@@ -147,6 +150,21 @@ def test_a_required_failure_counts_more_than_the_signal_that_follows(tmp_path: P
         run.await_event("run_stopping")
         run.send(signal.SIGINT)
         assert run.wait() == 5
+
+
+def test_a_required_failure_counts_more_than_the_signal_that_comes_with_it(tmp_path: Path) -> None:
+    """The supervisor hears of both at once."""
+    with launched(tmp_path, plan(process("a", "say=up", "linger", required=True), LINGERS)) as run:
+        run.await_line("a", "up")
+        supervisor, pid = run.own("orc-supervisor"), run.of_kind("process_running", "a")[0].pid
+        assert pid
+        os.kill(supervisor, signal.SIGSTOP)
+        os.kill(pid, signal.SIGKILL)
+        wait_for(lambda: (stat := proc.stat(pid)) and stat.state == "Z", "its end")
+        os.kill(supervisor, signal.SIGINT)
+        os.kill(supervisor, signal.SIGCONT)
+        assert run.wait() == 137
+        assert run.events[-1].data["reason"].startswith("required process a failed")
 
 
 def test_what_fails_before_the_stop_is_named(tmp_path: Path) -> None:
