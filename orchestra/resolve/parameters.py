@@ -19,6 +19,7 @@ from orchestra.errors import Code
 from orchestra.load.offsets import is_on_one_line
 from orchestra.location import is_python, point
 from orchestra.nearest import nearest
+from orchestra.resolve.attribute_values import attribute_value
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.model import FileParameters, InlineParameter, ParameterSource, new_parameter
 from orchestra.resolve.parameter_files import file_parameters
@@ -123,7 +124,8 @@ def _text(
             return coerced(evaluated.text, str(type_word))
         if constant is not None and value.quoted and quotes:
             return evaluated.text
-        result = upstream_value(evaluated.text)
+        kept = constant is not None and quotes and value.span.file.endswith(_XML)
+        result = (attribute_value if kept else upstream_value)(evaluated.text)
     except ValueError as error:
         meant = nearest(evaluated.text, _BOOLEANS) if type_word == "bool" else None
         if meant is not None and not is_python(evaluated.location):

@@ -35,24 +35,28 @@ class Plain(str):
     __slots__ = ()
 
 
+class NotYaml(ValueError):  # noqa: N818 - a reason, which problems and refusals tell
+    """A text holds nothing that PyYAML can read, so that upstream has no value for it either."""
+
+
 def read_scalars(text: str, construct: Construct) -> Any:  # noqa: ANN401 - a scalar or a list
     """Return the scalar or the flat list of scalars that a text holds; None where it holds nothing.
 
-    Raises `ValueError` with the reason: not YAML, a mapping, a list of anything but scalars.
+    Raises `NotYaml`, or another `ValueError` with the reason: a mapping, a list of anything but scalars.
     """
     loader = yaml.SafeLoader if len(text) <= _LONG else getattr(yaml, "CSafeLoader", yaml.SafeLoader)
     try:
         events = list(yaml.parse(text, Loader=loader))[2:-1]
     except yaml.YAMLError as error:
         reason = getattr(error, "problem", None) or str(error).partition("\n")[0]
-        raise ValueError(f"'{shortened(text)}' is not YAML ({reason}): {QUOTE}") from None
+        raise NotYaml(f"'{shortened(text)}' is not YAML ({reason}): {QUOTE}") from None
     if any(isinstance(event, yaml.DocumentStartEvent) for event in events):
         raise ValueError(f"'{shortened(text)}' holds more than one YAML document")
     if not events:
         return None
     first, *rest = events
     if isinstance(first, yaml.AliasEvent):
-        raise ValueError(f"'{shortened(text)}' is an alias without an anchor: {QUOTE}")  # noqa: TRY004
+        raise NotYaml(f"'{shortened(text)}' is an alias without an anchor: {QUOTE}")
     if isinstance(first, yaml.ScalarEvent):
         return construct(first)
     if not isinstance(first, yaml.SequenceStartEvent):
