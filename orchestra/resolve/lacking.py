@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import sys
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import HERE, Severity
 from orchestra.location import displayed
@@ -16,19 +16,28 @@ from orchestra.resolve.refusals import Missing
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
+_SHORT: Final = 4  # letters
+
 
 def missing_program(name: str, environment: Mapping[str, str], weight: Severity) -> Missing:
     """Return what is to be said of a program that is not on the PATH: of such a weight unless one slip explains it.
 
-    A PATH has a thousand short names: `socat` is no slip for `cat`, nor `gzserver` for `serialver`.
+    A PATH has a thousand short names: `socat` is no slip for `cat`, nor `gzserver` for `serialver`, nor `ipfs` for
+    `ipcs`.
     """
     known = set(_programs(environment.get("PATH", os.defpath)))
-    slip = nearest(name, (program for program in known if is_one_slip(name, program)))
+    slip = nearest(name, (program for program in known if _is_slip(name, program)))
     if weight is Severity.ERROR or slip is not None:
         return Missing(
             Severity.ERROR, f"there is no program {name!r} on the PATH", slip or nearest(name, known)
         )
     return Missing(weight, f"there is no program {name!r} {HERE}", None)
+
+
+def _is_slip(name: str, program: str) -> bool:
+    """Return whether one slip tells two names apart; in a short one, one that leaves its letters as they are."""
+    short = len(name) <= _SHORT and len(name) == len(program)
+    return is_one_slip(name, program) and not (short and sorted(name.lower()) != sorted(program.lower()))
 
 
 def _programs(path: str) -> Iterator[str]:

@@ -41,6 +41,9 @@ _ENDINGS: Final = (".yaml", ".yml")
 _RULE: Final = pattern(r"[\w/~.]+:=.*")
 _OF_ROS_1: Final = pattern(r"_(_params|_log_level|[A-Za-z]\w*):=(.+)")
 _SEVERAL: Final = pattern(r"""--?[A-Za-z][\w-]*\s[^"'{]*|(?:-?\d[\d.]*\s+){3}[^"'{]*""")
+_PASSED_ON: Final = pattern(
+    r"(?!--ros-args$)--?[\w-]*(?:arg|argument|param|parameter|opt|option|flag|command|cmd|prefix)s?|-[ce]"
+)
 _OPTIONS: Final = {"_params": "--params-file", "_log_level": "--log-level"}
 
 
@@ -98,9 +101,14 @@ def _check_unknown(words: Sequence[Value], problems: Problems, *, for_ros: bool)
 
 
 def _check_joined(words: Sequence[Value], problems: Problems) -> None:
-    """Report options and what belongs to them in one word of a list, which nothing takes apart: `['-d a.rviz']`."""
+    """Report options and what belongs to them in one word of a list, which nothing takes apart: `['-d a.rviz']`.
+
+    What an option for further arguments takes is one word: `['--controller-ros-args', '-r a:=b']`.
+    """
+    before = ""
     for word in words:
-        if _SEVERAL.fullmatch(word.text) and is_python(word.location):
+        passed_on, before = _PASSED_ON.fullmatch(before), word.text
+        if _SEVERAL.fullmatch(word.text) and is_python(word.location) and not passed_on:
             # Here, because only mistakes need it.
             from orchestra.compat.rewritten import Rewritten  # noqa: PLC0415
 

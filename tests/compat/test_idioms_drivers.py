@@ -286,3 +286,20 @@ def test_settings_of_a_file_become_arguments_and_parameters(
     assert problems == []
     assert content["processes"][0]["parameters"] == parameters
     assert [argument["name"] for argument in content["arguments"]] == ["own", "settings", "frame", "rate"]
+
+
+def test_what_an_option_passes_on_is_one_word(tmp_path: Path) -> None:
+    """The spawner of ros2_control takes the arguments for a controller as one; others stand apart."""
+    text = """\
+        from launch import LaunchDescription
+        from launch_ros.actions import Node
+        def generate_launch_description():
+            return LaunchDescription([
+                Node(package="demo", executable="talker", arguments=[
+                    "arm", "--controller-ros-args", "--ros-args --remap ~/states:=/joint_states"]),
+                Node(package="demo", executable="talker", arguments=["--verbose", "--ros-args --log-level debug"]),
+            ])
+        """
+    _, problems = planned(tmp_path, text)
+    (problem,) = [problem for problem in problems if "is one word" in problem.message]
+    assert "--log-level" in problem.message
