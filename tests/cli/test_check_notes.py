@@ -141,6 +141,8 @@ def test_how_much_a_note_weighs_can_be_said(orchestra: Command, folder: Path) ->
         ("qqgzserver", ("note", None)),
         ("qqxarco", ("error", "qqxacro")),
         ("qqxacr", ("error", "qqxacro")),
+        ("qqfs", ("note", None)),  # as ipfs is none of ipcs
+        ("qqsc", ("error", "qqcs")),
     ],
 )
 def test_a_program_is_a_slip_only_for_one_that_a_single_slip_turns_into_it(
@@ -148,7 +150,7 @@ def test_a_program_is_a_slip_only_for_one_that_a_single_slip_turns_into_it(
 ) -> None:
     programs = tmp_path / "programs"
     programs.mkdir()
-    for program in ("qqcat", "qqserialver", "qqxacro"):
+    for program in ("qqcat", "qqcs", "qqserialver", "qqxacro"):
         (programs / program).touch(0o755)
     (folder / "a.launch.yaml").write_text(f"launch: [log: {{message: $(command '{name} a.urdf')}}]\n")
     found = orchestra(".", "--format", "json", PATH=f"{programs}:/usr/bin:/bin")
@@ -161,6 +163,32 @@ def test_names_of_the_graph_that_a_command_asks_for_are_no_files(orchestra: Comm
         (folder / "a.launch.yaml").write_text(f"launch: [log: {{message: $(command '{command}')}}]\n")
         (problem,) = json.loads(orchestra(".", "--format", "json", PATH="/usr/bin:/bin").stdout)
         assert (problem["code"], problem["severity"]) == ("ORC031", "note")
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        ("param get /robot_state_publisher robot_description", ("note", "which asks what runs")),
+        ("topic echo --once /map", ("note", "which asks what runs")),
+        (
+            "pkg prefix demo",
+            ("error", "ended with status 1"),
+        ),  # what is installed is known before anything runs
+    ],
+)
+def test_a_command_that_asks_what_runs_is_left_open(
+    orchestra: Command, folder: Path, tmp_path: Path, words: str, told: tuple[str, str]
+) -> None:
+    """It would wait for what is not there, and fail: `check` does not run it."""
+    programs = tmp_path / "programs"
+    programs.mkdir()
+    (programs / "ros2").write_text("#!/bin/sh\nexit 1\n")
+    (programs / "ros2").chmod(0o755)
+    (folder / "a.launch.yaml").write_text(f"launch: [log: {{message: $(command 'ros2 {words}')}}]\n")
+    found = orchestra(".", "--format", "json", PATH=f"{programs}:/usr/bin:/bin")
+    (problem,) = json.loads(found.stdout)
+    assert (problem["code"], problem["severity"]) == ("ORC033", told[0])
+    assert told[1] in problem["message"]
 
 
 @pytest.mark.parametrize(

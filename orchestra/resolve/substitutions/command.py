@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from orchestra.errors import Code
+from orchestra.errors import Code, Severity
 from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON, Value
 from orchestra.resolve.refusals import refuse
@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from orchestra.resolve.substitutions.arguments import Evaluate
 
 _ON_STDERR: Final = ("fail", "ignore", "warn", "capture")
+_ROS2: Final = "ros2"
+_ASKING: Final = frozenset(
+    ["action", "component", "control", "lifecycle", "node", "param", "service", "topic"]
+)
 _SHOWN: Final = 2000  # characters of standard error in a problem, its end
 
 
@@ -48,6 +52,8 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
         )
     if not argv:
         return refuse(call.arguments[0], context, Code.COMMAND_FAILED, "the command is empty")
+    if argv[0] == _ROS2 and _is_left_open(argv, call, context):
+        return POISON
     result = context.run_command(argv, context.environment)
     fault = _fault(result, on_stderr)
     if fault is not None:
@@ -65,6 +71,19 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
         context.problems.warning(Code.COMMAND_FAILED, told, context.at(call.span), notes=notes)
     output = result.stdout + result.stderr if on_stderr == "capture" else result.stdout
     return made(call, context, output.removesuffix("\n"))
+
+
+def _is_left_open(argv: Sequence[str], call: Call, context: Context) -> bool:
+    """Report a command that asks what runs, where nothing is to run; return whether it is one."""
+    if context.weights.program is not Severity.NOTE or not set(argv[1:2]) & _ASKING:
+        return False
+    import shutil  # noqa: PLC0415 - as above
+
+    if shutil.which(argv[0], path=context.environment.get("PATH")) is None:
+        return False
+    told = f"'{argv[0]} {argv[1]}', which asks what runs, is not run here: what it would give is left open"
+    context.problems.weighed(Severity.NOTE, Code.COMMAND_FAILED, told, context.at(call.span))
+    return True
 
 
 def _on_stderr(call: Call, values: Sequence[Evaluated], context: Context) -> str | None:
