@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import HERE, Severity
-from orchestra.location import displayed
+from orchestra.location import displayed, is_file
 from orchestra.nearest import is_one_slip, nearest
 from orchestra.resolve.near_paths import near_names, rewritten
 from orchestra.resolve.refusals import Missing
@@ -59,6 +59,25 @@ def missing_file(path: str, file: str, environment: Mapping[str, str], weight: S
         told = f"there is no file {displayed(path)}, which the code asks for"
         return Missing(Severity.ERROR, told, rewritten(path, changes) if changes else None)
     return Missing(weight, f"there is no file {displayed(path)} {HERE}", None)
+
+
+def is_another(package: str, share: str | None, file: str | None) -> bool:
+    """Return whether a launch file is of the source of a package that an importable one here only shares its name with.
+
+    A workspace may have a package `bringup` or `serial`, and the interpreter a module of that name.
+    """
+    if share is None or file is None or Path(share).parent.name == "share":
+        return False  # what ament has installed is the package itself
+    here = Path(share).absolute()
+    for folder in Path(file).absolute().parents:
+        if folder == here:
+            return False
+        manifest = folder / "package.xml"
+        if is_file(manifest):
+            return f"<name>{package}</name>" in manifest.read_text("utf-8", "replace")
+        if folder.name == package:
+            return not is_file(folder / "__init__.py")
+    return False
 
 
 def is_certain(changes: Sequence[tuple[str, str]]) -> bool:

@@ -85,12 +85,24 @@ def packaged_words(
                 f"{package.text!r} is an executable of the package {executable.text!r}: the two are swapped"
             )
             return refuse_value(package, run.problems, Code.MISSING_PACKAGE, told, meant=executable.text)
-        report_missing_package(package.text, written[0], run.context, package)
-        return ("${prefix:" + package.text + "}/lib/" + f"{package.text}/{executable.text}",)
+        return _elsewhere(package, executable, written, run)
     words = packages.executable(package.text, executable.text)
     if words is None:
+        # Here, because most executables are there.
+        from orchestra.resolve.lacking import is_another  # noqa: PLC0415
+
+        if is_another(package.text, packages.share(package.text), run.context.file):
+            return _elsewhere(package, executable, written, run)
         return report_missing_executable(executable.text, package.text, written[1], run.context, executable)
     return words if _is_runnable(words[0], executable.location, run) else POISON
+
+
+def _elsewhere(
+    package: Value, executable: Value, written: tuple[Template, Template], run: Resolution
+) -> tuple[str, ...]:
+    """Report a package that is not here, and return the symbolic name of its executable."""
+    report_missing_package(package.text, written[0], run.context, package)
+    return ("${prefix:" + package.text + "}/lib/" + f"{package.text}/{executable.text}",)
 
 
 def _is_runnable(path: str, location: Location, run: Resolution) -> bool:

@@ -146,3 +146,24 @@ def test_a_module_is_not_imported(folder: Path) -> None:
     outcome(folder, "launch:\n- node: {module: walkers.arms}\n")
     assert not {name for name in sys.modules if name.partition(".")[0] == "walkers"}
     assert os.getcwd() == str(folder)  # noqa: PTH109 - as the system has it
+
+
+_OF_THE_NAME = "launch: [node: {pkg: walkers, exec: driver}, log: {message: $(exec-in-pkg driver walkers)}]\n"
+
+
+@pytest.mark.parametrize(
+    ("beside", "code"),
+    [
+        ({"walkers/package.xml": "<package><name>walkers</name></package>"}, Code.MISSING_PACKAGE),
+        ({}, Code.MISSING_PACKAGE),
+        ({"walkers/package.xml": "<package><name>others</name></package>"}, Code.MISSING_EXECUTABLE),
+        ({"walkers/__init__.py": ""}, Code.MISSING_EXECUTABLE),  # a copy of what is here
+    ],
+)
+def test_a_module_is_not_the_package_whose_source_holds_the_launch_file(
+    folder: Path, beside: dict[str, str], code: Code
+) -> None:
+    """A workspace may have a package `serial` where the interpreter has a module of that name."""
+    files = {"walkers/launch/main.yaml": _OF_THE_NAME, **beside}
+    found = outcome(folder, files, launching=False)
+    assert {problem.code for problem in found.problems} == {code}

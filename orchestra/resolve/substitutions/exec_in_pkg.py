@@ -28,6 +28,11 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
         return report_missing_package(package, written_package, context)
     match context.packages.executable(package, executable):
         case None:
+            # Here, because most executables are there.
+            from orchestra.resolve.lacking import is_another  # noqa: PLC0415
+
+            if is_another(package, context.packages.share(package), context.file):
+                return report_missing_package(package, written_package, context)
             return report_missing_executable(executable, package, written, context)
         case (path,):
             return made(call, context, path)
