@@ -262,7 +262,7 @@ class Observer:
             self.foreign.add(module)
         if top in self.ours or top in sys.stdlib_module_names or not isinstance(path, list):
             return
-        if tuple(path) in self._paths:
+        if tuple(path) in self._paths or origins.is_asked_for_by_python():
             return
         self._paths.add(tuple(path))
         for folder in path:

@@ -12,6 +12,7 @@ from orchestra.witness import looking
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable
+    from types import FrameType
 
 OURS: Final = os.path.dirname(os.path.dirname(os.path.abspath(__file__))) + os.sep
 _PATHS: Final = sysconfig.get_paths()
@@ -26,6 +27,7 @@ INSTALLED: Final = tuple(
     for path in {_PATHS[name], os.path.realpath(_PATHS[name])}
 )
 OF_THE_KERNEL: Final = ("/proc/", "/sys/", "/dev/")
+_BETWEEN: Final = (os.path.join(OURS, "witness", ""), "<frozen importlib")
 _MOST_PATHS: Final = 100_000  # that are remembered
 
 
@@ -41,6 +43,18 @@ def source_of(cached: str) -> str:
     except ValueError:
         return cached
     return source if looking.signature(source) is not None else cached
+
+
+def is_asked_for_by_python() -> bool:
+    """Tell whether what is being imported is named in a module of Python itself, outside its functions.
+
+    Such modules try others that only some systems have, as `copy` does; whether they are here changes with Python. What
+    a function of Python imports may be anything: `importlib.import_module` is one.
+    """
+    frame: FrameType | None = sys._getframe(1)  # noqa: SLF001 - there is no other way
+    while frame is not None and frame.f_code.co_filename.startswith(_BETWEEN):
+        frame = frame.f_back
+    return frame is not None and frame.f_code.co_name == "<module>" and is_python(frame.f_code.co_filename)
 
 
 def of_users(file: str) -> bool:
