@@ -12,6 +12,18 @@ if TYPE_CHECKING:
 
 # By name, with their types. rclcpp: node_time_source, type_description_service, qos_overrides; rclpy: Node. Jazzy.
 COMMON: Final[dict[str, RosType]] = {"use_sim_time": "bool", "start_type_description_service": "bool"}
+# Packages with nodes whose parameters are known from their code.
+KNOWN: Final = frozenset(
+    {
+        "joy",
+        "nav2_amcl",
+        "nav2_lifecycle_manager",
+        "nav2_map_server",
+        "robot_localization",
+        "robot_state_publisher",
+        "teleop_twist_joy",
+    }
+)
 _GROUPS: Final = ("qos_overrides",)
 _SIM_TIME: Final = "use_sim_time"
 

@@ -1,0 +1,94 @@
+"""What well-known nodes declare, whose packages have no file that says so.
+
+A node of rclcpp refuses a value of another type and ends, and drops names that it does not declare without a word. Of
+another version than the one here a node may declare more: so a name is told only where it is a slip for one of these,
+and everything as a warning. Source: the nodes' own code, Jazzy.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import TYPE_CHECKING, Final
+
+from orchestra.dataclass import dataclass
+from orchestra.declared.judging import DeclaredParameters
+from orchestra.declared.known_nodes import NODES, Known
+from orchestra.declared.model import Declarations, Fault, Parameter
+from orchestra.declared.rules import Size
+from orchestra.fields import replace
+from orchestra.nearest import is_slip
+from orchestra.patterns import pattern
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator, Mapping
+
+    from orchestra.declared.model import ParameterSchema, RosType
+    from orchestra.values import ParameterValue
+
+_FRAMES: Final = {"map_frame": "map", "odom_frame": "odom"}
+_WORLD: Final = "world_frame"
+_WORD: Final = pattern(r"[a-z]+(?=_|$)")
+
+
+def known_schema(package: str | None, called: str) -> ParameterSchema | None:
+    """Return the schema of a node that is started by an executable of a package, or by a class; None for others."""
+    known = NODES.get((package or "", called))
+    return None if known is None else _Known(DeclaredParameters(_declarations(known)), known)
+
+
+@dataclass(frozen=True, slots=True)
+class _Known:
+    """The schema of a node that is known from its code."""
+
+    declared: DeclaredParameters
+    known: Known
+
+    def faults(self, values: Mapping[str, ParameterValue]) -> Iterator[Fault]:
+        """Yield what is wrong with values by dotted name."""
+        for fault in self.declared.faults(values):
+            if fault.kind != "undeclared" or self._is_slip(fault, values):
+                yield replace(fault, certain=False)
+            elif (meant := self._numbered(fault.name, values)) is not None:
+                yield replace(fault, meant=meant, certain=False)
+        if _WORLD in self.known.texts:
+            yield from _of_frames(values)
+
+    def _is_slip(self, fault: Fault, values: Mapping[str, ParameterValue]) -> bool:
+        meant = fault.meant
+        return meant is not None and meant not in values and is_slip(fault.name, meant)
+
+    def _numbered(self, name: str, values: Mapping[str, ParameterValue]) -> str | None:
+        """Return a name that lacks its number with the first one that is free: `imu0_config` for `imu_config`."""
+        begin = _WORD.match(name)
+        if begin is None:
+            return None
+        numbered = (f"{begin[0]}{number}{name[begin.end() :]}" for number in range(10))
+        free = (other for other in numbered if other not in values)
+        patterns = self.declared.declared.patterns
+        return next((other for other in free if any(re.search(item, other) for item, _ in patterns)), None)
+
+
+def _declarations(known: Known) -> Declarations:
+    rows: tuple[tuple[RosType, tuple[str, ...]], ...] = (
+        ("bool", known.truths),
+        ("integer", known.integers),
+        ("double", known.doubles),
+        ("string", known.texts),
+        ("string_array", known.lists),
+    )
+    plain = (Parameter(name, (kind,)) for kind, names in rows for name in names)
+    sized = (
+        (name, Parameter(name, (kind,), rules=() if size is None else (Size(size, size),)))
+        for name, kind, size in known.sized
+    )
+    patterns = tuple((pattern, item) for pattern, item in sized)
+    return Declarations(tuple(plain), patterns, known.groups, undeclared="ignored")
+
+
+def _of_frames(values: Mapping[str, ParameterValue]) -> Iterator[Fault]:
+    """Yield that the world of a filter is neither of the two frames that it can be."""
+    world = values.get(_WORLD)
+    frames = [values.get(name, default) for name, default in _FRAMES.items()]
+    if isinstance(world, str) and world not in frames:
+        told = f"'{_WORLD}' must be the value of map_frame or of odom_frame, not '{world}'"
+        yield Fault("value", _WORLD, told, str(frames[-1]), certain=False)

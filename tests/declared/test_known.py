@@ -1,0 +1,71 @@
+"""What well-known nodes declare: told where a value or a name is certainly wrong, and silent about all else."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+import pytest
+
+from orchestra.declared.common import KNOWN
+from orchestra.declared.known import known_schema
+from orchestra.declared.known_nodes import NODES
+
+if TYPE_CHECKING:
+    from orchestra.values import ParameterValue
+
+_FLAGS = (True, False, True) * 5
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "meant"),
+    [
+        ("frequency", 30, "30.0"),
+        ("two_d_mode", "true", "true"),
+        ("odom_frame", 1, '"1"'),
+        ("freqency", 30.0, "frequency"),
+        ("odom0_cofnig", _FLAGS, "odom0_config"),
+        ("twist_config", _FLAGS, "twist0_config"),
+        ("imu0_config", _FLAGS[:14], None),
+        ("initial_state", (0.0,) * 14, None),
+        ("world_frame", "base_link", "odom"),
+    ],
+)
+def test_a_parameter_of_a_filter_is_told(name: str, value: ParameterValue, meant: str | None) -> None:
+    schema = known_schema("robot_localization", "ekf_node")
+    assert schema is not None
+    told = list(schema.faults({name: value}))
+    assert [(fault.name, fault.meant, fault.certain) for fault in told] == [(name, meant, False)]
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"frequency": 30.0, "imu0": "imu/data", "imu0_config": _FLAGS, "imu0_queue_size": 5},
+        {"world_frame": "map"},
+        {"world_frame": "robot1/odom", "odom_frame": "robot1/odom"},
+        {"odom0_nodelay": True, "use_sim_time": True, "a_new_one": 1},
+        {"twist0": "speed", "twist1": "speed", "process_noise_covariance": (0.1,) * 225},
+    ],
+)
+def test_what_may_be_right_stays_silent(values: dict[str, ParameterValue]) -> None:
+    """Names that are like none may be those of another version."""
+    schema = known_schema("robot_localization", "ekf_node")
+    assert schema is not None
+    assert list(schema.faults(values)) == []
+
+
+def test_a_number_that_is_left_out_is_the_first_that_is_free() -> None:
+    schema = known_schema("robot_localization", "ukf_node")
+    assert schema is not None
+    told = schema.faults({"imu0": "a", "imu0_config": _FLAGS, "imu_config": _FLAGS})
+    assert [fault.meant for fault in told] == ["imu1_config"]
+
+
+def test_the_table_and_the_packages_are_the_same() -> None:
+    assert {package for package, _ in NODES} == KNOWN
+    assert all(known_schema(*node) is not None for node in NODES)
+
+
+@pytest.mark.parametrize("node", [("demo", "ekf_node"), ("robot_localization", "other"), (None, "amcl")])
+def test_of_other_nodes_nothing_is_known(node: tuple[str | None, str]) -> None:
+    assert known_schema(*node) is None
