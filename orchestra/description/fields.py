@@ -26,6 +26,10 @@ TRUE_WORDS = frozenset({"true", "1", "yes", "on"})
 FALSE_WORDS = frozenset({"false", "0", "no", "off"})
 # What is suggested for what is no flag.
 FLAG_WORDS = ("true", "false", "yes", "no", "on", "off")
+_FLAGS_ELSEWHERE = {
+    **dict.fromkeys(("always", "enable", "enabled", "on-failure", "t", "unless-stopped", "y"), "true"),
+    **dict.fromkeys(("disable", "disabled", "f", "n", "never", "none"), "false"),
+}
 
 _WITH_UNIT = pattern(r"([0-9]+(?:\.[0-9]+)?)\s*(ms|msec|s|sec|secs|seconds?|min|minutes?)", re.IGNORECASE)
 _UNITS = {"ms": 0.001, "s": 1.0, "se": 1.0, "mi": 60.0}
@@ -199,7 +203,7 @@ Text: TypeAlias = Annotated[Template, Plain(_text), Told(_TEXT)]
 Literal: TypeAlias = Annotated[Template, Plain(_literal), Told(_TEXT)]
 Flag: TypeAlias = Annotated[
     Template,
-    Plain(constant_of("true or false", _is_flag, FLAG_WORDS)),
+    Plain(constant_of("true or false", _is_flag, FLAG_WORDS, elsewhere=_FLAGS_ELSEWHERE)),
     Told(
         {
             "type": ["boolean", "integer", "string"],

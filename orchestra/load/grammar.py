@@ -245,7 +245,7 @@ class _Reader:
         return False
 
     def count(self, call: Call, start: int, first: int, last: int) -> None:
-        """Report too few or too many arguments of the call that began at `start`; they reach from `first` to `last`."""
+        """Report too few or too many arguments of the call that began at `start`; they are from `first` to `last`."""
         name, number = call.name, len(call.arguments)
         notes = (f"it is written {usage(name)}",)
         if told := lack(name, number):
@@ -253,7 +253,8 @@ class _Reader:
         elif told := excess(name, number):
             self.crowded, phrase = start, SIGNATURES[name].phrase
             instead = self.in_quotes(first, last) if phrase else one_default(name, call.arguments)
-            self.fault(first, last, told, suggestion=instead, notes=notes)
+            whole = f"{self.text[start:first]}{instead}{self.text[last : self.at]}" if instead else None
+            self.fault(start, self.at, told, suggestion=whole, notes=notes)
 
     def in_quotes(self, start: int, end: int) -> str | None:
         """Return the stretch in quotes that it does not hold itself, None where it holds both."""

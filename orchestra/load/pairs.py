@@ -9,6 +9,7 @@ from orchestra.location import Span
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
     from collections.abc import Set as AbstractSet
 
 NESTED: Final = "a parameter cannot be a list of lists"
@@ -18,9 +19,11 @@ _NAMED: Final = ("name", "value")
 _RULE: Final = ("from", "to")
 _DECLARED: Final = ("name", "default")
 _PROGRAM: Final = ("pkg", "exec")
-_LISTS: Final = {
+_CHOICE: Final = ("value",)
+_LISTS: Final[dict[str, tuple[str, ...]]] = {
     **dict.fromkeys(("arg", "env", "env_only", "extra_arg", "keep", "let", "param"), _NAMED),
     "remap": _RULE,
+    "choice": _CHOICE,
 }
 # What joins a name and a value: on a command line, in a shell, in words.
 _JOINTS: Final = {
@@ -30,6 +33,7 @@ _JOINTS: Final = {
 _PATH: Final = pattern(r"(?:\$\([^()]*\)|[\w./~-])+\.ya?ml")
 _SPECIAL: Final = pattern(r"[,{}\[\]#]|: |:$|^[ &*!|>%@`'\"?-]|^$| $")
 _OF_TEXTS: Final = ("choices", "success_exit_codes")
+_COMMA: Final = pattern(r"\s*,\s*")
 _ITEM: Final = pattern(r"[\w./-]+")
 
 
@@ -42,7 +46,7 @@ def written_list(key: str, content: Any) -> str | None:  # noqa: ANN401 - a tree
         return shortened(
             f"{key}: [{{{', '.join(f'{name}: {_value(content[name])}' for name in pair)}}}]", _LONGEST
         )
-    return shortened(f"{key}: [{_items(content, pair)}]", _LONGEST)
+    return None if pair == _CHOICE else shortened(f"{key}: [{_items(content, pair)}]", _LONGEST)
 
 
 def written_so(key: str, content: Any) -> str | None:  # noqa: ANN401 - a tree
@@ -61,6 +65,8 @@ def written_pair(key: str, text: Written) -> str | None:
     pair = _LISTS.get(key)
     if key == "param" and _PATH.fullmatch(text.text):
         return f"{{from: {_plain(text.text)}}}"
+    if pair == _CHOICE:
+        return ", ".join(f"{{value: {_plain(value)}}}" for value in _COMMA.split(text.text.strip()))
     return None if pair is None else _parted(text.text, pair)
 
 
@@ -78,7 +84,7 @@ def written_mapping(known: AbstractSet[str], required: AbstractSet[str], text: W
     return f"{{{key}: {_value(text)}}}"
 
 
-def _parted(text: str, pair: tuple[str, str]) -> str | None:
+def _parted(text: str, pair: tuple[str, ...]) -> str | None:
     is_short = "\n" not in text and len(text) <= _LONGEST
     found = _JOINTS[_RULE if pair == _RULE else _NAMED].fullmatch(text.strip()) if is_short else None
     return None if found is None else f"{{{pair[0]}: {_plain(found[1])}, {pair[1]}: {_plain(found[2])}}}"
@@ -156,11 +162,36 @@ def nested_list(mapping: Keyed, place: tuple[int | str, ...]) -> tuple[Span, str
     return span, None if '"' in written or "..." in written else f'"{written}"'
 
 
-def _items(content: Keyed, pair: tuple[str, str]) -> str:
+def as_mappings(items: Listed, source: str) -> tuple[Span, str | None]:
+    """Return the place of all of a list's texts, and how each is written as a mapping with `value`, in its form.
+
+    Between them everything stays as it is. `source` is the file, of which lists in XML have no items in that form.
+    """
+    first, last = items[0].span, items[-1].span
+    lines = source.split("\n")
+    if not (items.span < first and last.end_line <= len(lines)):
+        return first, None
+    left, right = ("{", "}") if lines[items.span.line - 1][items.span.column - 1] == "[" else ("", "")
+    written, at = "", (first.line, first.column)
+    for span in (item.span for item in items):
+        between = _stretch(lines, at, (span.line, span.column))
+        text = _stretch(lines, (span.line, span.column), (span.end_line, span.end_column))
+        written += f"{between}{left}value: {text}{right}"
+        at = (span.end_line, span.end_column)
+    return Span(first.file, first.line, first.column, last.end_line, last.end_column), written
+
+
+def _stretch(lines: Sequence[str], begin: tuple[int, int], end: tuple[int, int]) -> str:
+    """Return the text from one line and column to another."""
+    kept = [*lines[begin[0] - 1 : end[0] - 1], lines[end[0] - 1][: end[1] - 1]]
+    return "\n".join([kept[0][begin[1] - 1 :], *kept[1:]])
+
+
+def _items(content: Keyed, pair: tuple[str, ...]) -> str:
     return ", ".join(_item(name, value, pair) for name, value in content.items())
 
 
-def _item(name: str, value: Any, pair: tuple[str, str]) -> str:  # noqa: ANN401 - a tree
+def _item(name: str, value: Any, pair: tuple[str, ...]) -> str:  # noqa: ANN401 - a tree
     if isinstance(value, Keyed) and pair == _NAMED:
         return f"{{name: {name}, param: [{_items(value, pair)}]}}"
     return f"{{{pair[0]}: {name}, {pair[1]}: {_value(value)}}}"

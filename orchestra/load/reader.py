@@ -10,13 +10,15 @@ from orchestra.description.fields import STRAY_KEY
 from orchestra.description.source import Keyed, Listed, Verbatim, Written, kind_of
 from orchestra.description.text import Template, new_template, new_words
 from orchestra.errors import Code, Problems
-from orchestra.fields import replace
+from orchestra.fields import field, replace
 from orchestra.load.braces import warn_of_braces
 from orchestra.load.elements import beginning_of, noun
 from orchestra.load.grammar import parse_template, sound_template, unescaped
+from orchestra.load.halves import Halves
 from orchestra.load.keys import known_keys
 from orchestra.load.pairs import (
     NESTED,
+    as_mappings,
     extent,
     nested_list,
     written_as_list,
@@ -59,6 +61,10 @@ class Reader:
     problems: Problems
     included_from: tuple[Span, ...] = ()
     text: str = ""
+    halves: Halves = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.halves = Halves(self.problems)
 
     def error(
         self,
@@ -126,6 +132,8 @@ class Reader:
 
         A key that is missing because it is probably misspelt stays silent, for that has been reported.
         """
+        if self.halves.joined(mapping):
+            return set(mapping)
         places = [error["loc"] for error in errors]
         for error in errors:
             place = error["loc"]
@@ -137,18 +145,23 @@ class Reader:
                 continue
             plain = _among_texts(mapping, error)
             if plain == "choice":
-                message = "the values of 'choice' are mappings; a list of values is 'choices'"
-                self.error(Code.WRONG_TYPE, message, mapping.keys_at[plain], suggestion="choices")
+                span, instead = as_mappings(mapping[plain], self.text)
+                message = "each value of 'choice' is a mapping with 'value'; a list of values is 'choices'"
+                self.error(Code.WRONG_TYPE, message, span, suggestion=instead)
             elif plain != "":
                 self._fault(mapping, error)
+        self.halves.told(mapping)
         return {str(error["loc"][0]) for error in errors if error["loc"]}
 
     def conflict(self, mapping: Keyed, conflict: Conflict) -> None:
         """Report keys that cannot stand together, at the last that is too many."""
+        if self.halves.joined(mapping):
+            return
         too_many = sorted((at, key) for key, at in mapping.keys_at.items() if key in conflict.keys)
         at = too_many[-1][0] if too_many else mapping.head
         notes = [f"`{key}` is at {place}" for place, key in too_many[:-1]]
         self.error(Code.CONFLICTING_KEYS, conflict.reason, at, notes=notes)
+        self.halves.told(mapping)
 
     def _fault(self, mapping: Keyed, error: ErrorDetails) -> None:
         kind = error["type"]

@@ -2,18 +2,22 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import yaml
 
 from orchestra.description.source import Listed, Written
 from orchestra.errors import Code
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from orchestra.load.elements import Attribute
     from orchestra.load.offsets import Source
     from orchestra.load.reader import Reader
 
+_WORDS: Final = "choices"
+_WORD: Final = pattern(r"[\w./-]+")
+_JOINT: Final = pattern(r"\s*[,;|]\s*|\s+")
 _PARSER: type[Any] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
 
@@ -33,7 +37,7 @@ def separated(attribute: Attribute, separator: Attribute, whole: Source, reader:
     return items
 
 
-def listed(attribute: Attribute, whole: Source, *, alone: bool) -> Listed | Written:
+def listed(attribute: Attribute, whole: Source, reader: Reader, *, alone: bool) -> Listed | Written:
     """Return the items of a value as `[a, b]`, by YAML's rules; any other value is itself or a list of it alone."""
     written = attribute.written(whole)
     node = _composed(written.text)
@@ -41,10 +45,24 @@ def listed(attribute: Attribute, whole: Source, *, alone: bool) -> Listed | Writ
     if isinstance(node, yaml.SequenceNode) and all(isinstance(item, yaml.ScalarNode) for item in node.value):
         items.extend(_item(written, item) for item in node.value)
     elif alone:
-        items.append(written)
+        words = _JOINT.split(written.text.strip()) if attribute.name == _WORDS else []
+        if len(words) > 1 and all(map(_WORD.fullmatch, words)):
+            _refuse_words(attribute, words, whole, reader)
+            items.extend(_part(written, 0, len(written.text), word) for word in words)
+        else:
+            items.append(written)
     else:
         return written
     return items
+
+
+def _refuse_words(attribute: Attribute, words: list[str], whole: Source, reader: Reader) -> None:
+    """Report the values of an argument in one text, which is one value of it."""
+    first = f'<choice value="{words[0]}"/>'
+    message = f"'{attribute.value}' is one value; each value is an element of its own: {first}"
+    at = whole.span(attribute.at, attribute.end + 1)
+    instead = f'{attribute.name}="[{", ".join(words)}]"'
+    reader.error(Code.WRONG_TYPE, message, at, suggestion=instead)
 
 
 def _composed(text: str) -> yaml.Node | None:

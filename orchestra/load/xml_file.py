@@ -164,7 +164,7 @@ class _Shaper:
                 tagged.put(attribute.name, separated(attribute, separator, self.whole, self.reader), at)
             elif form.kind is not Kind.TEXT:
                 one = form.kind is Kind.LIST
-                tagged.put(attribute.name, listed(attribute, self.whole, alone=one), at)
+                tagged.put(attribute.name, listed(attribute, self.whole, self.reader, alone=one), at)
             else:
                 tagged.put(attribute.name, attribute.written(self.whole), at)
 
@@ -215,7 +215,8 @@ class _Shaper:
                 self._once(child, self.content(child, None, VARIABLES), tagged)
             case _:
                 message = f"'{child.name}' is written as an attribute: {child.name}=\"...\""
-                self.reader.error(Code.WRONG_TYPE, message, at)
+                near = next((key for key in tagged.elements if is_slip(child.name, key)), None)
+                self.reader.error(Code.WRONG_TYPE, message, at, suggestion=near)
                 _lose(tagged, child.name)
 
     def _once(self, child: Element, content: Keyed, tagged: Tagged) -> None:

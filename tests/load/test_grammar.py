@@ -114,12 +114,17 @@ def test_a_text_is_read_as_upstream_reads_it(text: str, shape: list[object]) -> 
         ("$(no-such a b)", Code.UNKNOWN_SUBSTITUTION, "no-such", None),
         ("x $(and a) y", Code.SUBSTITUTION_SYNTAX, "$(and a)", None),
         ("$(var)", Code.SUBSTITUTION_SYNTAX, "$(var)", None),
-        ("$(dirname a b)", Code.SUBSTITUTION_SYNTAX, "a b", None),
-        ("$(find-pkg-share a b)", Code.SUBSTITUTION_SYNTAX, "a b", None),
-        ("$(var a b c)", Code.SUBSTITUTION_SYNTAX, "a b c", "a 'b c'"),
-        ("$(eval 1 + 2)", Code.SUBSTITUTION_SYNTAX, "1 + 2", "'1 + 2'"),
-        ("$(eval $(var a) == 'b')", Code.SUBSTITUTION_SYNTAX, "$(var a) == 'b'", "\"$(var a) == 'b'\""),
-        ("$(command echo a b)", Code.SUBSTITUTION_SYNTAX, "echo a b", "'echo a b'"),
+        ("$(dirname a b)", Code.SUBSTITUTION_SYNTAX, "$(dirname a b)", None),
+        ("$(find-pkg-share a b)", Code.SUBSTITUTION_SYNTAX, "$(find-pkg-share a b)", None),
+        ("$(var a b c)", Code.SUBSTITUTION_SYNTAX, "$(var a b c)", "$(var a 'b c')"),
+        ("$(eval 1 + 2)", Code.SUBSTITUTION_SYNTAX, "$(eval 1 + 2)", "$(eval '1 + 2')"),
+        (
+            "$(eval $(var a) == 'b')",
+            Code.SUBSTITUTION_SYNTAX,
+            "$(eval $(var a) == 'b')",
+            "$(eval \"$(var a) == 'b'\")",
+        ),
+        ("$(command echo a b)", Code.SUBSTITUTION_SYNTAX, "$(command echo a b)", "$(command 'echo a b')"),
         ("$(var a (x))", Code.SUBSTITUTION_SYNTAX, "(x)", "'(x)'"),
         ("$(eval (1 + 2))", Code.SUBSTITUTION_SYNTAX, "(1 + 2)", "'(1 + 2)'"),
         ("$(var it's)", Code.SUBSTITUTION_SYNTAX, "it's", '"it\'s"'),
@@ -154,7 +159,12 @@ def test_a_suggestion_put_in_place_of_its_span_mends_the_text(text: str, mended:
 def test_all_faults_of_a_text_are_told() -> None:
     text = "$(nosuch $(var)) and $(eval 1 + 2) and $(var a"
     _, problems = _parse(text)
-    assert [_at(text, problem.span) for problem in problems.ordered] == ["nosuch", "$(var)", "1 + 2", "$("]
+    assert [_at(text, problem.span) for problem in problems.ordered] == [
+        "nosuch",
+        "$(var)",
+        "$(eval 1 + 2)",
+        "$(",
+    ]
 
 
 def test_what_is_sound_in_a_faulty_text_stays_to_be_evaluated() -> None:

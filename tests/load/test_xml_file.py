@@ -83,7 +83,7 @@ SAME = {
         "<arg name='a' choices='[b, \"c, d\", 5]'/>",
         "[arg: {name: a, choices: [b, 'c, d', '5']}]",
     ),
-    "a list of one": ("<arg name='a' choices='b c'/>", "[arg: {name: a, choices: [b c]}]"),
+    "a list of one": ("<arg name='a' choices='b: c'/>", "[arg: {name: a, choices: ['b: c']}]"),
     "brackets that may as well be text stay text": (
         "<node exec='a'><param name='b' value='[1, 2]'/></node>",
         "[node: {exec: a, param: [{name: b, value: '[1, 2]'}]}]",
