@@ -26,10 +26,11 @@ _KNOWN = frozenset(
 
 @dataclass(frozen=True, slots=True)
 class Given:
-    """The name of an argument, and where it is given."""
+    """The name of an argument, where it is given, and the value where an include gives it."""
 
     name: str
     location: Location
+    value: str | None = None
 
 
 def settle(
@@ -48,7 +49,7 @@ def settle(
     others = ledger.declared - {item.name for item in given if included_at is not None}
     misspelt = set()
     for item in _unknown(given, description, ledger, run):
-        meant = nearest(item.name, others)
+        meant = item.value if item.value in others else nearest(item.name, others)
         if included_at is None:
             _refuse(item, meant, description, ledger, run)
         else:
@@ -108,12 +109,13 @@ def _refuse_in_include(
     item: Given, meant: str | None, description: Description, ledger: Ledger, run: Resolution
 ) -> None:
     message = f"{description.file} has no argument '{item.name}'"
+    swapped = ("the name and the value are in each other's place",) if meant == item.value else ()
     slip = meant is not None and is_slip(item.name, meant) and not is_python(item.location)
     if slip or meant in ledger.missing:
-        run.problems.error(Code.UNKNOWN_ARGUMENT, message, item.location, suggestion=meant)
+        run.problems.error(Code.UNKNOWN_ARGUMENT, message, item.location, suggestion=meant, notes=swapped)
     elif not ledger.incomplete:
         message += " and reads no variable of that name"
-        run.problems.warning(Code.UNREAD_ARGUMENT, message, item.location, suggestion=meant)
+        run.problems.warning(Code.UNREAD_ARGUMENT, message, item.location, suggestion=meant, notes=swapped)
 
 
 def lacking(name: str) -> str:

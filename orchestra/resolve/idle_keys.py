@@ -51,8 +51,8 @@ def _unseen(action: Running, run: Resolution) -> Iterator[tuple[Template, str]]:
 
 
 def _without_respawn(action: Running) -> Iterator[tuple[Template, str]]:
-    if action.respawn is not None or action.restart is not None:
-        return
+    if action.respawn is not None or action.restart is not None or action.faulty:
+        return  # a faulty one may have been meant to be `respawn`
     for name in ("respawn_delay", "respawn_max_retries"):
         written = getattr(action, name)
         if written is not None:

@@ -151,8 +151,10 @@ def _warn_of_kept(sections: tuple[Section, ...], given_at: Location, run: Resolu
     for entry in (entry for section in sections for entry in section.entries):
         found = _CALL.match(entry.value) if isinstance(entry.value, str) else None
         if found is not None and found[1] in SIGNATURES:
-            message = f"'{shortened(str(entry.value))}' stays a text: this file is read without substitutions"
-            notes = (f"`allow_substs: true` where it is given, at {given_at}, evaluates them",)
+            message = (
+                f"'{shortened(str(entry.value))}' stays a text: the file is given without `allow_substs`"
+            )
+            notes = (f"`allow_substs: true` where it is given, at {given_at}, evaluates it",)
             run.problems.warning(Code.SURPRISING_SCALAR, message, entry.location, notes=notes)
             return
 

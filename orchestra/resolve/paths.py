@@ -114,13 +114,14 @@ def _refuse_path(
     """Report a path that is none where its wrong part stands; where that is not known, where the path is used."""
     # Here, because most files that are named are there.
     from orchestra.resolve.misspelt import misspelt  # noqa: PLC0415
+    from orchestra.resolve.other_packages import of_other_package  # noqa: PLC0415
 
     place = None if is_python(value.location) else misspelt(value, written, changes)
     if place is not None:
         used = () if place.at == value.location else (f"it is used at {value.location}",)
         run.problems.error(Code.MISSING_FILE, message, place.at, suggestion=place.instead, notes=used)
         return
-    near = rewritten(written, changes) if changes else None
+    near = rewritten(written, changes) if changes else of_other_package(value.text, written, run)
     if near is not None and near == written:  # the wrong part of it came from elsewhere
         refuse_value(value, run.problems, Code.MISSING_FILE, message, meant=rewritten(value.text, changes))
         return

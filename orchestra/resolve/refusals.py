@@ -224,6 +224,18 @@ def report_missing_executable(
         told += ": what follows the first word belongs into args"
         name = first
     meant = name if name in known else nearest(executable, known)
+    if meant is None:
+        told += _had_by(executable, context)
     if value is not None:
         return refuse_value(value, context.problems, Code.MISSING_EXECUTABLE, told, meant=meant, notes=notes)
     return refuse(written, context, Code.MISSING_EXECUTABLE, told, meant=meant, notes=notes)
+
+
+def _had_by(executable: str, context: Context) -> str:
+    """Return that another package has an executable of such a name, nothing where none or several have it."""
+    found = [
+        package
+        for package in context.packages.names()
+        if executable and is_file(Path(context.packages.prefix(package) or "", "lib", package, executable))
+    ]
+    return f": '{found[0]}' has it" if len(found) == 1 else ""
