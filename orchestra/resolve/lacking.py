@@ -86,12 +86,16 @@ def is_certain(changes: Sequence[tuple[str, str]]) -> bool:
 
 
 def is_of_the_machine(path: str, file: str, environment: Mapping[str, str]) -> bool:
-    """Return whether a path leads out of the folder of a file, the one around it, and those where packages are."""
+    """Return whether a path leads out of the folder of a file, the one around it, and those where packages are.
+
+    So does one that begins in the working directory, as `config/robot.yaml`, where it is there from a folder above: who
+    launches the file from that one finds it.
+    """
     prefixes = environment.get("AMENT_PREFIX_PATH", "").split(os.pathsep)
     folder = os.path.dirname(os.path.abspath(file))  # noqa: PTH100, PTH120 - names are all that is wanted
     around = os.path.dirname(folder)  # noqa: PTH120 - as above
+    if not Path(path).is_absolute():
+        return any(is_file(above / path) for above in Path(folder).parents)
     ours = [folder, *(prefix for prefix in (around, sys.prefix, *prefixes) if prefix not in ("", "/"))]
     whole = Path(os.path.normpath(path))
-    return Path(path).is_absolute() and not any(
-        place.is_relative_to(where) for where in ours for place in (Path(path), whole)
-    )
+    return not any(place.is_relative_to(where) for where in ours for place in (Path(path), whole))

@@ -251,3 +251,18 @@ def test_a_file_of_the_machine_is_noted_until_it_is_nearly_one_that_is_there(
     (tmp_path / "machine/setup.yaml").touch()
     (told,) = json.loads(orchestra(str(file), "--format", "json").stdout)
     assert (told["severity"], told["suggestion"]) == ("error", str(tmp_path / "machine/setup.yaml"))
+
+
+def test_a_file_that_is_there_from_the_folder_of_the_project_is_left_open(
+    orchestra: Command, folder: Path
+) -> None:
+    """`ros2 launch` looks for it in the working directory, which is often the root of the repository."""
+    project = folder / "project"
+    (project / "launch").mkdir(parents=True)
+    (project / "config").mkdir()
+    (project / "config" / "robot.yaml").write_text("/**:\n  ros__parameters:\n    rate: 5\n")
+    for name, severity in (("robot", "note"), ("lidars", "error")):
+        given = f"- node: {{pkg: qq_none, exec: talker, name: a, param: [from: config/{name}.yaml]}}\n"
+        (project / "launch" / "a.launch.yaml").write_text(f"launch:\n{given}")
+        problems = json.loads(orchestra("project/launch/a.launch.yaml", "--format", "json").stdout)
+        assert [problem["severity"] for problem in problems if problem["code"] == "ORC029"] == [severity]
