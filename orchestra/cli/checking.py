@@ -135,6 +135,10 @@ class _Looking:
         self._garbage = Garbage()
         looker.watch(os.path.realpath(scratch))
 
+    def foresee(self, piece: int) -> None:
+        """Read one of the files, which is looked at soon."""
+        self._looker.read(self._targets[piece])
+
     def turn(self, piece: int) -> Done:
         """Return what is found in one of the files."""
         target = self._targets[piece]

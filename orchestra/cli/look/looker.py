@@ -5,6 +5,7 @@ from __future__ import annotations
 import gc
 import os
 import tempfile
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,6 +19,7 @@ from orchestra.declared.alone import check_common
 from orchestra.errors import HERE, Code, Problems
 from orchestra.fields import replace
 from orchestra.load.encodings import UndecodableError, decoded
+from orchestra.load.files import PYTHON
 from orchestra.location import Location, displayed, point
 from orchestra.resolve.mentions import files_named
 from orchestra.resolve.python.environ import put_environment
@@ -83,6 +85,25 @@ class Looker:
     def is_spent(self) -> bool:
         """Whether code has loaded into this process what nobody can watch, so that the next file needs another one."""
         return bool(observer().foreign)
+
+    def read(self, target: Target) -> None:
+        """Read a launch file that is looked at soon; what is wrong with it is told then.
+
+        A processor is faster at what it has just done: files that are read one after the other take a tenth less.
+        """
+        if target.kind != "launch":
+            return
+        path = os.path.abspath(target.path)  # noqa: PTH100 - pathlib is slow
+        if path.endswith(PYTHON):
+            # Here, because only such files need it.
+            from orchestra.resolve.python.codes import compile_ahead  # noqa: PLC0415
+
+            compile_ahead(path)
+        else:
+            observer().begin(self._environment)
+            with suppress(Exception):  # it is raised again when the file is looked at
+                self._loader.read(path)
+            observer().rest()
 
     def look(self, target: Target) -> tuple[Finding, Record]:
         """Return what is found in a file, and what that depends on."""

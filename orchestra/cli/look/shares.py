@@ -10,7 +10,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
 _MOST: Final = 32  # pieces that are handed over at once
-_BRIEF: Final = 0.02  # seconds: whoever is done so soon is handed twice as many
+_BRIEF: Final = 0.05  # seconds: whoever is done so soon is handed twice as many
 
 
 class Shares:

@@ -49,18 +49,19 @@ class SharedLoader:
         # Code of Python files may have added to the language of the others.
         if (ending or path).endswith(PYTHON) or _is_extended():
             return self._load(path, problems, chain, ending)
-        known = self._known.get((path, ending))
-        if known is None or signature(path) != known.signature:
-            known = self._read(path, ending)
+        known = self._found(path, ending)
         if known is None:
             return self._load(path, problems, chain, ending)
-        self._keep((path, ending), known)
         observer().depend(known.record)
         self.named |= known.named
         problems.extend(
             replace(problem, included_from=(*problem.included_from, *chain)) for problem in known.problems
         )
         return known.description
+
+    def read(self, path: str) -> None:
+        """Read a launch file in XML or YAML that is asked for soon."""
+        self._found(path, None)
 
     def _load(
         self, path: str, problems: Problems, chain: tuple[Span, ...], ending: str | None
@@ -69,6 +70,15 @@ class SharedLoader:
         if description is not None:
             self.named |= self._names(description)
         return description
+
+    def _found(self, path: str, ending: str | None) -> _Loaded | None:
+        """Return what is known of a file, else what `_read` gives."""
+        known = self._known.get((path, ending))
+        if known is None or signature(path) != known.signature:
+            known = self._read(path, ending)
+        if known is not None:
+            self._keep((path, ending), known)
+        return known
 
     def _read(self, path: str, ending: str | None) -> _Loaded | None:
         """Read a file for all who include it; None where it cannot be read, and each has to tell where it names it."""

@@ -31,6 +31,9 @@ class Done:
 class Work(Protocol):
     """What a process of a pool does."""
 
+    def foresee(self, piece: int) -> None:
+        """Do what a piece needs and can be done for several after each other, before they are turned into results."""
+
     def turn(self, piece: int) -> Done:
         """Turn a piece, told by its number, into a result."""
 
@@ -87,6 +90,9 @@ def work(channels: Channels, begin: Callable[[], Work], parent: int) -> NoReturn
 def _results(pieces: Sequence[int], work: Work, progress: memoryview[float], own: int) -> dict[str, Any]:
     results: list[Any] = []
     last = False
+    for place, piece in enumerate(pieces if len(pieces) > 1 else ()):
+        progress[0], progress[1] = place, monotonic()
+        work.foresee(piece)
     for place, piece in enumerate(pieces):
         progress[0], progress[1] = place, monotonic()
         done = work.turn(piece)

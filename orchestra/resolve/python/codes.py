@@ -13,12 +13,13 @@ import marshal
 import os
 import sys
 import warnings
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from functools import lru_cache
 from importlib.util import MAGIC_NUMBER
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.witness.digest import digest_of
+from orchestra.witness.looking import read
 from orchestra.witness.observing import observer
 from orchestra.witness.store import Store
 
@@ -101,6 +102,13 @@ def _compiled(path: str, source: bytes) -> tuple[CodeType, bool]:
     with _told() as told:
         code = compile(source, path, "exec", dont_inherit=True)
     return code, not told
+
+
+def compile_ahead(path: str) -> None:
+    """Compile a file that is asked for soon; where there is anything to tell, whoever asks for it hears that."""
+    with suppress(Exception), warnings.catch_warnings():
+        warnings.simplefilter("error")
+        _compiled(path, read(path))
 
 
 @contextmanager
