@@ -40,7 +40,7 @@ def tell_unequal(compared: object, text: str, frame: FrameType) -> None:
         "a condition compares when it is visited: IfCondition(EqualsSubstitution(a, b))",
         _HAS_TEXT.format(name),
     )
-    message = f"{name} {_EARLY}: it is never equal to {text!r}"
+    message = f"{name} {_EARLY}: it is never equal to {text!r}, an IfCondition can tell"
     place = Place(frame.f_code, frame.f_lasti)
     _tell(Code.IMPOSSIBLE_CONDITION, message, place, notes, meant=_judged(place))
 
@@ -56,7 +56,8 @@ def tell_true(tested: object, frame: FrameType) -> None:
     for node in found:
         if tree is not None and called_by(tree.meaning(node)) == name:
             notes = ("a condition is judged when it is visited: IfCondition(a)", _HAS_TEXT.format(name))
-            _tell(Code.IMPOSSIBLE_CONDITION, f"{name} {_EARLY}: it always counts as true", place, notes, node)
+            message = f"{name} {_EARLY}: it always counts as true, an IfCondition can tell"
+            _tell(Code.IMPOSSIBLE_CONDITION, message, place, notes, node)
             return
 
 

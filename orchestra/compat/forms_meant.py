@@ -7,6 +7,18 @@ from inspect import Parameter, signature
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
+from orchestra.compat.forms_of_entities import (
+    actions,
+    answering,
+    emitted,
+    ending,
+    event,
+    handed_over,
+    is_declaration,
+    misplaced,
+    one,
+    uncalled,
+)
 from orchestra.compat.forms_of_sets import as_list, as_pair, with_colon
 
 if TYPE_CHECKING:
@@ -20,22 +32,18 @@ MEANT_FALSE: Final = frozenset({"0", "f", "false", "n", "no", "off"})
 _VARIABLE: Final = re.compile(r"""LaunchConfiguration\((?:variable_name=)?(["']\w+["'])\)""")
 _DECIMAL: Final = re.compile(r"-?\d+(\.\d*)?(e-?\d+)?")
 _PLAIN: Final = re.compile(r"[\w./:=@%+, -]+")
-_CALLED: Final = re.compile(r"([\w.]+)\(.*\)")
-
-# What takes objects that are no actions, by the names of their classes.
-_TAKING: Final = {
-    "BaseEventHandler": "RegisterEventHandler(",
-    "Event": "EmitEvent(event=",
-    "LaunchDescriptionSource": "IncludeLaunchDescription(",
-    "function": "OpaqueFunction(function=",
-}
 
 
 def form_meant(source: str, value: Any, message: str) -> str | None:
     """Return what was meant by an expression that has come to a value; None where a message has no such remedy."""
     if isinstance(value, type) and _is_ours(value) and source.rpartition(".")[2] == value.__name__:
         return f"{source}()" if _needs_nothing(value) else None
-    return next((form(source, value) for part, form in _FORMS.items() if part in message), None)
+    form = next((form for part, form in _FORMS.items() if part in message), None)
+    declared = getattr(value, "name", None) if is_declaration(value) else None
+    if isinstance(declared, str) and form in _OF_VALUES:
+        variable = f"LaunchConfiguration({declared!r})"
+        return f"IfCondition({variable})" if form is _condition else variable
+    return None if form is None else form(source, value)
 
 
 def _as_text(source: str, value: Any) -> str | None:
@@ -182,55 +190,9 @@ def _name_of_variable(source: str, value: Any) -> str | None:
     return _as_text(source, value) if found is None else found[1]
 
 
-def _ending(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the others
-    """Return the action that is called by a word."""
-    return "Shutdown()" if value == "shutdown" else None
-
-
-def _event(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the others
-    """Return the event that has the name of an action."""
-    return f"launch.events.{source.rpartition('.')[2]}" if source[:1].isupper() else None
-
-
-def _actions(source: str, value: Any) -> str | None:
-    """Return a list of one action."""
-    return f"[{source}]" if callable(getattr(value, "visit", None)) else None
-
-
-def _one(source: str, value: Any) -> str | None:
-    """Return a list of one thing that is no list itself."""
-    return f"[{source}]" if not isinstance(value, dict | list | set | str | tuple) else None
-
-
-def _emitted(source: str, value: Any) -> str | None:
-    """Return the action that lets an event happen which stands in place of one."""
-    is_event = any(kind.__name__ == "Event" for kind in type(value).__mro__)
-    return f"EmitEvent(event={source})" if is_event else _actions(source, value)
-
-
-def _misplaced(source: str, value: Any) -> str | None:
-    """Return the action that takes what stands in place of one."""
-    if isinstance(value, list | tuple):
-        is_literal = source[:1] + source[-1:] in ("[]", "()")
-        return (source[1:-1].strip() or None) if is_literal else f"*{source}"
-    kinds = (_TAKING.get(kind.__name__) for kind in type(value).__mro__)
-    taking = next((kind for kind in kinds if kind is not None), None)
-    return None if taking is None else f"{taking}{source})"
-
-
 def _name_and_value(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the others
     """Return the pair of a dictionary of one."""
     return repr(next(iter(value.items()))) if isinstance(value, dict) and len(value) == 1 else None
-
-
-def _uncalled(source: str, value: Any) -> str | None:
-    return f"{source}()" if callable(value) else None
-
-
-def _handed_over(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the others
-    """Return a function that was called in place of being handed over."""
-    called = _CALLED.fullmatch(source)
-    return None if called is None else called[1]
 
 
 def _nothing(source: str, value: Any) -> str | None:
@@ -259,6 +221,7 @@ _FORMS: Final[dict[str, _Form]] = {
     " are a dict, this is": _mapping,
     "an environment is a dict": _mapping,
     "of a launch argument is a text": _as_text,
+    "expected a value, a substitution": _plain_value,
     "is no value of a parameter": _plain_value,
     "a parameter that is a list cannot hold": _plain_value,
     "a remapping is a tuple": _pair,
@@ -272,17 +235,20 @@ _FORMS: Final[dict[str, _Form]] = {
     "choices of a launch argument are a list": _choices,
     " are pairs, this is a set": _pairs_of,
     "this is a set": _pairs,
-    "a list of actions, not 'shutdown'": _ending,
-    "the event is launch.events": _event,
+    "a list of actions, not 'shutdown'": ending,
+    "the event is launch.events": event,
     "a name and its value are expected": _name_and_value,
-    "composable_node_descriptions is a list": _one,
-    "is a list, this is": _actions,
-    "are a list, this is": _actions,
-    "an event handler has ": _emitted,
-    "returns a list of actions or None": _actions,
-    "an action is expected here": _misplaced,
-    "a list of actions is expected": _actions,
-    "is not called": _uncalled,
-    "of an OpaqueFunction cannot be called": _handed_over,
+    "composable_node_descriptions is a list": one,
+    "is a list, this is": actions,
+    "are a list, this is": actions,
+    "an event handler has ": emitted,
+    "returns a list of actions or None": actions,
+    "an action is expected here": misplaced,
+    "a list of actions is expected": actions,
+    "is a function of the event": answering,
+    "is not called": uncalled,
+    "of an OpaqueFunction cannot be called": handed_over,
     "of None has no action": _nothing,
 }
+# What stands where values do.
+_OF_VALUES: Final = (_as_text, _plain_value, _as_truth, _as_float, _condition, _words)

@@ -23,18 +23,22 @@ _MOST: Final = 100  # characters: what is longer is read better in the message a
 
 def name_of(function: Any) -> Span | None:
     """Return where the name of a function stands, None where it is not written in a file."""
-    found = _found(function)
+    found = found_in(function)
     if found is None:
         return None
-    code, node = found
+    return span_of_name(found[0].co_filename, found[1])
+
+
+def span_of_name(file: str, node: Function) -> Span:
+    """Return where the name of a function stands."""
     asynchronous = isinstance(node, ast.AsyncFunctionDef)
     begin = node.col_offset + len("async def " if asynchronous else "def ")
-    return span_in(code.co_filename, (node.lineno, node.lineno, begin, begin + len(node.name.encode())))
+    return span_in(file, (node.lineno, node.lineno, begin, begin + len(node.name.encode())))
 
 
 def returned_by(function: Any, made: Any) -> Literal | None:
     """Return the expression of what a function returns; its name where it is not told by one alone."""
-    found = _found(function)
+    found = found_in(function)
     if found is None:
         return None
     code, node = found
@@ -42,7 +46,7 @@ def returned_by(function: Any, made: Any) -> Literal | None:
     around = name_of(function)
     if around is None:
         return None
-    returns = [item for item in _inside(node) if isinstance(item, ast.Return)]
+    returns = [item for item in statements_of(node) if isinstance(item, ast.Return)]
     if made is None:
         last = _without_return(node) if not returns else None
         if last is not None:
@@ -75,7 +79,8 @@ def _without_return(function: Function) -> ast.expr | None:
     return None
 
 
-def _found(function: Any) -> tuple[CodeType, Function] | None:
+def found_in(function: Any) -> tuple[CodeType, Function] | None:
+    """Return the code of a function and what is written of it, None where that is in no file."""
     code = getattr(getattr(function, "__func__", function), "__code__", None)
     tree = None if code is None else tree_of(code.co_filename)
     if code is None or tree is None:
@@ -84,7 +89,7 @@ def _found(function: Any) -> tuple[CodeType, Function] | None:
     return None if node is None else (code, node)
 
 
-def _inside(function: Function) -> Iterator[ast.AST]:
+def statements_of(function: Function) -> Iterator[ast.AST]:
     """Yield the statements of a function, without those of functions in it."""
     waiting: list[ast.AST] = list(function.body)
     while waiting:

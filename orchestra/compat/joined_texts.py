@@ -20,6 +20,10 @@ _Piece: TypeAlias = str | ast.expr
 _MOST: Final = 100  # characters: what is longer is read better in the message alone
 # What makes texts, beside literals of them.
 _TEXTS: Final = frozenset({"abspath", "dirname", "get_package_share_directory", "join", "realpath", "str"})
+# What makes folders, below which there are files.
+_FOLDERS: Final = frozenset(
+    {"FindPackageShare", "abspath", "dirname", "get_package_share_directory", "join", "realpath"}
+)
 
 
 def joined(node: ast.AST, tree: Tree, file: str) -> Rewritten | None:
@@ -32,8 +36,30 @@ def joined(node: ast.AST, tree: Tree, file: str) -> Rewritten | None:
             return _short(f"PathJoinSubstitution([{written}])")
         case ast.expr():
             pieces = _pieces(node)
-            return None if pieces is None or pieces == [node] else _short(_listed(pieces, tree, file))
+            if pieces is None or pieces == [node]:
+                return None
+            return _short(_path(pieces, tree, file) or _listed(pieces, tree, file))
     return None
+
+
+def _path(pieces: list[_Piece], tree: Tree, file: str) -> str | None:
+    """Return the path that pieces are below a folder, of which slashes are between any two."""
+    first, *others = pieces
+    if isinstance(first, str) or called_by(tree.meaning(first)) not in _FOLDERS:
+        return None
+    parts, is_begun = [_source(first, file)], True
+    for piece in others:
+        if isinstance(piece, str):
+            if is_begun and not piece.startswith("/"):
+                return None
+            parts += [repr(part) for part in piece.split("/") if part]
+            is_begun = not piece.endswith("/")
+        elif is_begun:
+            return None
+        else:
+            parts.append(_source(piece, file))
+            is_begun = True
+    return f"PathJoinSubstitution([{', '.join(parts)}])"
 
 
 def _pieces(node: ast.expr) -> list[_Piece] | None:

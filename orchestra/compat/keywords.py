@@ -39,7 +39,7 @@ _MEANINGS: Final = {
     "source": ("src",),
     "target": ("target_action", "target_container", "dst"),
     "text": ("msg",),
-    "type": ("executable", "plugin"),
+    "type": ("executable", "plugin", "value_type"),
 }
 
 
@@ -61,7 +61,14 @@ def keyword_meant(written: str, known: Mapping[str, inspect.Parameter], given: I
         nearest(written, known)
         or nearest(written, missing)
         or next((meaning for meaning in _MEANINGS.get(word or "", ()) if meaning in known), None)
+        or _only_with(written, known)
     )
+
+
+def _only_with(word: str, known: Iterable[str]) -> str | None:
+    """Return the only keyword of which a word is a part: `container` is one of `target_container`."""
+    found = [name for name in known if word in name.split("_")]
+    return found[0] if len(found) == 1 and len(word) >= _SHORT else None
 
 
 def shown(known: Mapping[str, inspect.Parameter]) -> str:

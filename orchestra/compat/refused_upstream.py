@@ -82,5 +82,11 @@ def tell_no_mapping(configurations: Any, place: Place) -> None:
     _tell(f"{name} are a dict, this is {told(configurations)}: {_REFUSED}", configurations, place, name)
 
 
+def tell_no_function(name: str, value: Any, place: Place) -> None:
+    """Warn of actions where ROS 2 calls what it was given."""
+    told_so = f"{name} is a function of the event, this is {told(value)}: ROS 2 fails to call it"
+    _tell(told_so, value, place, name)
+
+
 def _tell(message: str, value: Any, place: Place, name: str) -> None:
     remark_of_value(message, value, place, name)

@@ -111,12 +111,20 @@ def entities_of(entities: Any) -> list[LaunchDescriptionEntity]:
         return []
     listed = [entities] if isinstance(entities, LaunchDescriptionEntity) else entities
     if not isinstance(listed, Iterable) or isinstance(listed, str):
-        raise WrongType(f"an event handler has a list of actions, not {told(entities)}", entities)
+        raise WrongType(f"an event handler has a list of actions, not {_misplaced(entities)}", entities)
     found = list(listed)
     for entity in found:
         if not isinstance(entity, LaunchDescriptionEntity):
-            raise WrongType(f"an event handler has actions and other entities, not {told(entity)}", entity)
+            raise WrongType(
+                f"an event handler has actions and other entities, not {_misplaced(entity)}", entity
+            )
     return found
+
+
+def _misplaced(given: Any) -> str:
+    from orchestra.compat.misplaced import taken_by  # noqa: PLC0415 - only mistakes need it
+
+    return f"{told(given)}{taken_by(given)}"
 
 
 def is_of_ours(entity: object, method: str) -> bool:

@@ -61,11 +61,19 @@ def _words(action: Executable, run: Resolution) -> tuple[str, ...] | Poison:
         return (words[0].text, *rest)
     _check_words(words[1:], run)
     first = words[0]
+    if " " in first.text and _is_one_text(words, run):
+        return POISON
     if action.cwd is None and _file_is_missing(words, run):
         return POISON
     look_at_paths(words[1:], run)
     program = program_words(first.text, first.location, run, elsewhere=action.cwd is not None)
     return POISON if isinstance(program, Poison) else (*program, *rest)
+
+
+def _is_one_text(words: Sequence[Value], run: Resolution) -> bool:
+    from orchestra.resolve.one_text import is_one_text  # noqa: PLC0415 - few programs have blanks in their names
+
+    return is_one_text(words, run)
 
 
 def _file_is_missing(words: Sequence[Value], run: Resolution) -> bool:

@@ -10,9 +10,10 @@ from orchestra.compat import faults
 from orchestra.compat.building import model_of
 from orchestra.compat.explanation import told
 from orchestra.compat.launch.action import Action, ModelledAction
+from orchestra.compat.launch.actions.opaque_function import OpaqueFunction
 from orchestra.compat.launch.launch_description import LaunchDescription
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
-from orchestra.compat.misplaced import misplaced
+from orchestra.compat.misplaced import is_list_at, misplaced
 from orchestra.compat.place import Argument
 from orchestra.compat.refusing import is_lost
 from orchestra.compat.wrong import WrongType
@@ -81,7 +82,8 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
     """Visit an entity that only its own code can carry out; its condition, where it has one, holds."""
     entity = action.target
     if not _is_entity(entity):
-        _refuse_other(entity, action.span, run)
+        is_list = isinstance(entity, list | tuple)
+        _refuse_other(entity, action.span, run, is_written=is_list and is_list_at(action.span))
         return
     if is_lost(entity) or (isinstance(entity, ModelledAction) and entity._is_as_described()):
         visit_entity(entity, run)  # which it has no sound model for
@@ -139,6 +141,17 @@ def _carry_out(entity: Any, span: Span, run: Resolution) -> None:
         following = made
     if following is not None:
         _visit_returned(entity, following, run)
+    elif isinstance(entity, OpaqueFunction):
+        _tell_thrown_away(entity, run)
+
+
+def _tell_thrown_away(entity: OpaqueFunction, run: Resolution) -> None:
+    """Warn of a function that makes actions and returns nothing."""
+    from orchestra.compat.thrown_away import without_return  # noqa: PLC0415 - few return nothing
+
+    fault = without_return(entity.function)
+    if fault is not None and not fault.is_told(run.problems):
+        run.problems.warning(Code.USER_CODE, fault.message, run.at(fault.span), suggestion=fault.suggestion)
 
 
 def _uncallable(entity: Any, error: TypeError) -> Span | None:
@@ -186,6 +199,15 @@ def _refuse_other(value: Any, span: Span, run: Resolution, *, is_written: bool =
 
     message, notes = misplaced(value)
     file = str(Path(span.file).absolute())
+    if value is None:
+        from orchestra.compat.thrown_away import called_without_return  # noqa: PLC0415 - as above
+
+        fault = called_without_return(file, span)
+        if fault is not None:
+            run.problems.error(
+                Code.WRONG_TYPE, fault.message, run.at(fault.span), suggestion=fault.suggestion
+            )
+            return
     meant = rewritten(file, span, value, message) if is_written else None
     comma = last_comma(file, span) if isinstance(value, tuple) and len(value) == 1 and is_written else None
     if comma is not None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from types import FunctionType
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.actions.execute_local import ExecuteLocal
-from orchestra.compat.launch.event_handler import is_of_ours
+from orchestra.compat.launch.event_handler import entities_of, is_of_ours
 from orchestra.compat.launch.event_handlers.on_action_event_base import OnActionEventBase
+from orchestra.compat.launch.event_handlers.reacting import check_arguments
 from orchestra.compat.launch.events.process.process_io import ProcessIO
 
 if TYPE_CHECKING:
@@ -32,7 +34,8 @@ class OnProcessIO(OnActionEventBase):
         **kwargs: Any,
     ) -> None:
         self.__target = target_action
-        self.__functions = {"stdin": on_stdin, "stdout": on_stdout, "stderr": on_stderr}
+        given = {"stdin": on_stdin, "stdout": on_stdout, "stderr": on_stderr}
+        self.__functions = {name: value and _function(value) for name, value in given.items()}
         super().__init__(
             action_matcher=target_action,
             on_event=self.__called,
@@ -40,6 +43,11 @@ class OnProcessIO(OnActionEventBase):
             target_action_cls=ExecuteLocal,
             **kwargs,
         )
+        for name, value in given.items():
+            if value and not callable(value):
+                from orchestra.compat.refused_upstream import tell_no_function  # noqa: PLC0415 - few are that wrong
+
+                tell_no_function(f"on_{name}", value, self._place)
 
     @property
     def handler_description(self) -> str:
@@ -62,3 +70,13 @@ class OnProcessIO(OnActionEventBase):
             self._model("process_output", target=self.__target, stream=stream, callback=self.handle)
             for stream in streams
         )
+
+
+def _function(given: Any) -> Any:
+    """Return a callable as it is, and one that returns the actions which are given in place of it."""
+    if type(given) is FunctionType:
+        check_arguments(given, 1, "the event")
+    if callable(given):
+        return given
+    entities = entities_of(given)
+    return lambda _: entities

@@ -28,7 +28,7 @@ class ReactingEventHandler(BaseEventHandler):
     def __init__(self, *, matcher: Callable[[Any], bool], reaction: Any, **kwargs: Any) -> None:
         super().__init__(matcher=matcher, **kwargs)
         if type(reaction) is FunctionType:
-            _check_arguments(reaction)
+            check_arguments(reaction, _GIVEN, "the event and the context")
         elif isinstance(reaction, type) and issubclass(reaction, Event | LaunchDescriptionEntity):
             name = reaction.__name__
             told_so = (
@@ -59,13 +59,11 @@ class ReactingEventHandler(BaseEventHandler):
         return {"children": models_of(self.__entities, self._place)}
 
 
-def _check_arguments(function: FunctionType) -> None:
-    """Raise `WrongType` for a function that cannot be called with an event and the context."""
+def check_arguments(function: FunctionType, given: int, words: str) -> None:
+    """Raise `WrongType` for a function that cannot be called with so many arguments, which are these."""
     code = function.__code__
     needed = code.co_argcount - len(function.__defaults__ or ())
-    if needed > _GIVEN or (code.co_argcount < _GIVEN and not code.co_flags & _ANY_NUMBER):
+    if needed > given or (code.co_argcount < given and not code.co_flags & _ANY_NUMBER):
         count = code.co_argcount
-        told = (
-            f"{function.__name__} is called with the event and the context, it takes {count or 'no'} argument"
-        )
+        told = f"{function.__name__} is called with {words}, it takes {count or 'no'} argument"
         raise WrongType(told + "s" * (count != 1), function)

@@ -1,0 +1,73 @@
+"""Code of the form that is taken for an action, or for what is no value: made of code that was refused."""
+
+from __future__ import annotations
+
+import re
+from typing import Any, Final
+
+_CALLED: Final = re.compile(r"([\w.]+)\(.*\)")
+
+# What takes objects that are no actions, by the names of their classes.
+_TAKING: Final = {
+    "BaseEventHandler": "RegisterEventHandler(",
+    "Event": "EmitEvent(event=",
+    "LaunchDescriptionSource": "IncludeLaunchDescription(",
+    "function": "OpaqueFunction(function=",
+}
+
+
+def is_declaration(value: Any) -> bool:
+    """Return whether a value is the declaration of a launch argument, which people take for its value."""
+    return any(kind.__name__ == "DeclareLaunchArgument" for kind in type(value).__mro__)
+
+
+def ending(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the others
+    """Return the action that is called by a word."""
+    return "Shutdown()" if value == "shutdown" else None
+
+
+def event(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the others
+    """Return the event that has the name of an action."""
+    return f"launch.events.{source.rpartition('.')[2]}" if source[:1].isupper() else None
+
+
+def actions(source: str, value: Any) -> str | None:
+    """Return a list of one action."""
+    return f"[{source}]" if callable(getattr(value, "visit", None)) else None
+
+
+def one(source: str, value: Any) -> str | None:
+    """Return a list of one thing that is no list itself."""
+    return f"[{source}]" if not isinstance(value, dict | list | set | str | tuple) else None
+
+
+def emitted(source: str, value: Any) -> str | None:
+    """Return the action that lets an event happen which stands in place of one."""
+    is_event = any(kind.__name__ == "Event" for kind in type(value).__mro__)
+    return f"EmitEvent(event={source})" if is_event else actions(source, value)
+
+
+def misplaced(source: str, value: Any) -> str | None:
+    """Return the action that takes what stands in place of one."""
+    if isinstance(value, list | tuple):
+        is_literal = source[:1] + source[-1:] in ("[]", "()")
+        return (source[1:-1].strip() or None) if is_literal else f"*{source}"
+    kinds = (_TAKING.get(kind.__name__) for kind in type(value).__mro__)
+    taking = next((kind for kind in kinds if kind is not None), None)
+    return None if taking is None else f"{taking}{source})"
+
+
+def answering(source: str, value: Any) -> str | None:
+    """Return a function of an event that returns what stands in place of one."""
+    return f"lambda event: {source}" if actions(source, value) or isinstance(value, list | tuple) else None
+
+
+def uncalled(source: str, value: Any) -> str | None:
+    """Return the call of a function that stands in place of what it makes."""
+    return f"{source}()" if callable(value) else None
+
+
+def handed_over(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the others
+    """Return a function that was called in place of being handed over."""
+    called = _CALLED.fullmatch(source)
+    return None if called is None else called[1]

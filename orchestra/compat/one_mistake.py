@@ -1,0 +1,62 @@
+"""Problems of Python files that are one mistake: lists side by side where actions belong."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from orchestra.compat.source_text import text_at
+from orchestra.errors import Code
+from orchestra.fields import replace
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable
+
+    from orchestra.errors import Problem
+    from orchestra.location import Span
+
+_LISTS: Final = re.compile(r"an action is expected here, this is a (?:list|tuple)")
+_COMMA: Final = re.compile(r"\s*,\s*")
+_MESSAGE: Final = "actions are expected here, these are lists"
+
+
+def together(problems: Iterable[Problem]) -> Callable[[Problem], Problem | None]:
+    """Return what makes one problem of those that stand side by side, and leaves any other as it is."""
+    lists = [problem for problem in problems if _is_list(problem)]
+    lists.sort(
+        key=lambda problem: (
+            (problem.span.file, problem.span.line, problem.span.column) if problem.span else ()
+        )
+    )
+    made: dict[int, Problem | None] = {}
+    first: Problem | None = None
+    for problem in lists:
+        joined = None if first is None else _joined(made.get(id(first)) or first, problem)
+        if first is None or joined is None:
+            first = problem
+        else:
+            made[id(first)], made[id(problem)] = joined, None
+    return lambda problem: made.get(id(problem), problem)
+
+
+def _is_list(problem: Problem) -> bool:
+    is_told = problem.code is Code.WRONG_TYPE and _LISTS.match(problem.message) is not None
+    return is_told and problem.span is not None and problem.suggestion is not None
+
+
+def _joined(one: Problem, other: Problem) -> Problem | None:
+    """Return two problems as one where nothing but a comma is between them."""
+    if one.span is None or other.span is None or one.span.file != other.span.file:
+        return None
+    file, between = str(Path(one.span.file).absolute()), _between(one.span, other.span)
+    if one.included_from != other.included_from or _COMMA.fullmatch(text_at(file, between)) is None:
+        return None
+    span = replace(one.span, end_line=other.span.end_line, end_column=other.span.end_column)
+    return replace(one, message=_MESSAGE, span=span, suggestion=f"{one.suggestion}, {other.suggestion}")
+
+
+def _between(one: Span, other: Span) -> Span:
+    return replace(
+        one, line=one.end_line, column=one.end_column, end_line=other.line, end_column=other.column
+    )
