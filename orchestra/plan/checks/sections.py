@@ -3,7 +3,8 @@
 Files that are shared have sections for nodes that a description does not start: such are left alone. A mistake is a
 section that stands where one for a node is missing: the only one of a file, one for the same name in another
 namespace, one whose name is that of the node mistyped, with its words in another order or without `node`, or that of
-the node's program. What is missing without any such is told at the reference.
+the node's program, and the only one without a node where a single node is without one and is about the same. What
+is missing without any such is told at the reference.
 """
 
 from __future__ import annotations
@@ -33,6 +34,7 @@ if TYPE_CHECKING:
 
 _MOST = 100
 _ANY_NODE = frozenset({"node", "ros", "ros2"})  # words that a name has or has not
+_SHORTEST = 3  # letters of a word that says what a node is about
 _MADE = "${run}/"  # what code of a launch file has written is nothing to show
 
 
@@ -133,7 +135,25 @@ def _check(file: _File, names: _Names, resolved: Resolved, problems: Problems, t
             _report(meant, name, _instead(meant, name), file.users[name], problems, told)
         elif not served:
             without.append(name)
-    if len(without) == len(file.users) and not file.open:
+    _report_rest(file, without, idle, problems, told)
+
+
+def _report_rest(
+    file: _File,
+    without: Sequence[str],
+    idle: Mapping[str, Sequence[Section]],
+    problems: Problems,
+    told: set[object],
+) -> None:
+    """Report nodes that have no section: the one of several at the one section that is over, all where they are."""
+    if file.open:
+        return
+    over = [section for sections in idle.values() for section in sections]
+    if len(without) == len(over) == 1 < len(file.users):
+        name = without[0]
+        if _is_about(over[0], name, file.programs.get(name, ())):
+            _report(over[0], name, _instead(over[0], name), file.users[name], problems, told)
+    elif len(without) == len(file.users):
         _report_without(file, without, problems, told, idle=bool(idle))
 
 
@@ -174,6 +194,16 @@ def _renamed(
         if _absolute(section.pattern).rpartition("/")[0] in ("", "/**", namespace)
     ]
     return found[0] if len(found) == 1 else None
+
+
+def _is_about(section: Section, name: str, programs: Sequence[str | None]) -> bool:
+    """Return whether a section that is over has a word in common with a node that lacks one, or with its program."""
+    namespace, _, own = name.rpartition("/")
+    there, _, last = _absolute(section.pattern).rpartition("/")
+    words = {word for text in (own, *programs) if text is not None for word in _words(text)}
+    return there in ("", "/**", namespace) and any(
+        len(word) >= _SHORTEST and word in words for word in _words(last)
+    )
 
 
 def _words(name: str) -> list[str]:

@@ -87,6 +87,11 @@ MISSED: dict[str, tuple[str, str, list[Told]]] = {
         _section("/sleep") + _section("teleop"),
         [(_CODE, "/sleep", "/camera")],
     ),
+    "the only one over, and the only node without one": (
+        node("ekf_global", param=_FILE) + node("navsat", param=_FILE),
+        _section("ekf_filter_node_map") + _section("navsat"),
+        [(_CODE, "ekf_filter_node_map", "ekf_global")],
+    ),
     "nothing near among several": (
         node("camera", param=_FILE),
         _section("usb_cam") + _section("lidar"),
@@ -124,6 +129,10 @@ FINE: dict[str, tuple[str, str]] = {
     "a shared file with nothing for one of its nodes": (
         node("amcl", param=_FILE) + node("manager", param=_FILE),
         _section("amcl") + _section("planner"),
+    ),
+    "one over and two nodes without one": (
+        node("ekf_map", param=_FILE) + node("ekf_odom", param=_FILE) + node("navsat", param=_FILE),
+        _section("ekf_filter_node") + _section("navsat"),
     ),
     "two robots, one of them here": (
         node("ekf", namespace="robot1", param=_FILE),
