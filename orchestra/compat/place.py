@@ -25,6 +25,7 @@ _names: dict[str, str] = {}
 # Where everything stands that is made now, whoever makes it.
 _standing: list[Place] = []
 _OWN = os.path.join(os.path.dirname(os.path.dirname(__file__)), "")  # noqa: PTH118, PTH120 - compared with file names of code
+_OURS: Final = f"{__name__.partition('.')[0]}."
 _Positions: TypeAlias = tuple[int | None, int | None, int | None, int | None]
 
 
@@ -184,16 +185,30 @@ def here(made: object = None) -> Place:
         return _standing[-1].of(made)
     frame: FrameType | None = sys._getframe(1)
     while frame is not None:
-        found, code = frame, frame.f_code  # asked for once: a process that is watched is told of it each time
-        if not code.co_filename.startswith(_OWN) and not _is_constructor(frame, code, made):
-            break
+        found = frame
+        name = frame.f_globals.get("__name__")  # as `is_ours` does, without a call for each frame
+        if type(name) is not str or not name.startswith(_OURS):
+            code = frame.f_code
+            if not code.co_filename.startswith(_OWN) and not _is_constructor(frame, code, made):
+                break
         frame = frame.f_back
+    else:
+        code = found.f_code
     return Place(code, found.f_lasti, None if made is None else type(made))
 
 
 def _is_constructor(frame: FrameType, code: CodeType, made: object) -> bool:
     """Return whether a frame is a subclass's `__init__` of an object."""
     return code.co_name == "__init__" and frame.f_locals.get(code.co_varnames[0]) is made
+
+
+def is_ours(frame: FrameType) -> bool:
+    """Return whether what runs in a frame is part of Orchestra itself.
+
+    Its code is asked for only where its module does not tell: a process that is watched is told of that each time.
+    """
+    name = frame.f_globals.get("__name__")
+    return name.startswith(_OURS) if type(name) is str else is_own(frame.f_code.co_filename)
 
 
 def is_own(file: str) -> bool:

@@ -11,7 +11,7 @@ from contextlib import contextmanager
 from functools import wraps
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat.place import is_own
+from orchestra.compat.place import is_ours
 from orchestra.compat.reported import ReportedError
 
 if TYPE_CHECKING:
@@ -76,7 +76,7 @@ def _refusing(constructor: Callable[..., None]) -> Callable[..., None]:
     @wraps(constructor)
     def construct(self: Any, *arguments: Any, **keywords: Any) -> None:
         caller = sys._getframe(1)
-        if not _collectors or is_own(caller.f_code.co_filename):
+        if not _collectors or is_ours(caller):
             constructor(self, *arguments, **keywords)
             return
         if not arguments and self._taken(keywords, caller):

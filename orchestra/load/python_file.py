@@ -29,6 +29,7 @@ from orchestra.fields import replace
 from orchestra.load.tested import description_in
 from orchestra.location import Location, displayed, point
 from orchestra.nearest import nearest
+from orchestra.witness.observing import observer
 from orchestra.witness.once import real
 
 if TYPE_CHECKING:
@@ -138,7 +139,9 @@ def _meant(module: ModuleType) -> FunctionType | None:
 def _source(path: str) -> bytes:
     """Return what is in a file."""
     with open(path, "rb", buffering=0) as stream:  # noqa: PTH123 - no object is wanted
-        return stream.read()
+        source = stream.read()
+    observer().read(path, source)
+    return source
 
 
 def _grave(problem: Problem) -> Problem:
