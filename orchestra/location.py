@@ -151,27 +151,39 @@ class Matched:
         return span
 
 
+GROUPS: Final = 4  # bits of a number that tell a group
+
+
 class Places(Matched):
-    """A text of which one place after the other has been told by two offsets: what stands in it has their numbers."""
+    """A text of which expressions have matched one part after the other: what stands in it has numbers.
 
-    __slots__ = ("offsets",)
+    A number tells the match, and in its last bits the group; some places are told by two offsets instead.
+    """
 
-    def __init__(self, whole: Whole) -> None:
+    __slots__ = ("told",)
+
+    def __init__(self, whole: Whole, told: list[re.Match[str] | tuple[int, int]]) -> None:
         self.whole = whole
-        self.offsets: list[Any] = []  # each a pair of them, or the place that has been made of it
+        self._spans = {}
+        self.told = told
 
-    def add(self, offsets: tuple[int, int]) -> int:
-        """Add a place; return its number."""
-        self.offsets.append(offsets)
-        return len(self.offsets) - 1
+    def add(self, place: re.Match[str] | tuple[int, int]) -> int:
+        """Add a match, or a place; return its number, of a match with no bit of a group."""
+        told = self.told
+        told.append(place)
+        return len(told) - 1 << GROUPS
 
     def span(self, group: int) -> Span:
         """Return the place with a number."""
-        place = self.offsets[group]
-        if type(place) is tuple:
-            place = self.offsets[group] = stretch(self.whole, *place)
-        span: Span = place
+        span = self._spans.get(group)
+        if span is None:
+            told = self.told[group >> GROUPS]
+            begin, end = told if isinstance(told, tuple) else told.span(group & _GROUP)
+            span = self._spans[group] = stretch(self.whole, begin, end)
         return span
+
+
+_GROUP: Final = (1 << GROUPS) - 1
 
 
 class LocationOfGroup(Location):
@@ -224,6 +236,9 @@ def location_of(matched: Matched, group: int, included_from: tuple[Span, ...]) -
 
 
 new_location = maker(Location)
+
+
+new_span = maker(Span)
 
 
 def point(file: str, line: int = 1, column: int = 1) -> Span:

@@ -186,7 +186,8 @@ class MatchedTemplate(Template):
 
     __slots__ = ("_parts", "constant", "group", "matched", "pieces")
 
-    _parts: tuple[Part, ...] | None
+    faulty = False
+    _parts: tuple[Part, ...]
     constant: str | None
     pieces: Pieces | None
     matched: Matched
@@ -208,11 +209,12 @@ class MatchedTemplate(Template):
     @property
     def parts(self) -> tuple[Part, ...]:
         """What is concatenated, each part with its place."""
-        made = self._parts
-        if made is None:
+        try:
+            return self._parts
+        except AttributeError:
             made = self._words() if self.pieces is None else _placed(self.pieces.pieces, self.span)
             object.__setattr__(self, "_parts", made)
-        return made
+            return made
 
     def _words(self) -> tuple[Part, ...]:
         """Return the literal words that all of it is."""
@@ -245,11 +247,9 @@ def matched_words(text: str, quoted: bool, matched: Matched, group: int) -> Temp
     made = _new(_Open)
     made.raw = made.constant = text
     made.quoted = quoted
-    made.faulty = False
     made.matched = matched
     made.group = group
     made.pieces = None
-    made._parts = None  # noqa: SLF001 - it is being made
     made.__class__ = MatchedTemplate
     template: Template = made
     return template
@@ -260,12 +260,10 @@ def matched_template(text: str, quoted: bool, matched: Matched, group: int, piec
     made = _new(_Open)
     made.raw = text
     made.quoted = quoted
-    made.faulty = False
     made.matched = matched
     made.group = group
     made.pieces = pieces
     made.constant = text if pieces.variables == () else None
-    made._parts = None  # noqa: SLF001 - as above
     made.__class__ = MatchedTemplate
     template: Template = made
     return template

@@ -93,6 +93,7 @@ def build(
 
 
 new_process = maker(Process)
+new_file = maker(ParameterFile)
 
 
 def _arguments(resolved: Resolved) -> tuple[Argument, ...]:
@@ -122,7 +123,7 @@ def _process(
     parameters = parameters_of(process, sections, problems, whole=whole)
     check_remaps(process, problems)
     path = path_of(identity) if parameters.is_passed and (parameters.values or parameters.files) else None
-    files = tuple([ParameterFile(path or file.path, file.content) for file in parameters.files])
+    files = tuple([new_file(path or file.path, file.content) for file in parameters.files])
     words, environment = command(process, path) if whole else (), environment_of(process)
     return new_process(
         id=identity,

@@ -4,6 +4,10 @@ from __future__ import annotations
 
 import json
 import sys
+from json.encoder import (  # type: ignore[attr-defined] # what the library's own encoder has
+    c_make_encoder,
+    encode_basestring,
+)
 from typing import TYPE_CHECKING, Final
 
 from orchestra.plan.codec import encode
@@ -18,10 +22,24 @@ except ImportError:  # not every interpreter has it by this name
     from hashlib import sha256
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from orchestra.plan.model import Process
 
 # Tuples are lists to it.
-_text: Final = json.JSONEncoder(sort_keys=True, ensure_ascii=False, default=encode).encode
+_encoder: Final = json.JSONEncoder(sort_keys=True, ensure_ascii=False, default=encode)
+
+
+def _texts() -> Callable[[object], str]:
+    """Return what encodes; the encoder in C that the library makes anew for each text is made once."""
+    if c_make_encoder is None:
+        return _encoder.encode
+    separators = (_encoder.key_separator, _encoder.item_separator)
+    chunks = c_make_encoder(None, encode, encode_basestring, None, *separators, True, False, True)
+    return lambda content: "".join(chunks(content, 0))
+
+
+_text: Final = _texts()
 
 
 def digest(process: Process) -> str:

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
 
 _DEFAULT_RESTART = Restart("no")
 _DEFAULT_STOP = Stop()
+_FOR_ALL = ("sigterm_timeout", "sigkill_timeout")
 
 
 def restart(action: Running, run: Resolution) -> Restart | Poison | None:
@@ -53,6 +54,8 @@ def restart(action: Running, run: Resolution) -> Restart | Poison | None:
 
 
 def _respawn(action: Running, run: Resolution) -> Restart | Poison | None:
+    if action.respawn is None and action.respawn_delay is None and action.respawn_max_retries is None:
+        return None
     respawn, delay = run.flag(action.respawn, default=False), run.number(action.respawn_delay)
     retries = run.integer(action.respawn_max_retries)
     if isinstance(respawn, Poison) or isinstance(delay, Poison) or isinstance(retries, Poison):
@@ -67,6 +70,12 @@ def _respawn(action: Running, run: Resolution) -> Restart | Poison | None:
 def stop(action: Running, run: Resolution) -> Stop | Poison | None:
     """Return how the process is ended, None where nothing is said."""
     written = action.stop
+    if (written, action.sigterm_timeout, action.sigkill_timeout) == (
+        None,
+        None,
+        None,
+    ) and run.scope.variables.keys().isdisjoint(_FOR_ALL):
+        return None
     name = run.evaluate(written.signal) if written is not None else None
     timeout = run.number(_first(written.timeout if written else None, action.sigterm_timeout))
     kill_timeout = run.number(_first(written.kill_timeout if written else None, action.sigkill_timeout))

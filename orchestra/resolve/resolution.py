@@ -166,6 +166,8 @@ class Resolution:
 
     def place(self, written: Template | Entity) -> Location:
         """Return the location of something in the file that is being visited; quicker than `at` its span."""
+        if type(written) is MatchedTemplate:
+            return location_of(written.matched, written.group, self.context.included_from)
         return written.location(self.context.included_from)
 
     def evaluate(self, template: Template | None) -> Evaluated | None:

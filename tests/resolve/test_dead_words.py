@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.errors import Code
+from orchestra.resolve.impossible import comparisons
 from tests.plan.checks.told import Told, node, told
 from tests.resolve.launching import outcome
 
@@ -167,6 +168,20 @@ ALIVE: dict[str, str] = {
 @pytest.mark.parametrize("case", ALIVE)
 def test_what_may_count_is_left_alone(case: str, tmp_path: Path) -> None:
     assert told(tmp_path, ALIVE[case]) == []
+
+
+@pytest.mark.parametrize(
+    "case", [name for name, written in {**DEAD, **ALIVE}.items() if "eval" in str(written)]
+)
+def test_a_closer_look_at_every_comparison_finds_the_same(
+    case: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    actions = ALIVE[case] if case in ALIVE else DEAD[case][0]
+    found = told(tmp_path, actions)
+    monkeypatch.setattr(comparisons, "_numbers", lambda _: None)
+    comparisons._compared.cache_clear()
+    assert told(tmp_path, actions) == found
+    comparisons._compared.cache_clear()
 
 
 INNER = "launch:\n- arg: {name: x, default: 1}\n- log: {message: $(var x)}\n"

@@ -10,7 +10,6 @@ from orchestra.description.actions import model_of
 from orchestra.description.source import Keyed
 from orchestra.errors import Problems
 from orchestra.load.alike.learned import LONG, Forms, UnlikeError, action_of
-from orchestra.load.alike.straight import Plainly, straight
 from orchestra.load.entities import action_in
 from orchestra.load.keys import spelled
 from orchestra.load.reader import Reader
@@ -47,8 +46,8 @@ class Format(Protocol):
         """Return the tree of the one action of a stretch; None where there is something else."""
 
     @staticmethod
-    def plainly(whole: Source, item: Item) -> Plainly | None:
-        """Return what a stretch says, where that is plain to see."""
+    def straight(whole: Source, item: Item, reader: Reader) -> tuple[Action, tuple[str, ...]] | None:
+        """Return the action of a stretch, where it is plain to see, and what tells its form, as `words`."""
 
     @staticmethod
     def words(text: str) -> list[str]:
@@ -76,12 +75,11 @@ def actions(written: Format, whole: Source, around: Reader) -> tuple[Action, ...
 
 def _read(written: Format, whole: Source, item: Item, reader: Reader) -> Action | None:
     """Return an action of a form that is not known, straight or in the ordinary way; that teaches it in time."""
-    plainly = written.plainly(whole, item)
-    action = None if plainly is None else straight(plainly, reader)
-    words = written.words(whole.text[item.begin : item.end]) if plainly is None else plainly.words
-    worth = written.FORMS.worth((item.beginning, *words), LONG if action is None else 1)
-    if action is not None and not worth:
-        return action
+    straight = written.straight(whole, item, reader)
+    words = written.words(whole.text[item.begin : item.end]) if straight is None else straight[1]
+    worth = written.FORMS.worth((item.beginning, *words), LONG if straight is None else 1)
+    if straight is not None and not worth:
+        return straight[0]
     tree = written.tree(whole, item, reader)
     if not isinstance(tree, Keyed) or any(model_of(spelled(name)) is None for name in tree):
         return None

@@ -7,7 +7,8 @@ to the ordinary way, which gives the same.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Container, Mapping
+from enum import Enum, auto
 from functools import cache, partial
 from types import NoneType, UnionType
 from typing import TYPE_CHECKING, Annotated, Any, Final, TypeAlias, Union, get_args, get_origin
@@ -54,101 +55,123 @@ class Series:
         self.head = head
 
 
-@dataclass(frozen=True, slots=True)
-class Plainly:
-    """What one action is written as: a mapping with its name as the only key; and the places that it is made of.
-
-    `words` tells its form: they are the same for actions that are written alike.
-    """
-
-    content: Keys
-    places: Places
-    words: tuple[str, ...]
-
-
 _Read: TypeAlias = Callable[[Any, Places, "Reader"], Any]
 
 
-@dataclass(frozen=True, slots=True)
-class _Model:
-    """How a model is read: its fields where nothing is written, by key what reads them, and the keys that must be.
+class Kind(Enum):
+    """What stands behind a key, as far as it is told by the model what is in it."""
 
-    `texts` are the keys of texts, `parts` those of entities. `fit` has sets of keys, without such parts, that do not
-    contradict each other.
+    PART = auto()  # an entity
+    PARTS = auto()  # a list of entities
+    ACTIONS = auto()
+    OTHER = auto()
+
+
+@dataclass(frozen=True, slots=True)
+class Way:
+    """How what stands behind a key is read, for which field; `model` is that of the parts where they have one."""
+
+    name: str
+    read: _Read
+    kind: Kind
+    model: type[Entity] | None
+
+
+@dataclass(frozen=True, slots=True)
+class Model:
+    """How a model is read: its fields where nothing is written, and what reads them, by keys.
+
+    `texts` are the fields of texts by their keys, `required` those that must be, `parts` those of one entity. `fit` has
+    sets of fields, without such parts, that do not contradict each other.
     """
 
+    model: type[Entity]
     unwritten: dict[str, Any]
-    fields: Mapping[str, tuple[str, _Read]]
+    ways: Mapping[str, Way]
+    texts: Mapping[str, str]
     required: frozenset[str]
-    texts: frozenset[str]
     parts: frozenset[str]
     fit: set[tuple[str, ...]]
 
+    def way(self, key: str, beside: Container[str]) -> Way:
+        """Return how a key is read, which may be spelled with `-`; `beside` are the fields that are written before.
 
-def straight(plainly: Plainly, reader: Reader) -> Action | None:
-    """Return the action; None where it takes a closer look."""
-    try:
-        return _action(plainly.content, plainly.places, reader)
-    except UnlikeError:
-        return None
+        Raises `UnlikeError` where there is no such key, or where its field is written already.
+        """
+        way = self.ways.get(key) or self.ways.get(spelled(key))
+        if way is None or way.name in beside:
+            raise UnlikeError
+        return way
+
+    def made(self, values: dict[str, Any], places: Places, head: int) -> Any:  # noqa: ANN401 - an entity
+        """Return the entity with these values of fields, which stands at a place.
+
+        Raises `UnlikeError` where it lacks one, or has some that cannot stand together.
+        """
+        entity = matched_entity(self.model, self.unwritten | values, places, head)
+        together = tuple(values)
+        if together not in self.fit:
+            if not self.required <= set(together) or entity.conflict() is not None:
+                raise UnlikeError
+            if self.parts.isdisjoint(together):
+                self.fit.add(together)
+        return entity
 
 
-def _action(written: Any, places: Places, reader: Reader) -> Action:  # noqa: ANN401 - a tree
-    if type(written) is not Keys or len(written.values) != 1:
-        raise UnlikeError
-    ((name, content),) = written.values.items()
+def action_model(name: str) -> Model:
+    """Return how an action is read that is called so. Raises `UnlikeError` where there is none."""
     model = model_of(spelled(name))
     if model is None:
         raise UnlikeError
+    return how(model)
+
+
+def read_action(written: Any, places: Places, reader: Reader) -> Action:  # noqa: ANN401 - a tree
+    """Return the action that is a mapping with its name as the only key. Raises `UnlikeError`."""
+    if type(written) is not Keys or len(written.values) != 1:
+        raise UnlikeError
+    ((name, content),) = written.values.items()
+    model = action_model(name)
     if type(content) is Series:
         content = Keys({"children": content}, content.head)
-    action: Action = _entity(model, content, places, reader)
+    action: Action = _entity(model.model, content, places, reader)
     return action
 
 
 def _entity(model: type[Entity], written: Any, places: Places, reader: Reader) -> Any:  # noqa: ANN401 - a tree, an entity
     if type(written) is not Keys:
         raise UnlikeError
-    how = _how(model)
-    values, fields, texts, keys = how.unwritten.copy(), how.fields, how.texts, written.values
-    for key, value in keys.items():
-        if key in texts and type(value) is tuple:
-            text, at, quoted = value
-            values[fields[key][0]] = template(text, places, at, quoted, reader)
-            continue
-        name, read = fields.get(key) or _field(key, fields, keys)
-        values[name] = read(value, places, reader)
-    entity = matched_entity(model, values, places, written.head)
-    together = tuple(keys)
-    if together not in how.fit:
-        _check(entity, together, how)
-    return entity
-
-
-def _check(entity: Entity, together: tuple[str, ...], how: _Model) -> None:
-    """Refuse an entity that lacks a key, or has some that cannot stand together."""
-    if not how.required <= set(together) or entity.conflict() is not None:
-        raise UnlikeError
-    if how.parts.isdisjoint(together):
-        how.fit.add(together)
-
-
-def _field(key: str, fields: Mapping[str, Any], beside: Mapping[str, Any]) -> Any:  # noqa: ANN401 - a name and a function
-    """Return the field of a key with `-` in it, as it is spelled otherwise."""
-    name = spelled(key)
-    if name in beside or name not in fields or sum(spelled(other) == name for other in beside) > 1:
-        raise UnlikeError
-    return fields[name]
+    known = how(model)
+    values: dict[str, Any] = {}
+    for key, value in written.values.items():
+        way = known.way(key, values)
+        values[way.name] = way.read(value, places, reader)
+    return known.made(values, places, written.head)
 
 
 @cache
-def _how(model: type[Entity]) -> _Model:
+def how(model: type[Entity]) -> Model:
+    """Return how a model is read."""
     entries = model.model_fields
     unwritten = {name: None if entry.is_required() else entry.default for name, entry in entries.items()}
-    fields = {entry.alias or name: (name, _reading(entry.annotation)) for name, entry in entries.items()}
-    texts = frozenset(key for key, (_, read) in fields.items() if read in (_text, _text_or_list))
-    parts = frozenset(key for key, (_, read) in fields.items() if getattr(read, "func", None) is _entity)
-    return _Model(unwritten, fields, model.required_keys(), texts, parts, set())
+    ways = {entry.alias or name: _way(name, entry.annotation) for name, entry in entries.items()}
+    texts = {key: way.name for key, way in ways.items() if way.read in (_text, _text_or_list)}
+    parts = frozenset(way.name for way in ways.values() if way.kind is Kind.PART)
+    required = frozenset(ways[key].name for key in model.required_keys())
+    return Model(model, unwritten, ways, texts, required, parts, set())
+
+
+def _way(name: str, annotation: Any) -> Way:  # noqa: ANN401 - a type
+    read = _reading(annotation)
+    function: Any = getattr(read, "func", None)
+    given: Any = getattr(read, "args", (None,))
+    if function is _entity:
+        return Way(name, read, Kind.PART, given[0])
+    if function is _items and given[0] is read_action:
+        return Way(name, read, Kind.ACTIONS, None)
+    if function is _items and getattr(given[0], "func", None) is _entity:
+        return Way(name, read, Kind.PARTS, given[0].args[0])
+    return Way(name, read, Kind.OTHER, None)
 
 
 def _reading(annotation: Any) -> _Read:  # noqa: ANN401 - a type
@@ -171,7 +194,7 @@ def _marked(source: Any, marks: tuple[Any, ...]) -> _Read:  # noqa: ANN401 - a t
         if isinstance(mark, Plain):
             return _WAYS.get(mark.read) or partial(_checked, mark.read)
         if isinstance(mark, Instance):
-            return _action if source is Action else _refused
+            return read_action if source is Action else _refused
         if not isinstance(mark, Told | NotEmpty):  # no list is empty here
             return _refused
     return _reading(source)

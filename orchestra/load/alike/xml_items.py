@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.load.alike.learned import Forms, Manner
 from orchestra.load.alike.one_by_one import Item
-from orchestra.load.alike.xml_tags import scanned
+from orchestra.load.alike.xml_tags import read
 from orchestra.load.xml_file import tree_of_action
 from orchestra.load.xml_parser import NotXmlError, parse
 
 if TYPE_CHECKING:
-    from orchestra.load.alike.straight import Plainly
+    from orchestra.description.entity import Action
     from orchestra.load.offsets import Source
     from orchestra.load.reader import Reader
 
@@ -66,9 +66,9 @@ def tree(whole: Source, item: Item, reader: Reader) -> Any | None:  # noqa: ANN4
     return tree_of_action(element, whole, reader)
 
 
-def plainly(whole: Source, item: Item) -> Plainly | None:
-    """Return what an element says, tag by tag."""
-    return scanned(whole, item.begin, item.end)
+def straight(whole: Source, item: Item, reader: Reader) -> tuple[Action, tuple[str, ...]] | None:
+    """Return the action of an element and what tells its form, tag by tag."""
+    return read(whole, item.begin, item.end, reader)
 
 
 def words(text: str) -> list[str]:

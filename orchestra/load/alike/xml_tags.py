@@ -7,20 +7,23 @@ a parser.
 from __future__ import annotations
 
 import re
+from operator import attrgetter
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.description.actions import model_of
 from orchestra.load.alike.learned import UnlikeError
-from orchestra.load.alike.straight import Keys, Plainly, Series
+from orchestra.load.alike.making import template
+from orchestra.load.alike.straight import action_model, how
 from orchestra.load.elements import Attribute
 from orchestra.load.forms import Kind, forms_of
-from orchestra.load.keys import spelled
-from orchestra.location import Places
+from orchestra.location import GROUPS, Places
 
 if TYPE_CHECKING:
-    from orchestra.description.entity import Entity
+    from orchestra.description.entity import Action
+    from orchestra.description.source import Written
+    from orchestra.load.alike.straight import Model, Scalar
     from orchestra.load.forms import Forms
     from orchestra.load.offsets import Source
+    from orchestra.load.reader import Reader
 
 _DEEPEST: Final = 20
 _BLANK: Final = r"[ \t\r\n]"
@@ -35,97 +38,108 @@ _TAG: Final = re.compile(
 _ATTRIBUTE: Final = re.compile(_PAIR)
 _ENTITY: Final = re.compile("&([a-z]+);")
 _CHARACTERS: Final = {"quot": '"', "apos": "'", "lt": "<", "gt": ">", "amp": "&"}
+_last_group: Final = attrgetter("lastindex")
+_CHILDREN: Final = "children"
+_IN_DOUBLE, _IN_SINGLE = 2, 3  # groups of an attribute
 _CLOSING, _NAME, _PAIRS, _EMPTY, _ODD = 1, 2, 3, 7, 8
 
 
-def scanned(whole: Source, begin: int, end: int) -> Plainly | None:
-    """Return the action that is the one element between two offsets; None where it takes a parser."""
+def read(whole: Source, begin: int, end: int, reader: Reader) -> tuple[Action, tuple[str, ...]] | None:
+    """Return the action that is the one element between two offsets, and what tells its form.
+
+    None where it takes a parser, or a closer look.
+    """
     tags = list(_TAG.finditer(whole.text, begin, end))
-    if any(tag.lastindex == _ODD for tag in tags):
+    if _ODD in map(_last_group, tags):
         return None
-    scan = _Scan(whole, tags)
+    scan = _Scan(whole, tags, reader)
     try:
         action = scan.action(0)
     except (UnlikeError, IndexError):  # the end where something has to follow
         return None
-    return Plainly(action, scan.places, tuple(scan.words)) if scan.tag == len(tags) else None
+    return (action, tuple(scan.words)) if scan.tag == len(tags) else None
 
 
 class _Scan:
     """Goes through tags; `tag` is the number of the next one. `words` are the names, which show the form."""
 
-    __slots__ = ("places", "tag", "tags", "text", "whole", "words")
+    __slots__ = ("places", "reader", "tag", "tags", "text", "whole", "words")
 
-    def __init__(self, whole: Source, tags: list[re.Match[str]]) -> None:
+    def __init__(self, whole: Source, tags: list[re.Match[str]], reader: Reader) -> None:
         self.whole = whole
+        self.reader = reader
         self.text = whole.text
         self.tags = tags
         self.tag = 0
-        self.places = Places(whole)
+        self.places = Places(whole, [*tags])
         self.words: list[str] = []
 
-    def action(self, depth: int) -> Keys:
-        """Return the action that begins with the next tag: a mapping with its name as the only key."""
-        name = self.tags[self.tag][_NAME]
-        model = model_of(spelled(name))
-        if model is None or depth > _DEEPEST:
+    def action(self, depth: int) -> Action:
+        """Return the action that begins with the next tag."""
+        if depth > _DEEPEST:
             raise UnlikeError
-        content = self.content(model, depth)
-        return Keys({name: content}, content.head)
+        action: Action = self.entity(action_model(self.tags[self.tag][_NAME]), depth)
+        return action
 
-    def content(self, model: type[Entity], depth: int) -> Keys:
+    def entity(self, model: Model, depth: int) -> Any:  # noqa: ANN401 - an entity
         """Return what the element says that begins with the next tag, and its model knows."""
-        tag, forms, words = self.tags[self.tag], forms_of(model), self.words
+        number = self.tag
+        tag, forms, words, places = self.tags[number], forms_of(model.model), self.words, self.places
         if tag[_CLOSING]:
             raise UnlikeError
-        self.tag += 1
-        name, places = tag[_NAME], self.places.offsets
+        self.tag = number + 1
+        name = tag[_NAME]
         words.append(name)
-        keys = Keys({}, len(places))
-        places.append(tag.span(_NAME))
-        values, texts = keys.values, forms.texts
+        values: dict[str, Any] = {}
         for pair in _ATTRIBUTE.finditer(self.text, *tag.span(_PAIRS)):
             key, double, single = pair.groups()
-            if key not in texts or key in values:
+            if key not in forms.texts:
                 raise UnlikeError
             words.append(key)
-            text, group = (double, 2) if single is None else (single, 3)
-            if "&" in text:
-                value = _ENTITY.sub(lambda found: _CHARACTERS[found[1]], text)
-                attribute = Attribute(key, value, pair.start(1), *pair.span(group))
-                values[key] = attribute.written(self.whole)
+            text, group = (double, _IN_DOUBLE) if single is None else (single, _IN_SINGLE)
+            field = model.texts.get(key)
+            if field is not None and field not in values and "&" not in text:
+                values[field] = template(text, places, places.add(pair) | group, False, self.reader)
                 continue
-            values[key] = (text, len(places), False)
-            places.append(pair.span(group))
+            way = model.way(key, values)
+            values[way.name] = way.read(self.attribute(pair, key, text, group), places, self.reader)
         if not tag[_EMPTY]:
-            self.children(name, forms, values, depth)
+            self.children(name, model, forms, values, depth)
         elif forms.holds_actions:
             raise UnlikeError
-        return keys
+        return model.made(values, places, number << GROUPS | _NAME)
 
-    def children(self, name: str, forms: Forms, values: dict[str, Any], depth: int) -> None:
+    def attribute(self, pair: re.Match[str], key: str, text: str, group: int) -> Scalar | Written:
+        """Return the value of an attribute."""
+        if "&" not in text:
+            return text, self.places.add(pair) | group, False
+        value = _ENTITY.sub(lambda found: _CHARACTERS[found[1]], text)
+        return Attribute(key, value, pair.start(1), *pair.span(group)).written(self.whole)
+
+    def children(self, name: str, model: Model, forms: Forms, values: dict[str, Any], depth: int) -> None:
         """Add what stands in an element, up to the tag that closes it."""
-        actions: list[Any] = []
+        actions: list[Action] = []
+        lists: dict[str, list[Any]] = {}
         while not (tag := self.tags[self.tag])[_CLOSING]:
             key = tag[_NAME]
             form = forms.by_key.get(key)
             if form is None and forms.holds_actions:
                 actions.append(self.action(depth + 1))
                 continue
-            if form is None or form.model is None or form.or_variables or depth > _DEEPEST:
+            if form is None or form.or_variables or depth > _DEEPEST:
                 raise UnlikeError
-            content = self.content(form.model, depth + 1)
-            if form.kind is Kind.PART and key not in values:
-                values[key] = content
-            elif form.kind is Kind.PARTS:
-                parts = values.setdefault(key, Series([], content.head, content.head))
-                if type(parts) is not Series:
-                    raise UnlikeError
-                parts.items.append(content)
+            way = model.way(key, values)
+            if way.model is None or way.model is not form.model:
+                raise UnlikeError
+            part = self.entity(how(way.model), depth + 1)
+            if form.kind is Kind.PARTS:
+                lists.setdefault(way.name, []).append(part)
             else:
-                raise UnlikeError
+                values[way.name] = part
         if tag[_NAME] != name or tag[_PAIRS] or tag[_EMPTY] or (forms.holds_actions and not actions):
             raise UnlikeError
         self.tag += 1
+        for field, parts in lists.items():
+            values[field] = tuple(parts)
         if forms.holds_actions:
-            values["children"] = Series(actions, 0, 0)
+            values[model.way(_CHILDREN, values).name] = tuple(actions)

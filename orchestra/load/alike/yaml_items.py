@@ -12,11 +12,11 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.load.alike.learned import Forms, Manner
 from orchestra.load.alike.one_by_one import Item
-from orchestra.load.alike.yaml_lines import scanned
+from orchestra.load.alike.yaml_entities import read
 from orchestra.load.yaml_plain import read_part
 
 if TYPE_CHECKING:
-    from orchestra.load.alike.straight import Plainly
+    from orchestra.description.entity import Action
     from orchestra.load.offsets import Source
     from orchestra.load.reader import Reader
 
@@ -70,9 +70,9 @@ def tree(whole: Source, item: Item, reader: Reader) -> Any | None:  # noqa: ANN4
     return listed[0] if isinstance(listed, list) and len(listed) == 1 else None
 
 
-def plainly(whole: Source, item: Item) -> Plainly | None:
-    """Return what an item says, line by line."""
-    return scanned(whole, item.begin, item.end)
+def straight(whole: Source, item: Item, reader: Reader) -> tuple[Action, tuple[str, ...]] | None:
+    """Return the action of an item and what tells its form, line by line."""
+    return read(whole, item.begin, item.end, reader)
 
 
 def words(text: str) -> list[str]:

@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.description.source import Written
 from orchestra.load.alike.learned import UnlikeError
-from orchestra.load.alike.straight import Keys, Plainly, Series
+from orchestra.load.alike.straight import Keys, Series
 from orchestra.load.offsets import spans_of
-from orchestra.location import Places, stretch
+from orchestra.location import GROUPS, Places, stretch
 
 if TYPE_CHECKING:
     from orchestra.load.alike.straight import Scalar
     from orchestra.load.offsets import Source
 
-_DEEPEST: Final = 20
+DEEPEST: Final = 20
 
 _COMMENT: Final = r"#[\t -~\xa0-\xff]*"
 _KEY: Final = r"[A-Za-z_][A-Za-z0-9_-]*"
@@ -43,68 +43,64 @@ _LINE: Final = re.compile(
 )
 _BEHIND: Final = re.compile(_REST)
 _ITEM: Final = re.compile(rf" *+(?:{_VALUE}|({_IN_FLOW})|([\[{{]))")
-_PAIR: Final = re.compile(rf" *+({_KEY}): ++(?:([\[{{])|(?:{_VALUE}|({_IN_FLOW})) *+([,\]}}]))")
+PAIR: Final = re.compile(rf" *+({_KEY}): ++(?:([\[{{])|(?:{_VALUE}|({_IN_FLOW})) *+([,\]}}]))")
 _ESCAPED: Final = re.compile(r'\\(["\\])')
 _NEXT: Final = re.compile(r" *+([,\]}])")
 # The groups of a line.
 _last_group: Final = attrgetter("lastindex")
-_INDENT, _DASH, _NAME, _IN_DOUBLE, _IN_SINGLE, _BARE, _OPEN, _ODD = range(1, 9)
+INDENT, DASH, NAME, IN_DOUBLE, IN_SINGLE, BARE, OPEN, _ODD = range(1, 9)
 # Those of an item and of a pair in brackets.
-_PLAIN_IN_ITEM, _OPEN_IN_ITEM, _PLAIN_IN_PAIR = 3, 4, 5
+_PLAIN_IN_ITEM, _OPEN_IN_ITEM = 3, 4
+KEY_IN_PAIR, DOUBLE_IN_PAIR, SINGLE_IN_PAIR, PLAIN_IN_PAIR = 1, 3, 4, 5
 
 
-def scanned(whole: Source, begin: int, end: int) -> Plainly | None:
-    """Return the action that is the one item of a list between two offsets; None where it takes a parser."""
-    lines = [line for line in _LINE.finditer(whole.text, begin, end) if line.lastindex != _INDENT]
-    if _ODD in map(_last_group, lines):
-        return None
-    scan = _Scan(whole, lines, end)
-    try:
-        items = scan.series(lines[0].end(_INDENT) - begin, 0, 0)
-    except (UnlikeError, IndexError):  # the end where something has to follow
-        return None
-    if scan.line != len(lines) or len(items.items) != 1 or type(items.items[0]) is not Keys:
-        return None
-    return Plainly(items.items[0], scan.places, tuple(scan.words))
+def lines_of(whole: Source, begin: int, end: int) -> list[re.Match[str]] | None:
+    """Return the lines between two offsets that say something; None where one takes a parser."""
+    lines = [line for line in _LINE.finditer(whole.text, begin, end) if line.lastindex != INDENT]
+    return None if _ODD in map(_last_group, lines) else lines
 
 
-class _Scan:
+class Scan:
     """Goes through lines; `line` is the number of the next one. `words` are the keys, and what else shows the form."""
 
-    __slots__ = ("end", "line", "lines", "places", "text", "whole", "words")
+    __slots__ = ("count", "end", "line", "lines", "places", "text", "whole", "words")
 
     def __init__(self, whole: Source, lines: list[re.Match[str]], end: int) -> None:
         self.whole = whole
         self.text = whole.text
         self.lines = lines
+        self.count = len(lines)
         self.line = 0
         self.end = end
-        self.places = Places(whole)
+        self.places = Places(whole, [*lines])
         self.words: list[str] = []
 
     def keys(self, column: int, head: int | None, depth: int) -> Keys:
         """Return the mapping whose keys begin in a column, from the next line on, behind the dash that may be there."""
         values: dict[str, Any] = {}
-        lines, count, number, places = self.lines, len(self.lines), self.line, self.places.offsets
+        lines, count, number = self.lines, self.count, self.line
         line = lines[number]
         _, _, key, double, single, plain, opening, _ = line.groups()
         if head is None:
-            head = len(places)
-            places.append(line.span(_NAME))
+            head = number << GROUPS | NAME
         words = self.words
         while True:
             if key is None or key in values:
                 raise UnlikeError
             words.append(key)
-            number += 1
             if plain is not None:
-                values[key] = (plain, len(places), False)
-                places.append(line.span(_BARE))
+                values[key] = (plain, number << GROUPS | BARE, False)
+                number += 1
             elif double is not None or single is not None:
-                values[key] = self.quoted(line, _IN_DOUBLE if single is None else _IN_SINGLE)
+                values[key] = self.quoted(line, number << GROUPS, IN_DOUBLE if single is None else IN_SINGLE)
+                number += 1
             else:
-                self.line = number
-                values[key] = self.inner(line, opening is not None, column, depth)
+                self.line = number + 1
+                head_of = number << GROUPS | NAME
+                if opening is not None:
+                    values[key] = self.opened(line, head_of)
+                else:
+                    values[key] = self.below(head_of, column, depth)
                 number = self.line
             if number == count:
                 break
@@ -118,59 +114,58 @@ class _Scan:
         self.line = number
         return Keys(values, head)
 
-    def inner(self, line: re.Match[str], opened: bool, column: int, depth: int) -> Keys | Series:
-        """Return what stands behind a key in brackets, or on the lines below it."""
-        head = self.places.add(line.span(_NAME))
-        return self.opened(line, head) if opened else self.below(head, column, depth)
-
     def below(self, head: int, column: int, depth: int) -> Keys | Series:
         """Return what stands below a key that has nothing behind it."""
         following = self.lines[self.line]
-        indent = len(following[_INDENT])
-        if following[_DASH] is not None:
+        indent = len(following[INDENT])
+        if following[DASH] is not None:
             if indent < column:
                 raise UnlikeError
             return self.series(indent, head, depth + 1)
-        if indent <= column or depth > _DEEPEST:
+        if indent <= column or depth > DEEPEST:
             raise UnlikeError
         return self.keys(indent, head, depth + 1)
 
     def series(self, column: int, head: int, depth: int) -> Series:
         """Return the list whose dashes stand in a column, from the next line on."""
         items: list[Any] = []
-        lines, count = self.lines, len(self.lines)
-        begin = lines[self.line].start(_DASH)
+        lines, count = self.lines, self.count
+        begin = lines[self.line].start(DASH)
         while self.line < count:
             line = lines[self.line]
-            indent = len(line[_INDENT])
-            if line[_DASH] is None or indent < column:
+            indent = len(line[INDENT])
+            if line[DASH] is None or indent < column:
                 break
             last = line.lastindex
-            if indent > column or last == _DASH or depth > _DEEPEST:
+            if indent > column or last == DASH or depth > DEEPEST:
                 raise UnlikeError
             self.words.append("-")
-            if line[_NAME] is not None:
-                items.append(self.keys(line.start(_NAME) - line.start(), None, depth + 1))
+            if line[NAME] is not None:
+                items.append(self.keys(line.start(NAME) - line.start(), None, depth + 1))
                 continue
             self.line += 1
-            items.append(self.opened(line, None) if last == _OPEN else self.scalar(line, last == _BARE))
+            if last == OPEN:
+                items.append(self.opened(line, None))
+            else:
+                items.append(self.scalar(line, self.line - 1 << GROUPS, last == BARE))
         # It ends where the next thing begins.
-        end = self.end if self.line == count else lines[self.line].end(_INDENT)
+        end = self.end if self.line == count else lines[self.line].end(INDENT)
         return Series(items, self.places.add((begin, end)), head)
 
-    def scalar(self, found: re.Match[str], plain: bool) -> Scalar | Written:
-        """Return the text of the last group."""
+    def scalar(self, found: re.Match[str], at: int, plain: bool) -> Scalar | Written:
+        """Return the text of the last group; the match has a number."""
         group: Any = found.lastindex
-        return (
-            (found[group], self.places.add(found.span(group)), False) if plain else self.quoted(found, group)
-        )
+        return (found[group], at | group, False) if plain else self.quoted(found, at, group)
 
-    def quoted(self, found: re.Match[str], group: int) -> Scalar | Written:
-        """Return the text of a group, which stands in quotes."""
-        text, (begin, end) = found[group], found.span(group)
+    def quoted(self, found: re.Match[str], at: int, group: int) -> Scalar | Written:
+        """Return the text of a group, which stands in quotes; the match has a number."""
+        text = found[group]
+        if "\\" not in text and "'" not in text:
+            return text, at | group, True
+        begin, end = found.span(group)
         style = self.text[end]
         if ("\\" if style == '"' else "'") not in text:
-            return text, self.places.add((begin, end)), True
+            return text, at | group, True
         begin, end = begin - 1, end + 1
         value = _ESCAPED.sub(r"\1", text) if style == '"' else text.replace("''", "'")
         return Written(
@@ -179,15 +174,22 @@ class _Scan:
 
     def opened(self, line: re.Match[str], head: int | None) -> Keys | Series:
         """Return what stands in brackets behind a key, or behind a dash, up to the end of the line."""
-        value, at = self.flow(line.start(_OPEN), line[_OPEN], head, 0)
-        behind = _BEHIND.match(self.text, at, line.end())
-        if behind is None or behind.end() != line.end():
-            raise UnlikeError
+        value, at = self.flow(line.start(OPEN), line[OPEN], head, 0)
+        self.end_line(line, at)
         return value
+
+    def end_line(self, line: re.Match[str], at: int) -> None:
+        """Refuse a line that goes on behind an offset with more than a comment."""
+        end = line.end()
+        if at + 1 == end and self.text[at] == "\n":  # as nearly all
+            return
+        behind = _BEHIND.match(self.text, at, end)
+        if behind is None or behind.end() != end:
+            raise UnlikeError
 
     def flow(self, begin: int, opening: str, head: int | None, depth: int) -> tuple[Keys | Series, int]:
         """Return what stands in brackets that open at an offset, and the offset behind it."""
-        if depth > _DEEPEST:
+        if depth > DEEPEST:
             raise UnlikeError
         self.words.append(opening)
         if head is None:
@@ -201,24 +203,22 @@ class _Scan:
     def pairs(self, at: int, depth: int) -> tuple[dict[str, Any], int]:
         """Return what stands in braces, and the offset behind it."""
         values: dict[str, Any] = {}
-        text, end, places, words = self.text, self.end, self.places.offsets, self.words
+        text, end, places, words = self.text, self.end, self.places, self.words
         while True:
-            found = _PAIR.match(text, at, end)
+            found = PAIR.match(text, at, end)
             if found is None:
                 raise UnlikeError
             key, opening, _, single, plain, following = found.groups()
             if key in values:
                 raise UnlikeError
             words.append(key)
-            at = found.end()
+            at, number = found.end(), places.add(found)
             if plain is not None:
-                values[key] = (plain, len(places), False)
-                places.append(found.span(_PLAIN_IN_PAIR))
+                values[key] = (plain, number | PLAIN_IN_PAIR, False)
             elif opening is None:
-                values[key] = self.quoted(found, _PLAIN_IN_PAIR - (2 if single is None else 1))
+                values[key] = self.quoted(found, number, DOUBLE_IN_PAIR if single is None else SINGLE_IN_PAIR)
             else:
-                places.append(found.span(1))
-                values[key], at = self.flow(at - 1, opening, len(places) - 1, depth + 1)
+                values[key], at = self.flow(at - 1, opening, number | KEY_IN_PAIR, depth + 1)
                 following, at = self.following(at)
             if following != ",":
                 break
@@ -246,7 +246,7 @@ class _Scan:
                 value, at = self.flow(at - 1, found[_OPEN_IN_ITEM], None, depth + 1)
                 items.append(value)
             else:
-                items.append(self.scalar(found, found.lastindex == _PLAIN_IN_ITEM))
+                items.append(self.scalar(found, self.places.add(found), found.lastindex == _PLAIN_IN_ITEM))
             following, at = self.following(at)
             if following != ",":
                 break

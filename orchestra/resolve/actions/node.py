@@ -64,7 +64,7 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
     arguments, ros_arguments, more = _arguments(action, run, given)
     own, whole = parameters(action.param, run)
     rules, regular = remaps(action.remap, run)
-    among = [item for item in given if isinstance(item, ResolvedRemap)]
+    among = [item for item in given if isinstance(item, ResolvedRemap)] if given else []
     schema = None if action.params_schema is None else params_schema(action.params_schema, run)
     values = (package, executable, label, words, name, namespace, arguments, ros_arguments, autostart, schema)
     program = new_program(
@@ -78,7 +78,9 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
         arguments=() if isinstance(arguments, Poison) else arguments,
         ros_arguments=None if isinstance(ros_arguments, Poison) or action.ros_args is None else ros_arguments,
         parameters=(*run.scope.parameters, *own),
-        parameter_arguments=tuple([item for item in given if isinstance(item, FileParameters)]),
+        parameter_arguments=tuple([item for item in given if isinstance(item, FileParameters)])
+        if given
+        else (),
         remaps=(*among, *run.scope.remaps, *rules),
         remaps_among_words=len(among),
         autostart=autostart is True,

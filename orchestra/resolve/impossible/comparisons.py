@@ -124,14 +124,25 @@ def _check_expression(template: Template, run: Resolution) -> None:
         part.text if isinstance(part, Words) else f"\ue000{index}\ue001"
         for index, part in enumerate(template.parts)
     )
+    if "\ue000" not in text:
+        return  # nothing in it is anything but constant, and that is meant
     lead = len(text) - len(text.lstrip())
-    for node in _compared(text.strip()):
-        _check_compared(node, template, lead, run)
+    for node, numbers in _compared(text.strip()):
+        if numbers is None or any(_is_choice(number, template.parts, run) for number in numbers):
+            _check_compared(node, template, lead, run)
+
+
+def _is_choice(number: int, parts: Sequence[Part], run: Resolution) -> bool:
+    name = _argument(parts[number]) if number < len(parts) else None
+    return name is not None and run.found.choices_of(name) is not None
 
 
 @lru_cache(maxsize=64)  # as many conditions say the same
-def _compared(text: str) -> tuple[ast.Compare, ...]:
+def _compared(text: str) -> tuple[tuple[ast.Compare, tuple[int, ...] | None], ...]:
     """Return the comparisons of two values in an expression; none where it is no expression.
+
+    Beside each are the numbers of the substitutions in its texts, where it compares nothing else: at least one has to
+    be an argument with choices for it to come always to the same.
 
     A substitution outside of quotes stands for code. What is wrong is told where it is evaluated.
     """
@@ -143,7 +154,21 @@ def _compared(text: str) -> tuple[ast.Compare, ...]:
             tree = ast.parse(text, mode="eval")
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         return ()
-    return tuple(node for node in ast.walk(tree) if isinstance(node, ast.Compare) and len(node.ops) == 1)
+    found = [node for node in ast.walk(tree) if isinstance(node, ast.Compare) and len(node.ops) == 1]
+    return tuple((node, _numbers(node)) for node in found)
+
+
+def _numbers(node: ast.Compare) -> tuple[int, ...] | None:
+    """Return the numbers of the substitutions in the texts that are compared; None where anything else is."""
+    import ast  # noqa: PLC0415 - as above
+
+    numbers: list[int] = []
+    for inner in (node.left, *node.comparators):
+        for side in inner.elts if isinstance(inner, ast.Tuple | ast.List | ast.Set) else (inner,):
+            if not isinstance(side, ast.Constant) or not isinstance(side.value, str):
+                return None
+            numbers += map(int, _PLACE.findall(side.value))
+    return tuple(numbers)
 
 
 def _check_compared(node: ast.Compare, template: Template, lead: int, run: Resolution) -> None:

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import yaml
 
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.fields import field, replace
-from orchestra.location import Location, Span
+from orchestra.location import Location, Span, new_location
 from orchestra.resolve.rcl.hollow import Hollow
 from orchestra.resolve.rcl.joined import Joined, joined
 from orchestra.resolve.rcl.nesting import NESTED, Nesting
 from orchestra.resolve.rcl.opened import OpenList, OpenParameter, OpenSection, Unreadable
 from orchestra.resolve.rcl.patterns import instead, pattern_fault
-from orchestra.resolve.rcl.sections import Entry, Section
+from orchestra.resolve.rcl.sections import Section, new_entry
 from orchestra.resolve.rcl.strays import SECTION_KEY, Key, Strays, is_misspelt_section, is_section
 from orchestra.resolve.rcl.values import scalar, span_of_events, terminated
 
@@ -70,22 +70,23 @@ class Reader:
         sound = (section for section in self.found if section.sound)
         return tuple(Section(section.pattern, tuple(section.entries), section.location) for section in sound)
 
-    def take(self, event: yaml.Event) -> None:
+    def take(self, event: Any) -> None:  # noqa: ANN401 - an event of any kind
         """Go on by one event. Raises `Unreadable` where there is no going on."""
+        kind = type(event)
         within = self.nesting.open or (self.expects_key and self.lists)
         if within and self.nesting.leaves_out(event, self.lists, self.depth, self.at):
             pass
-        elif isinstance(event, yaml.ScalarEvent):
+        elif kind is yaml.ScalarEvent:
             (self.key if self.expects_key else self.value)(event)
-        elif isinstance(event, yaml.MappingStartEvent):
+        elif kind is yaml.MappingStartEvent:
             self.open_mapping(event)
-        elif isinstance(event, yaml.MappingEndEvent):
+        elif kind is yaml.MappingEndEvent:
             self.close_mapping(event)
-        elif isinstance(event, yaml.SequenceStartEvent):
+        elif kind is yaml.SequenceStartEvent:
             self.open_list(event)
-        elif isinstance(event, yaml.SequenceEndEvent):
+        elif kind is yaml.SequenceEndEvent:
             self.close_list(event)
-        elif isinstance(event, yaml.AliasEvent):
+        elif kind is yaml.AliasEvent:
             self.alias(event)
 
     def key(self, event: yaml.ScalarEvent) -> None:
@@ -93,15 +94,16 @@ class Reader:
         name = terminated(event.value)
         if not name:
             raise self.unreadable(_NO_KEY if self.depth else _NO_DOCUMENT, event)
-        beside = not self.inside and self.strays.key(Key(name, self.at(event), self.depth), self.keys)
+        at = self.at(event)
+        beside = not self.inside and self.strays.key(Key(name, at, self.depth), self.keys)
         if self.inside:
-            self.parameter_key(name, event)
+            self.parameter_key(name, event, at)
         elif is_section(name) or (self.node.count and is_misspelt_section(name)):
             self.open_section(name, event, told=beside)
         else:
             self.before_key = replace(self.node)
             self.node.grow(name)
-        self.last_key, self.last_key_at, self.expects_key = name, self.at(event), False
+        self.last_key, self.last_key_at, self.expects_key = name, at, False
 
     def open_section(self, name: str, event: yaml.ScalarEvent, *, told: bool) -> None:
         """Take the key `ros__parameters`: rcl looks only at how it begins."""
@@ -127,7 +129,7 @@ class Reader:
         self.node.shrink()
         self.node_depth, self.inside, self.parameter = len(self.keys), True, None
 
-    def parameter_key(self, name: str, event: yaml.ScalarEvent) -> None:
+    def parameter_key(self, name: str, event: yaml.ScalarEvent, at: Location) -> None:
         """Take the name of a parameter or of a group of them."""
         if self.fresh:
             if self.parameter is None:
@@ -138,11 +140,11 @@ class Reader:
         whole = f"{slot}.{name}" if self.group.count else name
         said = ".".join([*self.keys[self.node_depth + 1 :], name])
         if whole != said and not self.lists:
-            self.surprise(f"rcl reads this as the parameter '{whole}', not '{said}'", self.at(event))
+            self.surprise(f"rcl reads this as the parameter '{whole}', not '{said}'", at)
         elif is_section(name):
-            self.surprise(f"'{name}' stands inside itself: rcl reads '{whole}'", self.at(event))
+            self.surprise(f"'{name}' stands inside itself: rcl reads '{whole}'", at)
         self.hollow.key(name, self.depth)
-        self.parameter = OpenParameter(whole, slot, self.at(event))
+        self.parameter = OpenParameter(whole, slot, at)
 
     def value(self, event: yaml.ScalarEvent) -> None:
         """Take a scalar that is no key: a value, or an item of a list."""
@@ -265,7 +267,7 @@ class Reader:
         """Set the parameter at hand. A second value for it looks for the slot by the name it has by then."""
         parameter = self.parameter
         assert parameter is not None  # noqa: S101 - a value comes behind its key
-        entry = Entry(parameter.name, value, location, parameter.key, parameter.slot, opens)
+        entry = new_entry(parameter.name, value, location, parameter.key, parameter.slot, opens)
         self.found[-1].entries.append(entry)
         parameter.slot = parameter.name
 
@@ -282,7 +284,7 @@ class Reader:
 
     def at(self, first: yaml.Event, last: yaml.Event | None = None) -> Location:
         """Return the place of an event, or from one to another."""
-        return Location(span_of_events(first, last or first, self.file), self.included_from)
+        return new_location(span_of_events(first, last or first, self.file), self.included_from)
 
     def error(self, message: str, at: Location, suggestion: str | None = None) -> None:
         """Report what rcl refuses."""

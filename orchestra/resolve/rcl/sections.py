@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from orchestra.dataclass import dataclass
-from orchestra.location import Location, Span
+from orchestra.dataclass import dataclass, maker
+from orchestra.location import Location, Span, new_location
 from orchestra.values import ParameterValue
 
 
@@ -26,6 +26,9 @@ class Entry:
     items: tuple[Location, ...] = ()
 
 
+new_entry = maker(Entry)
+
+
 @dataclass(frozen=True, slots=True)
 class Section:
     """What one `ros__parameters` mapping sets for the nodes that match a pattern.
@@ -43,23 +46,24 @@ def included(section: Section, chain: tuple[Span, ...]) -> Section:
     """Return a section of a file that was read for nobody as that of one which includes led to."""
 
     def at(location: Location) -> Location:
-        return Location(location.span, (*location.included_from, *chain))
+        around = location.included_from
+        return new_location(location.span, (*around, *chain) if around else chain)
 
-    entries = (
-        Entry(
+    entries = [
+        new_entry(
             item.name,
             item.value,
             at(item.location),
             at(item.key),
             item.slot,
             item.opens,
-            tuple(map(at, item.items)),
+            tuple(map(at, item.items)) if item.items else (),
         )
         for item in section.entries
-    )
+    ]
     return Section(section.pattern, tuple(entries), at(section.location))
 
 
 def entry(name: str, value: ParameterValue | None, location: Location) -> Entry:
     """Return an entry that was not read from a file: flat, its name and value written in one place."""
-    return Entry(name, value, location, location, name)
+    return new_entry(name, value, location, location, name)

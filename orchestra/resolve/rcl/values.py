@@ -6,10 +6,11 @@ from typing import TYPE_CHECKING, Final
 
 import yaml
 
-from orchestra.location import Span
+from orchestra.location import new_span
 from orchestra.resolve.rcl.scalars import typed
 
 if TYPE_CHECKING:
+    from orchestra.location import Span
     from orchestra.values import Scalar
 
 # libyaml where PyYAML has it, because that is what rcl reads with; its pure twin elsewhere.
@@ -41,7 +42,7 @@ def span_of_events(first: yaml.Event, last: yaml.Event, file: str) -> Span:
     assert start is not None  # noqa: S101 - events of a parser have marks
     assert end is not None  # noqa: S101
     unseen = isinstance(first, yaml.CollectionStartEvent) and start.index == end.index  # in block form
-    return Span(file, start.line + 1, start.column + 1, end.line + 1, end.column + 1 + unseen)
+    return new_span(file, start.line + 1, start.column + 1, end.line + 1, end.column + 1 + unseen)
 
 
 def odd_boolean(read: Scalar, event: yaml.ScalarEvent) -> tuple[str, ...]:
