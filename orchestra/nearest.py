@@ -1,12 +1,19 @@
-"""What was probably meant: the nearest of the words that would have been right."""
+"""What was probably meant: the nearest of the words that would have been right.
+
+To look for it among many words takes long, and a file may have many words that are wrong: of each of a thousand
+variables the name may be misspelt. So all that is looked at for one launch file has an end (`renew`), behind which
+nothing is suggested any more but from among a few words.
+"""
 
 from __future__ import annotations
 
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from itertools import islice
+from operator import itemgetter
+from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable
+    from collections.abc import Iterable, Sequence
 
 _LEAST_LIKENESS = 0.6
 _LIKENESS_OF_A_SLIP = 0.7
@@ -14,26 +21,70 @@ _CHARACTERS_OF_A_SLIP = 2  # more or less
 _LIKENESS_OF_A_SWAP = 0.9  # two letters in each other's place
 _LIKENESS_OF_A_SHORT_SWAP = 0.8
 _LETTERS_OF_A_SHORT_WORD = 4
+_FEW: Final = 64  # words to choose from, among which one is always looked for
+_STEPS: Final = 1_000_000  # of about a microsecond, for all that is looked for among more words
+_STEPS_OF_LETTERS: Final = 4
+_STEPS_OF_A_RATIO: Final = 16
+
+_left = [_STEPS]
+
+
+def renew() -> None:
+    """Begin with another launch file, for which as much is looked at as for any."""
+    _left[0] = _STEPS
+    _nearest.cache_clear()
+    _first_slip.cache_clear()
+
+
+def one_slip(word: str, candidates: Sequence[str]) -> str | None:
+    """Return the first candidate from which one slip is all that tells the word apart, see `is_one_slip`."""
+    if _left[0] <= 0 and len(candidates) > _FEW:
+        return None
+    return _first_slip(word, tuple(candidates))
+
+
+@lru_cache(maxsize=32)  # the same variable is read in each of a thousand nodes
+def _first_slip(word: str, candidates: tuple[str, ...]) -> str | None:
+    alike = [other for other in candidates if -1 <= len(other) - len(word) <= 1]
+    if len(candidates) > _FEW:
+        _left[0] -= len(candidates) // _STEPS_OF_LETTERS + _STEPS_OF_LETTERS * len(alike)
+    return next((other for other in alike if is_one_slip(word, other)), None)
 
 
 def nearest(word: str, candidates: Iterable[str]) -> str | None:
     """Return the candidate most like the word, None where none is near. Case, `-` and `_` weigh nothing."""
+    if _left[0] <= 0:
+        candidates = tuple(islice(candidates, _FEW + 1))
+        if len(candidates) > _FEW:
+            return None
     return _nearest(word, tuple(sorted(set(candidates))))
 
 
 @lru_cache(maxsize=32)  # the same slip is made in each of a thousand nodes
 def _nearest(word: str, candidates: tuple[str, ...]) -> str | None:
     folded = _folded(word)
-    letters = {letter: folded.count(letter) for letter in folded}
-    best, best_likeness = None, _LEAST_LIKENESS
-    for candidate in candidates:
-        if candidate == word:
-            continue
-        likeness = _likeness(folded, _folded(candidate), letters)
-        if likeness > best_likeness or (
-            best and likeness == best_likeness and _same_case(word, candidate, best)
-        ):
-            best, best_likeness = candidate, likeness
+    bounds = _bounds(folded, word, candidates)
+    best, best_likeness, ratios = [], _LEAST_LIKENESS, 0
+    for bound, candidate in sorted(bounds, key=itemgetter(0), reverse=True):
+        if bound < best_likeness:
+            break  # so are all that follow
+        ratios += 1
+        likeness = _likeness(folded, _folded(candidate))
+        if likeness > best_likeness:
+            best, best_likeness = [candidate], likeness
+        elif best and likeness == best_likeness:
+            best.append(candidate)
+    if len(candidates) > _FEW:
+        _left[0] -= len(candidates) + _STEPS_OF_LETTERS * len(bounds) + _STEPS_OF_A_RATIO * ratios
+    return _of_case(word, sorted(best))
+
+
+def _of_case(word: str, alike: Sequence[str]) -> str | None:
+    """Return the first of words that are as near, or what is but for the case that one and has more of the word's."""
+    best = alike[0] if alike else None
+    for candidate in alike[1:]:
+        if best is not None and _same_case(word, candidate, best):
+            best = candidate
     return best
 
 
@@ -109,19 +160,29 @@ def _folded(word: str) -> str:
     return word.lower().replace("-", "_")
 
 
-def _likeness(word: str, candidate: str, letters: dict[str, int]) -> float:
-    """Return how much alike two words are; between short ones a single slip counts, and nothing that is less alike.
+def _bounds(folded: str, word: str, candidates: Iterable[str]) -> list[tuple[float, str]]:
+    """Return the candidates that may be near, with what their likeness is at the most."""
+    letters = {letter: folded.count(letter) for letter in folded}
+    length, found = len(folded), []
+    for candidate in candidates:
+        other = _folded(candidate)
+        both = length + len(other)
+        # What `real_quick_ratio` would say, without looking at the letters.
+        if candidate == word or 2 * min(length, len(other)) <= _LEAST_LIKENESS * both:
+            continue
+        # What `quick_ratio` would say, in a tenth of the time.
+        common = sum([min(count, other.count(letter)) for letter, count in letters.items()])
+        bound = 2.0 * common / both
+        if bound > _LEAST_LIKENESS:
+            found.append((bound, candidate))
+    return found
 
-    `letters` are those of the word, with how often each stands in it.
-    """
-    if 2 * min(len(word), len(candidate)) <= _LEAST_LIKENESS * (len(word) + len(candidate)):
-        return 0.0  # what `real_quick_ratio` would say, without looking at the letters
+
+def _likeness(word: str, candidate: str) -> float:
+    """Return how much alike two words are; between short ones a single slip counts, and nothing that is less alike."""
     short = min(len(word), len(candidate)) <= _LETTERS_OF_A_SHORT_WORD
     if len(word) == len(candidate) and _is_swapped(word, candidate):
         return _LIKENESS_OF_A_SHORT_SWAP if short else max(_LIKENESS_OF_A_SWAP, 1 - 1 / len(word))
-    common = sum([min(count, candidate.count(letter)) for letter, count in letters.items()])
-    if 2.0 * common / (len(word) + len(candidate)) <= _LEAST_LIKENESS:
-        return 0.0  # what `quick_ratio` would say, in a tenth of the time
     ratio = _ratio(word, candidate)
     framed = word[:2] == candidate[:2] and word[-1] == candidate[-1]  # `alfa` of `alpha`
     near = ratio >= _LIKENESS_OF_A_SLIP or framed or _one_slip(word, candidate) or word.startswith(candidate)

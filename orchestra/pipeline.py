@@ -12,6 +12,7 @@ from orchestra.errors import Code, DescriptionError, Problem, Problems
 from orchestra.fields import replace
 from orchestra.load.files import load
 from orchestra.location import displayed, is_python, point
+from orchestra.nearest import renew
 from orchestra.plan.build import build
 from orchestra.plan.checks.table import has_settings
 from orchestra.plan.relocated import relocated
@@ -122,6 +123,7 @@ def opened(
     `whole`: the plan is wanted, and not only what is wrong with it. `isolating` keeps from this process what code of
     the files does. What is kept for other plans is written at the end, or `postponed`: it waits there for a call.
     """
+    renew()
     packages = packages or InstalledPackages(inputs.environment)
     keeping = whole and inputs.keeping  # of what is only checked the findings are kept
     with _loading(path, inputs, load, packages, problems, isolating, keeping, postponed) as isolation:

@@ -2,9 +2,16 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import pytest
 
-from orchestra.nearest import is_one_slip, is_slip, nearest
+import orchestra.nearest
+from orchestra.nearest import is_one_slip, is_slip, nearest, one_slip, renew
+from orchestra.pipeline import check, inputs_from
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 
 @pytest.mark.parametrize(
@@ -64,3 +71,53 @@ def test_a_slip_of_the_keys(word: str, meant: str, slip: bool) -> None:
 )
 def test_one_slip_of_the_keys(word: str, meant: str, slip: bool) -> None:
     assert is_one_slip(word, meant) is slip
+
+
+def _misspelt(count: int) -> list[str]:
+    return [f"argumnet_{number}" for number in range(count)]
+
+
+def test_what_is_looked_for_in_one_file_has_an_end(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of each of a thousand words the like was looked for among a thousand others."""
+    compared: list[tuple[str, str]] = []
+    ratio = orchestra.nearest._ratio
+    monkeypatch.setattr(orchestra.nearest, "_STEPS", 20_000)
+    monkeypatch.setattr(orchestra.nearest, "_ratio", lambda *pair: compared.append(pair) or ratio(*pair))
+    renew()
+    known = [f"argument_{number}" for number in range(100)]
+    found = [nearest(word, known) for word in _misspelt(100)]
+    assert found[:10] == known[:10]
+    assert found[-10:] == [None] * 10
+    before = len(compared)
+    assert before < 20_000 / 16 + len(known)
+    assert nearest("argumnet_7", iter(known)) is None
+    assert one_slip("argumnet_7", known) is None
+    assert len(compared) == before
+    assert nearest("argumnet_7", known[:64]) == "argument_7"
+    assert one_slip("argumnet_7", known[:64]) == "argument_7"
+    renew()
+    assert nearest("argumnet_7", known) == one_slip("argumnet_7", known) == "argument_7"
+    monkeypatch.undo()
+    renew()
+
+
+def test_each_launch_file_has_its_own_end(tmp_path: Path) -> None:
+    """What one file has used up is no other's."""
+    orchestra.nearest._left[0] = 0
+    lines = "".join(f"- let: {{name: argument_{number}, value: a}}\n" for number in range(70))
+    path = tmp_path / "main.launch.yaml"
+    path.write_text(f"launch:\n{lines}- log: {{message: $(var argumnet_7)}}\n")
+    (problem,) = check(str(path), inputs_from([], environment={}))
+    assert problem.suggestion == "argument_7"
+
+
+def test_words_far_from_a_near_one_are_not_compared(monkeypatch: pytest.MonkeyPatch) -> None:
+    """What cannot be nearer than one that is known is not looked at letter by letter."""
+    compared: list[tuple[str, str]] = []
+    ratio = orchestra.nearest._ratio
+    monkeypatch.setattr(orchestra.nearest, "_ratio", lambda *pair: compared.append(pair) or ratio(*pair))
+    renew()
+    assert nearest(
+        "velocity_contorller", [f"velocity_smoother_{n}" for n in range(60)] + ["velocity_controller"]
+    )
+    assert compared == []

@@ -9,12 +9,12 @@ from orchestra.location import is_python
 from orchestra.plan.model import Candidate, Via
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterator, Sequence
 
     from orchestra.location import Location, Span
     from orchestra.resolve.context import Read, Value
     from orchestra.resolve.model import EnvironmentChange, ParameterSource
-    from orchestra.resolve.rcl.effective import Setting, Written
+    from orchestra.resolve.rcl.effective import Setting
 
 FROM_COMMAND_LINE = "the command line wins"
 _OVERRULED = "overruled by the command line"
@@ -117,45 +117,44 @@ def of_parameter(below: Setting | None, above: Setting | None, known: Origins) -
         entry = below.written[0].entry
         through = behind(entry.location, known)
         return (new_candidate(entry.value, entry.location, True, below.rule, through),)
-    written = [
-        new_candidate(
-            item.value,
-            item.location,
-            item.won and above is None,
-            _of_description(item, below, overruled=above is not None),
-            behind(item.location, known),
-        )
-        for item in (below.written if below is not None else ())
-        if below is not None
-    ]
+    written: list[Candidate] = []
+    if below is not None:
+        written += [
+            new_candidate(
+                item.value,
+                item.location,
+                item.won and above is None,
+                rule if above is None else f"set for '{item.pattern}', {_OVERRULED}",
+                behind(item.location, known),
+            )
+            for item, rule in zip(below.written, _rules(below), strict=True)
+        ]
     if above is not None:
         written += [
-            new_candidate(item.value, item.location, item.won, _of_command_line(item, above))
-            for item in above.written
+            new_candidate(
+                item.value,
+                item.location,
+                item.won,
+                FROM_COMMAND_LINE if item.won else f"of the command line, but {rule}",
+            )
+            for item, rule in zip(above.written, _rules(above), strict=True)
         ]
     return tuple(written)
 
 
-def _of_description(item: Written, setting: Setting, *, overruled: bool) -> str:
-    if overruled:
-        return f"set for '{item.pattern}', {_OVERRULED}"
-    return setting.rule if item.won else _lost(item, setting)
-
-
-def _of_command_line(item: Written, setting: Setting) -> str:
-    return FROM_COMMAND_LINE if item.won else f"of the command line, but {_lost(item, setting)}"
-
-
-def _lost(item: Written, setting: Setting) -> str:
-    """Return why a value does not count."""
-    winner = next((other for other in setting.written if other.won), None)
-    if winner is None:
-        return setting.rule
-    if winner.pattern != item.pattern:
-        return f"set for '{item.pattern}', which appears before '{winner.pattern}' does"
-    if setting.written.index(item) > setting.written.index(winner):
-        return f"set for '{item.pattern}', but {setting.rule}"
-    return f"set for '{item.pattern}' before the value that counts"
+def _rules(setting: Setting) -> Iterator[str]:
+    """Yield for each value that is written why it counts, or does not."""
+    counting = next((place for place, item in enumerate(setting.written) if item.won), None)
+    for place, item in enumerate(setting.written):
+        if counting is None or item.won:
+            yield setting.rule
+        elif setting.written[counting].pattern != item.pattern:
+            winner = setting.written[counting].pattern
+            yield f"set for '{item.pattern}', which appears before '{winner}' does"
+        elif place > counting:
+            yield f"set for '{item.pattern}', but {setting.rule}"
+        else:
+            yield f"set for '{item.pattern}' before the value that counts"
 
 
 def of_environment(changes: Sequence[EnvironmentChange]) -> tuple[Candidate, ...]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
-from orchestra.nearest import is_one_slip
+from orchestra.nearest import one_slip
 from orchestra.resolve.mentions import names_in
 
 if TYPE_CHECKING:
@@ -18,12 +18,13 @@ def warn_of_idle_lets(ledger: Ledger, run: Resolution) -> None:
 
     Any other one may be set for a file that code includes, or one that is not here.
     """
-    idle = {name: at for name, at in run.found.lets.items() if name not in ledger.read | run.found.lost}
+    useful = ledger.read | run.found.lost
+    idle = {name: at for name, at in run.found.lets.items() if name not in useful}
     if not idle or ledger.incomplete:
         return
-    known = (ledger.declared | run.found.lets.keys()) - idle.keys()
+    known = sorted((ledger.declared | run.found.lets.keys()) - idle.keys())
     hidden = names_in(part.action for part in ledger.hidden)
     for name, at in idle.items():
-        meant = next((other for other in sorted(known) if is_one_slip(name, other)), None)
+        meant = one_slip(name, known)
         if meant is not None and name not in hidden:
             run.problems.warning(Code.UNREAD_ARGUMENT, f"nothing reads '{name}'", at, suggestion=meant)

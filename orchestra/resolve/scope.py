@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Any, Final, TypeAlias
 from orchestra.dataclass import dataclass, maker
 from orchestra.errors import Code, Problems
 from orchestra.fields import field
+from orchestra.resolve.bounded import with_change, with_parameter
 from orchestra.resolve.context import POISON, Evaluated, Read, Setter, Value, Variable, read_of
 from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.model import EnvironmentChange, InlineParameter, ParameterSource, ResolvedRemap
@@ -133,8 +134,7 @@ class Scope:
 
     def settle(self, name: str, location: Location) -> None:
         """Note where a variable is declared or set with no condition around that."""
-        variable = self.variables.get(name)
-        if variable is not None:
+        if (variable := self.variables.get(name)) is not None:
             self._put(self.variables, name, _changed(variable, variable.leaked_from, location))
 
     def forget(self, name: str) -> None:
@@ -145,13 +145,13 @@ class Scope:
         self, name: str, value: str | None, location: Location, through: tuple[Read, ...] = ()
     ) -> None:
         """Set or remove an environment variable."""
-        changes = (*self.changes.get(name, ()), EnvironmentChange(value, location, through))
-        self._put(self.changes, name, changes)
+        change = EnvironmentChange(value, location, through)
+        self._put(self.changes, name, with_change(self.changes.get(name, ()), change))
         self._put(self.environment, name, _ABSENT if value is None else value)
 
     def set_parameter(self, parameter: InlineParameter) -> None:
         """Set a parameter of every node."""
-        self.parameters = (*self.parameters, parameter)
+        self.parameters = with_parameter(self.parameters, parameter, self.parameter_texts)
         self._put(self.parameter_texts, parameter.name, flow(parameter.value))
 
     def save_environment(self) -> None:
@@ -176,8 +176,7 @@ class Scope:
 
     def namespace(self, reader: Location) -> Evaluated | None:
         """Return the pushed namespace; `reader` is the place that asks."""
-        variable = self.variables.get(NAMESPACE)
-        if variable is None:
+        if (variable := self.variables.get(NAMESPACE)) is None:
             return None
         if variable.leaked_from is not None:
             self._warn_of_leak(NAMESPACE, variable, reader)
@@ -204,7 +203,8 @@ class Scope:
         try:
             yield ledger.read
         finally:
-            ledger.read = before | ledger.read
+            before |= ledger.read
+            ledger.read = before
 
     def mark(self) -> int:
         """Return a mark of the present state."""

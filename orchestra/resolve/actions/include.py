@@ -125,17 +125,19 @@ def _frame(action: Include, path: str, given: frozenset[str], run: Resolution) -
 def _arguments(action: Include, run: Resolution) -> tuple[list[Given], set[str]]:
     """Set the arguments in order, and return them with the names of those that a later one reads, as upstream."""
     given: list[Given] = []
+    names: set[str] = set()
     used: set[str] = set()
     before: dict[str, tuple[Location, object]] = {}
     for pair in (*action.arg, *action.let):
         with run.scope.reading() as read:
             name, value = run.evaluate(pair.name), run.evaluate(pair.value)
-        used |= read.intersection(item.name for item in given)
+        used |= read & names
         if isinstance(name, Value):
             if name.text not in read:
                 check_twice(name, value, before, run)
             before[name.text] = (name.location, value)
-            given.append(Given(name.text, name.location))
+            given.append(Given(name.text, name.location, value.text if isinstance(value, Value) else None))
+            names.add(name.text)
             run.scope.set(name.text, value or POISON, run.place(pair.value), "include")
     return given, used
 

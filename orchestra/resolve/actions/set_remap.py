@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from orchestra.resolve.bounded import with_rule
 from orchestra.resolve.remapping import remap
 
 if TYPE_CHECKING:
@@ -15,4 +16,4 @@ def visit(action: SetRemap, run: Resolution) -> None:
     """Add a rule for every node that follows."""
     rule = remap(action.from_, action.to, run)
     if rule is not None:
-        run.scope.remaps = (*run.scope.remaps, rule)
+        run.scope.remaps = with_rule(run.scope.remaps, rule)

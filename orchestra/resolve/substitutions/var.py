@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.description.text import Words
 from orchestra.errors import Code
-from orchestra.nearest import is_one_slip, nearest
+from orchestra.nearest import nearest, one_slip
 from orchestra.resolve.context import Value, new_value
 from orchestra.resolve.refusals import refuse
 from orchestra.resolve.substitutions.lookup import looked_up
@@ -43,7 +43,7 @@ def _check_default(name: str, written: Template, context: Context) -> None:
     names = context.variables.names()
     if name in names or name in context.lost:
         return
-    meant = next((other for other in names if is_one_slip(name, other)), None)
+    meant = one_slip(name, names)
     if meant is not None:
         told = f"nothing sets '{name}' here, so that its default counts"
         at = context.at(written.span)
