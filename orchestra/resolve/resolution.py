@@ -197,10 +197,8 @@ class Resolution:
         if template is None:
             return default
         value = self.evaluate(template)
-        if value is None:
-            return default
-        if isinstance(value, Poison):
-            return POISON
+        if not isinstance(value, Value):
+            return default if value is None else POISON
         flag = boolean(value.text)
         if flag is not None:
             return flag
