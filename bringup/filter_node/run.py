@@ -60,7 +60,8 @@ def _spin(node: Node) -> int:
         return 1
     told_to_end = Event()
     with Waiting(node, running.visited_group) as waiting, running.traced():
-        Thread(target=wait_for_the_end, args=(told_to_end, waiting.wake_up), daemon=True).start()
+        ending = Thread(target=wait_for_the_end, args=(told_to_end, waiting.wake_up), daemon=True)
+        ending.start()
         served = monotonic()
         # What is there by now stays: the collector need not go through it again and again.
         gc.freeze()
@@ -75,4 +76,6 @@ def _spin(node: Node) -> int:
                 sleep(rest)
                 waiting.look_at_the_clock()
                 running.work()
+        # A message may have ended the last wait before the trigger could: it must not meet a destroyed node.
+        ending.join()
     return 0
