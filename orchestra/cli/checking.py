@@ -144,8 +144,9 @@ class _Looking:
         target = self._targets[piece]
         finding, record = self._looker.look(target)
         self._garbage.left_by(code=observer().ran_code)
-        self._kept.keep(target, finding, record)
-        return Done(finding.as_data(), last=self._looker.is_spent)
+        data = finding.as_data()
+        self._kept.keep(target, data, record)
+        return Done(data, last=self._looker.is_spent)
 
     def end(self) -> None:
         """Write what is to be kept."""

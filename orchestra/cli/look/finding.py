@@ -54,8 +54,8 @@ class Finding:
 
 def _problem_data(problem: Problem) -> list[Any]:
     return [
-        problem.code,
-        problem.severity,
+        problem.code.value,
+        problem.severity.value,
         problem.message,
         None if problem.span is None else _span_data(problem.span),
         [_span_data(span) for span in problem.included_from],

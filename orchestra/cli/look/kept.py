@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import time
 from typing import TYPE_CHECKING, Any, Final
@@ -77,10 +76,10 @@ class Kept:
         except (KeyError, TypeError, ValueError):
             return None
 
-    def keep(self, target: Target, finding: Finding, record: Record) -> None:
-        """Keep a finding for later checks, once it is `written`."""
+    def keep(self, target: Target, finding: dict[str, Any], record: Record) -> None:
+        """Keep a finding, as data, for later checks, once it is `written`."""
         if self._store is not None and not record.unknown:
-            self._new.append((self._key(target), record, finding.as_data()))
+            self._new.append((self._key(target), record, finding))
             if time.monotonic() - self._since > _WAITING:
                 self.written()
 
@@ -98,4 +97,4 @@ class Kept:
 
     def _key(self, target: Target) -> str:
         path = os.path.abspath(target.path)  # noqa: PTH100 - pathlib is slow
-        return json.dumps([self._identity, target.kind, path, self._given])
+        return f"{self._identity}\0{target.kind}\0{path}\0{self._given}"
