@@ -16,6 +16,7 @@ from typing import TYPE_CHECKING
 import hypothesis
 import pytest
 
+from tests.heeding import heed_signals
 from tests.restoring import environment_restored
 
 if TYPE_CHECKING:
@@ -26,6 +27,8 @@ _SESSION = "ORCHESTRA_TEST_SESSION"
 _MARK = b"ORCHESTRA_RUN="
 # As long as Orchestra itself may take to end everything.
 _PATIENCE = 6.0
+# In seconds: how long a long check may take that does not say it itself, on a busy machine.
+_LONG = 3_600
 
 # Domains of ROS that stand in tests, each in one module. Whoever looks for a free one takes none of them.
 _DOMAINS = range(20, 81)
@@ -45,11 +48,7 @@ def pytest_configure(config: pytest.Config) -> None:
     # The same code is tried with the same examples each time; the long checks look for others in every run.
     if not config.getoption("--hypothesis-profile"):
         hypothesis.settings.load_profile("steady" if config.option.markexpr == "not long" else "untimed")
-    # Programs in the background of a shell ignore the first two, under nohup the third, and what they start does so
-    # too: the tests send them.
-    signal.signal(signal.SIGINT, signal.default_int_handler)
-    signal.signal(signal.SIGQUIT, signal.SIG_DFL)
-    signal.signal(signal.SIGHUP, signal.SIG_DFL)
+    heed_signals()
     os.environ[_SESSION] = uuid.uuid4().hex
     # Of pytest: where the folders of tests are, which stay for a while.
     elsewhere = os.environ.setdefault("PYTEST_DEBUG_TEMPROOT", tempfile.gettempdir())
@@ -78,6 +77,9 @@ def pytest_configure(config: pytest.Config) -> None:
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     order = {Path(__file__).parent / name: number for number, name in enumerate(_SLOWEST)}
     items.sort(key=lambda item: order.get(item.path, len(order)))
+    for item in items:
+        if item.get_closest_marker("long") and not item.get_closest_marker("timeout"):
+            item.add_marker(pytest.mark.timeout(_LONG))
 
 
 def _hold_domains(held: ExitStack) -> None:

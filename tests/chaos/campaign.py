@@ -23,6 +23,7 @@ from tests.chaos.judging import judge
 from tests.chaos.playing import HANG, play
 from tests.chaos.smaller import smallest
 from tests.chaos.stage import here
+from tests.heeding import heed_signals
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator
@@ -116,6 +117,7 @@ def _of_interest(screen: str) -> str:
 
 def main(words: list[str], about: str) -> int:
     """Carry out the command line."""
+    heed_signals()
     options = _options(words, about)
     if options.play:
         return _play(cases.loads(options.play))
