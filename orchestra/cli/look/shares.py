@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Final
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-_MOST: Final = 32  # pieces that are handed over at once
-_BRIEF: Final = 0.05  # seconds: whoever is done so soon is handed twice as many
+_MOST: Final = 64  # pieces that are handed over at once
+_BRIEF: Final = 0.1  # seconds: whoever is done so soon is handed twice as many
 
 
 class Shares:

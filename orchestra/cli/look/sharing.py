@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from orchestra.witness.record import Record, Signature
 
 
-_MOST: Final = 128  # files: to keep all of a large tree takes longer than to read some of them twice
+_MOST: Final = 192  # files: to keep all of a large tree takes longer than to read some of them twice
 
 
 class _Loaded(NamedTuple):
