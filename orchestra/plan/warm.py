@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import os
 import sys
+from functools import cache
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
 from orchestra.dataclass import changer
@@ -19,7 +20,7 @@ from orchestra.resolve.runnable import program_on_path
 from orchestra.witness.once import once
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Callable, Mapping
 
     from orchestra.plan.model import Plan
 
@@ -56,11 +57,12 @@ def wish(wanted: bool | None) -> Warm | None:
 
 def warmed(plan: Plan, environment: Mapping[str, str]) -> Plan:
     """Return the plan with `warm` in each process; `environment` is the one in which it is started."""
-    general = _general(environment)
+    general, search_path = _general(environment), cache(lambda: _search_path(environment))
     programs: dict[tuple[str, ...], tuple[Warm, bool]] = {}
     change = changer(Process, "warm") if len(plan.processes) > _MANY else _changed
     processes = tuple(
-        change(process, _of(process, environment, general, programs)) for process in plan.processes
+        change(process, _of(process, environment, general, search_path, programs))
+        for process in plan.processes
     )
     return replace(plan, processes=processes)
 
@@ -73,6 +75,7 @@ def _of(
     process: Process,
     environment: Mapping[str, str],
     general: str | None,
+    search_path: Callable[[], str],
     programs: dict[tuple[str, ...], tuple[Warm, bool]],
 ) -> Warm:
     """Decide about one process; `programs` has what is known of programs already."""
@@ -81,7 +84,8 @@ def _of(
     reason = _outward(process) or _by_environment(process, environment) or general
     if reason:
         return Warm(False, reason)
-    path = process.environment.get("PATH", _search_path(environment)) or os.defpath
+    own = process.environment
+    path = (own["PATH"] if "PATH" in own else search_path()) or os.defpath
     # As many words as may say which program it is.
     key = (path, process.cwd or "", *process.command[:3])
     program = programs.get(key)

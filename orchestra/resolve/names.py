@@ -138,6 +138,7 @@ def joined(base: str | None, namespace: str | None) -> str | None:
     return "/" + whole.rstrip("/").removeprefix("/")
 
 
+@lru_cache(maxsize=4096)  # that of a node is asked for time and again
 def full_name(namespace: str, name: str) -> str:
     """Return the full name of a node in an absolute namespace."""
     return f"{namespace.rstrip('/')}/{name}"

@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from orchestra.resolve.model import FileParameters, ResolvedRemap
     from orchestra.resolve.resolution import Resolution
 
-_SETTING: Final = ("-p", "--param", "--params-file", "-r", "--remap")
+_SETTING: Final = frozenset({"-p", "--param", "--params-file", "-r", "--remap"})
 
 
 def texts(
@@ -35,7 +35,8 @@ def texts(
     words = split(argv, run.context)
     if isinstance(words, Poison):
         return POISON
-    if for_ros is not None and any(word.text == "--log-level" for word in words):
+    said = [word.text for word in words]
+    if for_ros is not None and "--log-level" in said:
         # Here, because few nodes have one.
         from orchestra.resolve.log_levels import check_levels  # noqa: PLC0415
 
@@ -46,16 +47,16 @@ def texts(
         check_rules(words, run.problems, for_ros=for_ros)
     if for_ros is not None:
         look_at_paths(words, run, for_ros=for_ros)
-    if given is not None and any(word.text in _SETTING for word in words):
+    if given is not None and not _SETTING.isdisjoint(said):
         from orchestra.resolve.parameter_arguments import settings_among  # noqa: PLC0415 - as above
 
         given += settings_among(words, run, for_ros=for_ros is True)
-    return tuple(word.text for word in words) or (() if isinstance(argv, tuple) else ("",))
+    return tuple(said) or (() if isinstance(argv, tuple) else ("",))
 
 
 def look_at_paths(words: Sequence[Value], run: Resolution, *, for_ros: bool | None = None) -> None:
     """Report files among words that are not there, as far as that can be told."""
-    if any("/" in word.text and "." in word.text for word in words):
+    if any(["/" in word.text and "." in word.text for word in words]):  # noqa: C419 - quicker for few
         from orchestra.resolve.argument_files import check_files  # noqa: PLC0415 - few words are paths
 
         check_files(words, run, for_ros=for_ros)

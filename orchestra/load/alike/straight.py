@@ -7,7 +7,7 @@ to the ordinary way, which gives the same.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Container, Mapping
+from collections.abc import Callable, Collection, Container, Mapping
 from enum import Enum, auto
 from functools import cache, partial
 from types import NoneType, UnionType
@@ -58,6 +58,9 @@ class Series:
 _Read: TypeAlias = Callable[[Any, Places, "Reader"], Any]
 
 
+_MOST_KEPT: Final = 2_000
+
+
 class Kind(Enum):
     """What stands behind a key, as far as it is told by the model what is in it."""
 
@@ -91,7 +94,7 @@ class Model:
     texts: Mapping[str, str]
     required: frozenset[str]
     parts: frozenset[str]
-    fit: set[tuple[str, ...]]
+    fit: set[Collection[str]]
 
     def way(self, key: str, beside: Container[str]) -> Way:
         """Return how a key is read, which may be spelled with `-`; `beside` are the fields that are written before.
@@ -111,11 +114,20 @@ class Model:
         entity = matched_entity(self.model, self.unwritten | values, places, head)
         together = tuple(values)
         if together not in self.fit:
-            if not self.required <= set(together) or entity.conflict() is not None:
-                raise UnlikeError
-            if self.parts.isdisjoint(together):
-                self.fit.add(together)
+            self._check(entity, together)
         return entity
+
+    def _check(self, entity: Entity, together: tuple[str, ...]) -> None:
+        """Refuse an entity that lacks a field, or has some that cannot stand together, in whatever order."""
+        unordered = frozenset(together)
+        if unordered not in self.fit:
+            if not self.required <= unordered or entity.conflict() is not None:
+                raise UnlikeError
+            if not self.parts.isdisjoint(together):
+                return
+            self.fit.add(unordered)
+        if len(self.fit) < _MOST_KEPT:
+            self.fit.add(together)
 
 
 def action_model(name: str) -> Model:

@@ -92,7 +92,7 @@ class _Entities(Scan):
             if model is None:
                 found.append(read_action(self.opened(line, None), self.places, self.reader))
             else:
-                found.append(self.in_braces(line, None, model))
+                found.append(self.in_braces(line, self.line - 1 << GROUPS | OPEN, model))
         return tuple(found)
 
     def action(self, column: int, depth: int) -> Action:
@@ -191,7 +191,7 @@ class _Entities(Scan):
             return self.in_braces(line, head, how(way.model))
         return way.read(self.opened(line, head), self.places, self.reader)
 
-    def in_braces(self, line: re.Match[str], head: int | None, model: Model) -> Any:  # noqa: ANN401 - an entity
+    def in_braces(self, line: re.Match[str], head: int, model: Model) -> Any:  # noqa: ANN401 - an entity
         """Return the entity that stands in braces behind a key, or behind a dash, up to the end of the line."""
         begin = line.start(OPEN)
         if self.text[begin] != "{":
@@ -199,19 +199,21 @@ class _Entities(Scan):
         self.words.append("{")
         values, at = self.values(begin + 1, model)
         self.end_line(line, at)
-        return model.made(values, self.places, self.places.add((begin, begin + 1)) if head is None else head)
+        return model.made(values, self.places, head)
 
     def values(self, at: int, model: Model) -> tuple[dict[str, Any], int]:
         """Return the values of the fields that stand in braces, and the offset behind it."""
         values: dict[str, Any] = {}
         text, end, places, reader, words = self.text, self.end, self.places, self.reader, self.words
+        told = places.told
         while True:
             found = PAIR.match(text, at, end)
             if found is None:
                 raise UnlikeError
             key, opening, _, single, plain, following = found.groups()
             words.append(key)
-            at, number = found.end(), places.add(found)
+            told.append(found)
+            at, number = found.end(), len(told) - 1 << GROUPS
             name = model.texts.get(key)
             if plain is not None and name is not None and name not in values:
                 values[name] = template(plain, places, number | PLAIN_IN_PAIR, False, reader)

@@ -51,10 +51,8 @@ def items(whole: Source) -> list[Item] | None:
     head = _HEAD.match(text)
     if head is None:
         return None
-    begins = [
-        found.start() for found in re.finditer(rf"^ {{{len(head[1])}}}- ", text[head.end() :], re.MULTILINE)
-    ]
-    begins = [head.end() + begin for begin in begins]
+    begin, following = head.end(), re.compile(rf"\n {{{len(head[1])}}}- ")
+    begins = [begin, *(found.start() + 1 for found in following.finditer(text, begin))]
     ends = [begin + len(head[1]) for begin in begins[1:]]
     found = []
     for begin, end in zip(begins, [*ends, len(text)], strict=True):

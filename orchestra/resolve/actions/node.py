@@ -52,8 +52,13 @@ def check_full_name(index: int, action: Node, run: Resolution) -> None:
 
 def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison | None = False) -> int:
     """Add the process of a node to what has been found; return its index."""
-    with run.scope.tracing() as reads:
-        package, executable = run.evaluate(action.pkg), run.evaluate(_started(action))
+    started = _started(action)
+    if started.constant is not None and (action.pkg is None or action.pkg.constant is not None):
+        reads: Sequence[Read] = ()
+        package, executable = run.evaluate(action.pkg), run.evaluate(started)
+    else:
+        with run.scope.tracing() as reads:
+            package, executable = run.evaluate(action.pkg), run.evaluate(started)
     label = run.text(action.exec_name)
     words = _words(package, executable, action, run)
     name, namespace = named(action.name, run), namespace_at(action.namespace, action, run)
@@ -69,7 +74,7 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
     values = (package, executable, label, words, name, namespace, arguments, ros_arguments, autostart, schema)
     program = new_program(
         kind=kind,
-        executable=executable.text if isinstance(executable, Value) else _started(action).raw,
+        executable=executable.text if isinstance(executable, Value) else started.raw,
         words=() if isinstance(words, Poison) else words,
         package=package.text if isinstance(package, Value) else None,
         name=name if isinstance(name, Value) else None,
