@@ -24,7 +24,7 @@ _BRANCHES = ("allOf", "anyOf", "oneOf")
 _SINGLE = ("if", "then", "else")
 
 
-@dataclass(frozen=True, slots=True)
+@dataclass(frozen=True, slots=True, eq=False)
 class Level:
     """All that may be said of one object: schemas that apply to it, together or by choice.
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Mapping
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.dataclass import dataclass
@@ -73,7 +74,8 @@ def unlike(found: Structured, told: set[str]) -> Iterator[Fault]:
             yield wrong_type(exact, name, value, certain=certain and taken is False)
 
 
-def known_names(root: Level) -> list[str]:
+@lru_cache(maxsize=16)  # a thousand nodes have the same schema
+def known_names(root: Level) -> tuple[str, ...]:
     """Return the dotted names of all parameters that a schema names; of one that holds itself, the outer ones."""
     names: list[str] = []
     waiting = deque([("", root)])
@@ -87,14 +89,14 @@ def known_names(root: Level) -> list[str]:
                 waiting.append((f"{above}{name}.", inner))
             else:
                 names.append(f"{above}{name}")
-    return names
+    return tuple(names)
 
 
 def undeclared(name: str, found: Structured, *, certain: bool) -> Fault:
     """Return that a name is declared nowhere, with the one that is meant."""
     place_of_it = found.places.get(name)
     beside = () if place_of_it is None else place_of_it.beside
-    fault = misnamed(name, list(dict.fromkeys([*known_names(found.root), *beside])))
+    fault = misnamed(name, dict.fromkeys([*known_names(found.root), *beside]))
     return Fault("undeclared", fault.name, fault.told, fault.meant, None, certain)
 
 
@@ -103,12 +105,15 @@ def unsaid(found: Structured, told: set[str]) -> Iterator[Fault]:
     if found.root.open:
         return
     for name in found.values:
-        if not found.places[name].known and not any(_is_within(name, other) for other in told):
+        if not found.places[name].known and told.isdisjoint(_groups(name)):
             yield undeclared(name, found, certain=False)
 
 
-def _is_within(name: str, group: str) -> bool:
-    return name == group or name.startswith(f"{group}.")
+def _groups(name: str) -> Iterator[str]:
+    """Yield a name and those of the groups that it is within."""
+    while name:
+        yield name
+        name = name.rpartition(".")[0]
 
 
 def faults_with(
@@ -144,7 +149,7 @@ def _every(
 def _settled(faults: Iterable[Fault]) -> Iterator[Fault]:
     """Yield faults without those that follow: what is said to be missing stands there under another name."""
     every = list(faults)
-    meant = [fault.meant for fault in every if fault.kind == "undeclared" and fault.meant is not None]
+    meant = {fault.meant for fault in every if fault.kind == "undeclared"}
     for fault in every:
-        if fault.kind != "missing" or not any(_is_within(fault.name, name) for name in meant):
+        if fault.kind != "missing" or meant.isdisjoint(_groups(fault.name)):
             yield fault

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import re
+from functools import lru_cache
 from typing import Final
 
 from orchestra.patterns import pattern
@@ -11,6 +11,7 @@ _SIDE: Final = r"""(\$\((?:[^()]|\([^()]*\))*\)|'[^'$() ]*'|"[^"$() ]*"|[\w./-]+
 _NEGATED: Final = pattern(rf"(?:not\s+|!\s*){_SIDE}")
 _COMPARED: Final = pattern(rf"{_SIDE}\s*(==?|!=|&&|\|\||\band\b|\bor\b)\s*{_SIDE}")
 _NAME: Final = pattern(r"[A-Za-z_]\w*")
+_GIVEN: Final = pattern(r"""\bname["']?\s*[:=]\s*["']?(?=(\w+))""")
 _SUBSTITUTIONS: Final = {
     "=": "equals",
     "==": "equals",
@@ -43,4 +44,10 @@ def _side(text: str, source: str) -> str:
 
 
 def _is_named(name: str, source: str) -> bool:
-    return re.search(rf"""\bname["']?\s*[:=]\s*["']?{name}\b""", source) is not None
+    return name in _named(source)
+
+
+@lru_cache(maxsize=2)  # a file may have an expression in each of a thousand nodes
+def _named(source: str) -> frozenset[str]:
+    """Return the words that stand behind a key `name`."""
+    return frozenset(found[1] for found in _GIVEN.finditer(source))

@@ -9,13 +9,14 @@ from orchestra.location import Location
 from orchestra.resolve.model import InlineParameter
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from orchestra.plan.model import Component, Process
     from orchestra.resolve.model import Resolved, ResolvedComponent, ResolvedProcess
     from orchestra.resolve.rcl.sections import Section
 
     Keys = tuple[tuple[str, Location], ...]
+    _Index = dict[tuple[str, Location], "Written"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,48 +60,71 @@ class Written:
         return Key(self.value, notes=() if meant is None else (f"did you mean '{meant}'?",))
 
 
-def written_of(
-    name: str, node: ResolvedProcess | ResolvedComponent, planned: Process | Component, resolved: Resolved
-) -> Written:
-    """Return where the value of a parameter that counts is written; of a group, one that is in it."""
-    candidates = planned.provenance.parameters
-    full = (
-        name
-        if name in candidates
-        else next((item for item in candidates if item.startswith(f"{name}.")), name)
-    )
-    won = next((item for item in candidates.get(full, ()) if item.won), None)
-    if won is None:
-        return Written()
-    return next(_places(full, won.location, node, resolved), Written(won.location))
+class Places:
+    """The places of all parameters; what is said by a file, or for a node, is gone through once."""
+
+    def __init__(self, resolved: Resolved) -> None:
+        self._given: _Index = {}
+        self._files: dict[int, tuple[object, _Index]] = {}
+        self._node: object = None
+        self._indexes: list[_Index] = []
+        for given in resolved.given:
+            _add(self._given, given.sections)
+
+    def of(
+        self, name: str, node: ResolvedProcess | ResolvedComponent, planned: Process | Component
+    ) -> Written:
+        """Return where the value of a parameter that counts is written; of a group, one that is in it."""
+        candidates = planned.provenance.parameters
+        full = (
+            name
+            if name in candidates
+            else next((item for item in candidates if item.startswith(f"{name}.")), name)
+        )
+        won = next((item for item in candidates.get(full, ()) if item.won), None)
+        if won is None:
+            return Written()
+        if node is not self._node:
+            self._node, self._indexes = node, [*self._of_node(node), self._given]
+        key = (full, won.location)
+        return next((index[key] for index in self._indexes if key in index), Written(won.location))
+
+    def _of_node(self, node: ResolvedProcess | ResolvedComponent) -> Iterator[_Index]:
+        """Yield what sets parameters of a node, in order."""
+        index: _Index = {}
+        for source in (*getattr(node, "parameter_arguments", ()), *node.parameters):
+            if isinstance(source, InlineParameter):
+                key = (source.name, source.location)
+                index.setdefault(key, Written(source.location, source.items, source.keys))
+                continue
+            yield index
+            index = {}
+            if id(source.sections) not in self._files:  # other nodes have the same ones
+                _add(index, source.sections)
+                self._files[id(source.sections)] = source.sections, index
+            yield self._files[id(source.sections)][1]
+            index = {}
+            for entry in source.plain:
+                written = Written(entry.location, entry.items, ((entry.name, entry.key),))
+                index.setdefault((entry.name, entry.location), written)
+        yield index
 
 
-def _places(
-    name: str, value: Location, node: ResolvedProcess | ResolvedComponent, resolved: Resolved
-) -> Iterator[Written]:
-    """Yield the places of everything that sets this name at this place."""
-    for source in (*getattr(node, "parameter_arguments", ()), *node.parameters):
-        if isinstance(source, InlineParameter):
-            if source.name == name and source.location == value:
-                yield Written(value, source.items, source.keys)
-            continue
-        for section in source.sections:
-            yield from _in_section(name, value, section)
-        for entry in source.plain:
-            if entry.name == name and entry.location == value:
-                yield Written(value, entry.items, ((name, entry.key),))
-    for given in resolved.given:
-        for section in given.sections:
-            yield from _in_section(name, value, section)
+def _add(index: _Index, sections: Sequence[Section]) -> None:
+    for section in sections:
+        groups: dict[str, Location] = {}
+        for entry in section.entries:
+            if entry.opens:
+                groups[entry.name] = entry.key
+                continue
+            above = [(name, groups[name]) for name in _groups(entry.name) if name in groups]
+            written = Written(entry.location, entry.items, (*above, (entry.name, entry.key)))
+            index.setdefault((entry.name, entry.location), written)
 
 
-def _in_section(name: str, value: Location, section: Section) -> Iterator[Written]:
-    groups: dict[str, Location] = {}
-    for entry in section.entries:
-        if entry.opens:
-            groups[entry.name] = entry.key
-        elif entry.name == name and entry.location == value:
-            above = [item for item in groups.items() if name.startswith(f"{item[0]}.")]
-            yield Written(
-                value, entry.items, (*sorted(above, key=lambda item: len(item[0])), (name, entry.key))
-            )
+def _groups(name: str) -> Iterator[str]:
+    """Yield the groups that a name is in, the outermost first."""
+    at = name.find(".")
+    while at >= 0:
+        yield name[:at]
+        at = name.find(".", at + 1)

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 from orchestra.dataclass import dataclass, maker
 from orchestra.description.running import ON_EXIT
 from orchestra.errors import Code
+from orchestra.resolve.bounded import with_change
 from orchestra.resolve.context import POISON, Poison, Read, Value
 from orchestra.resolve.dependencies import dependencies
 from orchestra.resolve.environment_names import is_faulty_name
@@ -282,5 +283,5 @@ def _environment(action: Running, run: Resolution) -> dict[str, tuple[Environmen
         if not isinstance(name, str) or not isinstance(value, Value) or is_faulty_name(name, pair.name, run):
             return POISON
         change = EnvironmentChange(value.text, run.place(pair.value), value.through)
-        changes[name] = (*changes.get(name, ()), change)
+        changes[name] = with_change(changes.get(name, ()), change)
     return changes

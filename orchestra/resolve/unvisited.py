@@ -39,13 +39,13 @@ from orchestra.resolve.refusals import missing_package
 from orchestra.resolve.rehearsal import rehearsed
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Collection, Mapping, Sequence
 
     from orchestra.description.entity import Entity
     from orchestra.description.launch import Description
     from orchestra.description.text import Template
     from orchestra.location import Location
-    from orchestra.resolve.context import Read, Variable
+    from orchestra.resolve.context import Variable
     from orchestra.resolve.resolution import Resolution
 
 # A condition that asks whether a file is there.
@@ -245,16 +245,21 @@ def _independent(
     }
 
 
-def _behind(variable: Variable | None) -> Iterator[str]:
-    """Yield the variables that one was made of."""
+def _behind(variable: Variable | None) -> Collection[str]:
+    """Return the variables that one was made of."""
     value = None if variable is None else variable.value
-    yield from _names_of(value.through if isinstance(value, Value) else ())
-
-
-def _names_of(reads: Sequence[Read]) -> Iterator[str]:
-    for read in reads:
-        yield read.name
-        yield from _names_of(read.through)
+    waiting = list(value.through) if isinstance(value, Value) else ()
+    if not waiting:
+        return ()
+    seen: set[int] = set()
+    names: set[str] = set()
+    while waiting:
+        read = waiting.pop()
+        if id(read) not in seen:
+            seen.add(id(read))
+            names.add(read.name)
+            waiting += read.through
+    return names
 
 
 def _opened(path: str, run: Resolution) -> Description | None:

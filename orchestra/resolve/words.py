@@ -141,7 +141,8 @@ def _report(told: str, span: Span, context: Context) -> None:
         for known in problems
         if known.code is Code.SURPRISING_SCALAR and known.span is not None and is_within(span, known.span)
     ]
-    problems.amend(lambda known: None if known in warned else known)
+    if warned:
+        problems.amend(lambda known: None if known in warned else known)
     place, instead = (warned[0].span or span, warned[0].suggestion) if warned else (span, None)
     problems.error(Code.SUBSTITUTION_SYNTAX, told, context.at(place), suggestion=instead)
 

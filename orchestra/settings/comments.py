@@ -15,7 +15,7 @@ from orchestra.location import Span
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
 MARK: Final = "orchestra:"
 _ASKED: Final = pattern(r"(?:#+|<!--)\s*orchestra:\s*ignore\b(?:\s*\[([^\]\n]*)\])?")
@@ -129,7 +129,16 @@ def _yaml(text: str, lines: _Lines) -> _Found:
     except yaml.YAMLError:
         pass  # what is behind the fault silences nothing
     offsets = [found.start() for found in re.finditer(r"(?<![^\s])#", text)]
-    return [at for at in offsets if not any(begin <= at < end for begin, end in scalars)], []
+    return [at for at in offsets if not _is_within(at, scalars)], []
+
+
+def _is_within(at: int, ranges: Sequence[tuple[int, int]]) -> bool:
+    """Return whether an offset is in one of some ranges, which stand one after the other."""
+    # Here, because hardly any file has such comments.
+    from bisect import bisect_right  # noqa: PLC0415
+
+    index = bisect_right(ranges, at, key=lambda found: found[0])
+    return index > 0 and at < ranges[index - 1][1]
 
 
 def _xml(text: str, lines: _Lines) -> _Found:

@@ -45,7 +45,7 @@ class _Weighing:
     severity: Mapping[str, str]
     asked: Settings | None = None
     used: set[tuple[str, int]] = field(default_factory=set)
-    _comments: dict[str, tuple[Ignore, ...]] = field(default_factory=dict)
+    _comments: dict[str, dict[int, list[Ignore]]] = field(default_factory=dict)
 
     def weighed(self, problem: Problem) -> Problem | None:
         """Return the problem as it counts, None where it does not."""
@@ -87,14 +87,24 @@ class _Weighing:
         if span is None:
             return None
         if span.file not in self._comments:
-            self._comments[span.file] = comments_in(self.absolute(span.file), span.file)
+            self._comments[span.file] = _by_line(comments_in(self.absolute(span.file), span.file))
+        comments = self._comments[span.file]
         last = span.end_line - (span.end_column == 1 and span.end_line > span.line)
         meant = (
             comment
-            for comment in self._comments[span.file]
-            if comment.means(problem.code, span.line) or comment.means(problem.code, last)
+            for line in (span.line, last)
+            for comment in comments.get(line, ())
+            if comment.means(problem.code, line)
         )
-        return next(meant, None)
+        return min(meant, key=lambda comment: (comment.span.line, comment.span.column), default=None)
+
+
+def _by_line(comments: tuple[Ignore, ...]) -> dict[int, list[Ignore]]:
+    found: dict[int, list[Ignore]] = {}
+    for comment in comments:
+        for line in comment.lines:
+            found.setdefault(line, []).append(comment)
+    return found
 
 
 def comments_in(path: str, file: str) -> tuple[Ignore, ...]:

@@ -5,11 +5,11 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.declared.beside import schema_of_package
-from orchestra.declared.common import COMMON, common_meant
+from orchestra.declared.common import COMMON, KNOWN, common_meant
 from orchestra.errors import Code, Problem, Problems, Severity
 from orchestra.fields import replace
 from orchestra.location import is_python
-from orchestra.plan.written import Written, written_of
+from orchestra.plan.written import Places, Written
 from orchestra.resolve.command_line import COMMAND_LINE
 from orchestra.resolve.model import FileParameters, NamedSchema, ResolvedComponent
 from orchestra.resolve.refusals import forget_surprise
@@ -33,17 +33,25 @@ _CODES: dict[FaultKind, Code] = {
 
 def check_declared(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Report parameters that their nodes would refuse, or drop without a word."""
-    schemas = _Schemas(problems)
+    schemas, places = _Schemas(problems), Places(resolved)
+    surprises = {problem.span for problem in problems if problem.code is Code.SURPRISING_SCALAR}
+    broken = {_line(item) for item in problems if item.severity is Severity.ERROR and item.span is not None}
     for node, planned in nodes_of(resolved, plan):
         schema, named = schemas.of(node)
         faults = _of_every_node(planned.parameters) if schema is None else schema.faults(planned.parameters)
         for fault in faults:
             if fault.kind != "missing" or _is_whole(node):
-                written = written_of(fault.name, node, planned, resolved)
+                written = places.of(fault.name, node, planned)
                 problem = _problem(fault, written, node, named=named)
-                if problem.span is not None:
+                if fault.kind == "value" and _line(problem) in broken:
+                    continue  # what is left of a value that could not be read
+                if problem.span is not None and problem.span in surprises:
                     forget_surprise(problem.span, problems)
                 problems.report(problem)
+
+
+def _line(problem: Problem) -> tuple[str, int]:
+    return ("", 0) if problem.span is None else (problem.span.file, problem.span.line)
 
 
 def nodes_of(
@@ -67,14 +75,13 @@ class _Schemas:
         """Return the schema of a node, and whether its description names it."""
         if node.params_schema is not None:
             return self._named(node.params_schema), True
-        if node.share is None:
-            return None, False
         called = node.plugin if isinstance(node, ResolvedComponent) else node.executable
-        if (node.share, called) not in self._read:
-            path = schema_of_package(node.share, called)
+        if (node.share, node.package, called) not in self._read:
+            path = None if node.share is None else schema_of_package(node.share, called)
             named = None if path is None else NamedSchema(path, node.location, path)
-            self._read[node.share, called] = None if named is None else self._named(named)
-        return self._read[node.share, called], False
+            found = _known(node.package, called) if named is None else self._named(named)
+            self._read[node.share, node.package, called] = found
+        return self._read[node.share, node.package, called], False
 
     def _named(self, named: NamedSchema) -> ParameterSchema | None:
         # Here, because few nodes have a schema, and for what it imports.
@@ -84,6 +91,14 @@ class _Schemas:
         if key not in self._read:
             self._read[key] = read_named(named, self._problems)
         return self._read[key]
+
+
+def _known(package: str | None, called: str) -> ParameterSchema | None:
+    if package not in KNOWN:
+        return None
+    from orchestra.declared.known import known_schema  # noqa: PLC0415 - few nodes are so well known
+
+    return known_schema(package, called)
 
 
 def _of_every_node(values: dict[str, ParameterValue]) -> Iterable[Fault]:
