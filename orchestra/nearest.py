@@ -180,6 +180,8 @@ def _bounds(folded: str, word: str, candidates: Iterable[str]) -> list[tuple[flo
 
 def _likeness(word: str, candidate: str) -> float:
     """Return how much alike two words are; between short ones a single slip counts, and nothing that is less alike."""
+    if "_" in word and sorted(word.split("_")) == sorted(candidate.split("_")):
+        return _LIKENESS_OF_A_SWAP  # `scale_linear` of `linear_scale`
     short = min(len(word), len(candidate)) <= _LETTERS_OF_A_SHORT_WORD
     if len(word) == len(candidate) and _is_swapped(word, candidate):
         return _LIKENESS_OF_A_SHORT_SWAP if short else max(_LIKENESS_OF_A_SWAP, 1 - 1 / len(word))

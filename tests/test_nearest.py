@@ -22,6 +22,7 @@ if TYPE_CHECKING:
         ("World", ["world", "word"], "world"),
         ("same", ["same", "sane"], "sane"),
         ("colour", ["name", "value"], None),
+        ("scale_linear", ["scale_angular", "linear_scale"], "linear_scale"),
         ("", ["a"], None),
         ("a", [], None),
     ],
@@ -81,8 +82,13 @@ def test_what_is_looked_for_in_one_file_has_an_end(monkeypatch: pytest.MonkeyPat
     """Of each of a thousand words the like was looked for among a thousand others."""
     compared: list[tuple[str, str]] = []
     ratio = orchestra.nearest._ratio
+
+    def counted(word: str, other: str) -> float:
+        compared.append((word, other))
+        return ratio(word, other)
+
     monkeypatch.setattr(orchestra.nearest, "_STEPS", 20_000)
-    monkeypatch.setattr(orchestra.nearest, "_ratio", lambda *pair: compared.append(pair) or ratio(*pair))
+    monkeypatch.setattr(orchestra.nearest, "_ratio", counted)
     renew()
     known = [f"argument_{number}" for number in range(100)]
     found = [nearest(word, known) for word in _misspelt(100)]
@@ -115,7 +121,12 @@ def test_words_far_from_a_near_one_are_not_compared(monkeypatch: pytest.MonkeyPa
     """What cannot be nearer than one that is known is not looked at letter by letter."""
     compared: list[tuple[str, str]] = []
     ratio = orchestra.nearest._ratio
-    monkeypatch.setattr(orchestra.nearest, "_ratio", lambda *pair: compared.append(pair) or ratio(*pair))
+
+    def counted(word: str, other: str) -> float:
+        compared.append((word, other))
+        return ratio(word, other)
+
+    monkeypatch.setattr(orchestra.nearest, "_ratio", counted)
     renew()
     assert nearest(
         "velocity_contorller", [f"velocity_smoother_{n}" for n in range(60)] + ["velocity_controller"]

@@ -6,12 +6,12 @@ import inspect
 import re
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat.explanation import in_their_words
+from orchestra.compat.explanation import in_their_words, told
 from orchestra.compat.given import path_of, value_at, without
 from orchestra.compat.keywords import keyword_meant, parameters_of, shown
 from orchestra.compat.literals import argument, call_at, keyword_span
 from orchestra.compat.reported import ReportedError
-from orchestra.compat.rewritten import Rewritten, all_listed, named, rewritten
+from orchestra.compat.rewritten import Rewritten, all_listed, all_named, in_two, named, rewritten
 from orchestra.compat.syntax_trees import called_by
 from orchestra.compat.wrong import WrongValue
 from orchestra.errors import Code, Problem, Severity
@@ -35,6 +35,9 @@ _WORDS: Final = ("cwd", "name", "namespace", "output")  # a truth value is none 
 _NO_TEXTS: Final = ("condition", "launch_arguments")
 # What takes one list and hardly anything else without its name.
 _TAKE_A_LIST: Final = ("Command", "GroupAction", "LaunchDescription", "PathJoinSubstitution")
+_TWO: Final = 2
+# What people give first, in the order of `ros2 run`.
+_USUAL: Final = {name: ["package", "executable"] for name in ("LifecycleNode", "Node")}
 _Parameter = inspect.Parameter
 
 
@@ -99,6 +102,15 @@ class FaultyCall:
         note = f"it is written {name}({shown(self.parameters)})"
         at = self._at((f"*{index}",))
         meant = self._named(index, at)
+        if meant is None and len(self.given) - len(self.named) == _TWO and index == 0:
+            usual = _USUAL.get(name) or [item for item in self.parameters if item not in self.named][:_TWO]
+            at, meant = all_named(self.places[0], index, usual)
+            if meant is not None:
+                self.named |= dict(zip(usual, self.given, strict=False))
+                self.original |= self.named
+                self.surplus = None
+                self._tell(Code.WRONG_TYPE, message, at, meant, (note,))
+                return True
         self._tell(Code.WRONG_TYPE, message, at, meant, (note,))
         self.surplus, self.is_shortened = None, meant is None
         self.is_lost = meant is None and (
@@ -153,11 +165,22 @@ class FaultyCall:
         return True
 
     def _missing(self, names: list[str]) -> bool:
-        if not self.found:
+        if not self.found and not self._are_one():
             message = f"{self.name} needs {' and '.join(names)}"
             self._tell(Code.MISSING_KEY, message, self.places[-1].span)
         self.is_lost = True
         return True
+
+    def _are_one(self) -> bool:
+        """Tell of a name and its value that are given as one argument."""
+        if len(self.given) != 1 or not self.named:
+            return False
+        at = self._at((next(iter(self.named)),))
+        meant = in_two(self.places[0].file, at, self.given[0])
+        if meant is not None:
+            message = f"{self.name} takes a name and its value apart, this is {told(self.given[0])}"
+            self._tell(Code.WRONG_TYPE, message, at, meant)
+        return meant is not None
 
     def _wrong(self, error: Exception) -> bool:
         path = path_of(error, self.original, self.told)

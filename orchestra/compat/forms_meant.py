@@ -15,8 +15,12 @@ from orchestra.compat.forms_of_entities import (
     event,
     handed_over,
     is_declaration,
+    matching,
     misplaced,
+    named_file,
     one,
+    signalled,
+    transition,
     uncalled,
 )
 from orchestra.compat.forms_of_sets import as_list, as_pair, with_colon
@@ -246,6 +250,10 @@ _FORMS: Final[dict[str, _Form]] = {
     "an action is expected here": misplaced,
     "a list of actions is expected": actions,
     "is a function of the event": answering,
+    "is a predicate on actions": matching,
+    "is one of signal.Signals": signalled,
+    "is no transition of a lifecycle node": transition,
+    "parameters are dictionaries and files, this is a pair": named_file,
     "is not called": uncalled,
     "of an OpaqueFunction cannot be called": handed_over,
     "of None has no action": _nothing,

@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import re
+from signal import Signals
 from typing import Any, Final
 
 _CALLED: Final = re.compile(r"([\w.]+)\(.*\)")
+_TWO: Final = 2
+_TRANSITIONS: Final = ("ACTIVATE", "CLEANUP", "CONFIGURE", "CREATE", "DEACTIVATE", "DESTROY")
 
 # What takes objects that are no actions, by the names of their classes.
 _TAKING: Final = {
@@ -60,6 +63,34 @@ def misplaced(source: str, value: Any) -> str | None:
 def answering(source: str, value: Any) -> str | None:
     """Return a function of an event that returns what stands in place of one."""
     return f"lambda event: {source}" if actions(source, value) or isinstance(value, list | tuple) else None
+
+
+def matching(source: str, value: Any) -> str | None:
+    """Return the predicate that holds for an action."""
+    return f"matches_action({source})" if actions(source, value) else None
+
+
+def signalled(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the others
+    """Return the signal that is called by its number, or without its first letters."""
+    if isinstance(value, int):
+        return f"signal.{Signals(value).name}" if value in set(Signals) else None
+    name = f"SIG{str(value).upper().removeprefix('SIG')}"
+    return repr(name) if name in Signals.__members__ else None
+
+
+def transition(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the others
+    """Return the constant of a transition that is called by its name."""
+    if not isinstance(value, str):
+        return None
+    name = value.upper().removeprefix("TRANSITION_")
+    return f"lifecycle_msgs.msg.Transition.TRANSITION_{name}" if name in _TRANSITIONS else None
+
+
+def named_file(source: str, value: Any) -> str | None:
+    """Return the dictionary of a parameter that is written as a pair."""
+    is_pair = isinstance(value, tuple) and len(value) == _TWO and isinstance(value[0], str)
+    is_literal = source[:1] + source[-1:] == "()"
+    return f"{{{value[0]!r}: {value[1]!r}}}" if is_pair and is_literal else None
 
 
 def uncalled(source: str, value: Any) -> str | None:

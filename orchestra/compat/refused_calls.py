@@ -12,7 +12,7 @@ from orchestra.compat.keywords import keyword_meant, parameters_of, shown
 from orchestra.compat.literals import argument, call_at, keyword_span
 from orchestra.compat.names_in_frames import value_of
 from orchestra.compat.rewritten import Rewritten
-from orchestra.compat.syntax_trees import called_by, tree_of
+from orchestra.compat.syntax_trees import tree_of
 from orchestra.errors import Code
 
 if TYPE_CHECKING:
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 _UNEXPECTED: Final = re.compile(r"(\w+)\(\) got an unexpected keyword argument '(\w+)'")
 _TWICE: Final = re.compile(r"got multiple values for (?:keyword )?argument '(\w+)'")
+_CALLING: Final = ("function", "on_")  # arguments that functions are handed over to
 _NAME: Final = re.compile(r"'\w+'")
 _Parameter = inspect.Parameter
 
@@ -72,14 +73,14 @@ def _unknown(name: str, key: str, parameters: dict[str, Any], place: Place) -> E
 
 
 def _handed_over(place: Place) -> Rewritten | None:
-    """Return the function alone where it is called in place of being handed over to an OpaqueFunction."""
+    """Return the function alone where it is called in place of being handed over to what calls it."""
     tree, call = tree_of(place.file), call_at(place)
     if tree is None or call is None:
         return None
     for node in tree.nodes:
         match node:
-            case ast.Call(keywords=words) if called_by(node) == "OpaqueFunction":
-                if any(word.arg == "function" and word.value is call for word in words):
+            case ast.Call(keywords=words):
+                if any((word.arg or "").startswith(_CALLING) and word.value is call for word in words):
                     return Rewritten(ast.unparse(call.func))
     return None
 

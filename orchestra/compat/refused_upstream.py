@@ -88,5 +88,11 @@ def tell_no_function(name: str, value: Any, place: Place) -> None:
     _tell(told_so, value, place, name)
 
 
+def tell_no_predicate(name: str, value: Any, place: Place) -> None:
+    """Warn of an action where ROS 2 calls a predicate on actions."""
+    told_so = f"{name} is a predicate on actions, this is {told(value)}: ROS 2 fails to call it"
+    _tell(told_so, value, place, name)
+
+
 def _tell(message: str, value: Any, place: Place, name: str) -> None:
     remark_of_value(message, value, place, name)

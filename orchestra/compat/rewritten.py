@@ -11,6 +11,8 @@ from orchestra.compat.syntax_trees import called_by, node_span, tree_of
 from orchestra.fields import replace
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from orchestra.compat.place import Place
     from orchestra.location import Span
 
@@ -80,6 +82,37 @@ def named(file: str, span: Span, name: str) -> Rewritten | None:
     """Return an argument with the name that it lacks."""
     source = _short(file, span)
     return None if source is None else Rewritten(f"{name}={source}")
+
+
+def in_two(file: str, span: Span, value: Any) -> Rewritten | None:
+    """Return a name and its value as two arguments that are given in one: a dictionary, a pair or a text."""
+    source = _short(file, span) or ""
+    match value:
+        case dict() if len(value) == 1:
+            pair = next(iter(value.items()))
+            return Rewritten(f"{pair[0]!r}, {pair[1]!r}") if source[:1] == "{" else None
+        case (str() as first, second):
+            return Rewritten(f"{first!r}, {second!r}") if source[:1] in ("(", "[") else None
+        case str() if "=" in value and source[1:-1] == value:
+            first, _, second = value.partition("=")
+            return Rewritten(f"{first.rstrip(' :')!r}, {second.lstrip()!r}")
+    return None
+
+
+def all_named(place: Place, first: int, names: Sequence[str]) -> tuple[Span, Rewritten | None]:
+    """Return where the arguments without a name stand from one on, and these with the names that they lack."""
+    # Here, because only mistakes need it.
+    import ast  # noqa: PLC0415
+
+    tree = tree_of(place.file)
+    call = None if tree is None else tree.expression(place.file, place.span)
+    given = call.args[first:] if isinstance(call, ast.Call) else []
+    if not given or len(given) > len(names) or any(isinstance(item, ast.Starred) for item in given):
+        return place.span, None
+    begin, end = (node_span(place.file, given[index], quotes=True) for index in (0, -1))
+    code = ", ".join(f"{name}={ast.unparse(item)}" for name, item in zip(names, given, strict=False))
+    span = replace(begin, end_line=end.end_line, end_column=end.end_column)
+    return span, Rewritten(code) if len(code) <= _MOST else None
 
 
 def all_listed(place: Place) -> tuple[Span, Rewritten | None]:

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 _QUOTED: Final = re.compile(r"'([^']+)'")
+_UNSET: Final = re.compile(r"no launch argument or variable ('\w+') is set here")
 _SLASHES: Final = re.compile("/+")
 _SHORT: Final = 2  # a text of so few letters may mean anything
 _BETWEEN: Final = re.compile(r"[\s()$]+")
@@ -64,7 +65,9 @@ def in_place(problem: Problem) -> Problem:
     if root is not None:
         return replace(problem, span=root[0], suggestion=root[1])
     if meant is None:
-        return replace(problem, span=_narrower(problem, found))
+        undeclared = _UNSET.fullmatch(problem.message) if problem.code is Code.UNDEFINED_VARIABLE else None
+        way = "" if undeclared is None else f"; DeclareLaunchArgument({undeclared[1]}) declares it"
+        return replace(problem, span=_narrower(problem, found), message=problem.message + way)
     is_name = not isinstance(span, Argument)  # else it may stand for what is wrong
     wrong = _wrong(found, meant, problem.message, is_name=is_name) or _elsewhere(
         found, meant, problem.message

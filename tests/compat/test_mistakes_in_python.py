@@ -98,9 +98,10 @@ _CALLS = {
         "[«LifecycleNode(**TALKER)»]", "LifecycleNode needs 'name' and 'namespace'", Code.MISSING_KEY
     ),
     "an argument without a name": Mistake(
-        "[Node(«'demo'», 'talker')]",
+        "[Node(«'demo', 'talker'»)]",
         "Node takes no arguments without a name",
         Code.WRONG_TYPE,
+        suggestion="package='demo', executable='talker'",
         note="it is written Node(executable=..., package=...)",
     ),
     "two arguments instead of a list": Mistake(

@@ -55,6 +55,8 @@ def _entries(
             raise UnusualError
         name = known + key
         if type(value) is dict:
+            if key == "ros__parameters":
+                raise UnusualError
             parts = (*before, new_words(key, span)) if key else before
             inner = ((*parts, new_words(".", span)), f"{written}{escaped(key)}.", f"{name}.")
             own[key] = _entries(value, inner, call, path, made)

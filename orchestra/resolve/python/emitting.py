@@ -11,6 +11,7 @@ from orchestra.compat.launch.events.process.shutdown_process import ShutdownProc
 from orchestra.compat.launch.events.process.signal_process import SignalProcess
 from orchestra.compat.launch.events.shutdown import Shutdown
 from orchestra.compat.launch_ros.events.lifecycle.change_state import ChangeState
+from orchestra.compat.refusing import is_lost
 from orchestra.errors import Code
 from orchestra.resolve.occasions import OpenAction
 from orchestra.resolve.python.calling import user_code
@@ -32,6 +33,8 @@ if TYPE_CHECKING:
 
 def emit(event: Any, location: Location, run: Resolution) -> None:
     """Plan what an event orders. One that only handlers of the description know happens after the visit."""
+    if is_lost(event):  # which is reported
+        return
     match event:
         case Shutdown():
             trigger(ResolvedShutdown(_reason(event, run, location), location), run)

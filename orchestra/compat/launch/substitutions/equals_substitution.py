@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.substitutions.two_sided import TwoSided
 from orchestra.compat.launch.utilities.type_utils import is_substitution
+from orchestra.compat.place import here
+from orchestra.compat.refusing import collector
 
 if TYPE_CHECKING:
     from orchestra.compat.text import Sub
@@ -21,6 +23,10 @@ class EqualsSubstitution(TwoSided):
 
     def __init__(self, left: Any, right: Any) -> None:
         super().__init__(_side(left), _side(right))
+        if type(left) is str and type(right) is str and collector() is not None:
+            from orchestra.compat.constant_sides import tell_constant_sides  # noqa: PLC0415 - few compare two texts
+
+            tell_constant_sides(here(self), type(self).__name__)
 
 
 def _side(value: Any) -> Sub:

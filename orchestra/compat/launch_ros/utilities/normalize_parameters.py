@@ -20,6 +20,7 @@ from orchestra.compat.text import normalized
 from orchestra.compat.wrong import WrongType
 
 _SCALARS = (bool, int, float, str)
+_PAIR = 2
 
 
 def normalize_parameters(parameters: Any) -> tuple[Any, ...]:
@@ -37,6 +38,10 @@ def normalize_parameter_dict(parameters: Any, *, _prefix: Sequence[Substitution]
     for key, value in parameters.items():
         name = (*_prefix, *normalized(key))
         if isinstance(value, Mapping):
+            if key == "ros__parameters":
+                from orchestra.compat.sections import tell_section  # noqa: PLC0415 - only mistakes need it
+
+                tell_section()
             found.update(normalize_parameter_dict(value, _prefix=(*name, *normalized("."))))
         else:
             found[name] = _named_value(name, value)
@@ -53,6 +58,10 @@ def _one(item: Any) -> Any:
         return item
     if isinstance(item, list | tuple) and any(isinstance(part, Mapping) for part in item):
         raise WrongType("parameters are dictionaries and files, this is a list in the list", item)
+    if isinstance(item, tuple) and len(item) == _PAIR and isinstance(item[0], str) and _is_value(item[1]):
+        raise WrongType(
+            "parameters are dictionaries and files, this is a pair: a dictionary has a colon", item
+        )
     if isinstance(item, set) and len(item) > 1:
         raise WrongType(
             "parameters are dictionaries and files, this is a set: a dictionary has a colon", item
@@ -60,6 +69,11 @@ def _one(item: Any) -> Any:
     if not isinstance(item, str | Substitution | os.PathLike | bytes | Iterable):
         raise TypeError(f"parameters are dictionaries and files, not {item!r}")
     return ParameterFile(item)
+
+
+def _is_value(value: Any) -> bool:
+    """Return whether a value is none that a path can be made of."""
+    return isinstance(value, bool | int | float | list)
 
 
 def _named_value(name: Sequence[Substitution], value: Any) -> Any:

@@ -6,6 +6,7 @@ import signal
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.events.process.process_targeted_event import ProcessTargetedEvent
+from orchestra.compat.wrong import WrongType
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -23,9 +24,8 @@ class SignalProcess(ProcessTargetedEvent):
         if isinstance(signal_number, str) and signal_number in signal.Signals.__members__:
             signal_number = signal.Signals[signal_number]
         if not isinstance(signal_number, signal.Signals):
-            raise TypeError(
-                f"signal_number is one of signal.Signals, as signal.SIGINT, not {signal_number!r}"
-            )
+            message = f"signal_number is one of signal.Signals, as signal.SIGINT, not {signal_number!r}"
+            raise WrongType(message, signal_number, path=("signal_number",))
         self.__signal = signal_number
 
     @property

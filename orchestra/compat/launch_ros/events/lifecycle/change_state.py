@@ -6,6 +6,8 @@ from collections import OrderedDict
 from typing import TYPE_CHECKING, Any, ClassVar
 
 from orchestra.compat.launch.event import Event
+from orchestra.compat.launch.events.matchers import checked_matcher
+from orchestra.compat.wrong import WrongNumber
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -57,8 +59,9 @@ class ChangeState(Event):
         super().__init__()
         if transition_id not in self.valid_transitions:
             known = ", ".join(f"{number} ({word})" for number, word in self.valid_transitions.items())
-            raise ValueError(f"{transition_id!r} is no transition of a lifecycle node, only: {known}")
-        self.__lifecycle_node_matcher = lifecycle_node_matcher
+            message = f"{transition_id!r} is no transition of a lifecycle node, only: {known}"
+            raise WrongNumber(message, transition_id, path=("transition_id",))
+        self.__lifecycle_node_matcher = checked_matcher("lifecycle_node_matcher", lifecycle_node_matcher)
         self.__transition_id = transition_id
 
     @property
