@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from typing import TYPE_CHECKING, Any
 
 from orchestra.dataclass import dataclass, maker
@@ -16,8 +15,8 @@ if TYPE_CHECKING:
 
     from orchestra.load.offsets import Source
 
-# Each piece of an attribute's source stands for one character of its value.
-_PIECE = pattern(r"&[^;]*;|\r\n|.", re.DOTALL)
+# What of an attribute's source stands for one character of its value, and is not one itself.
+_PIECE = pattern(r"&[^;]*;|\r\n")
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,8 +47,11 @@ class Attribute:
 
         def spans(first: int, last: int) -> Span:
             if not offsets:
-                offsets.extend(begin + found.start() for found in _PIECE.finditer(source))
-                offsets.append(end)
+                at = begin
+                for found in _PIECE.finditer(source):
+                    offsets.extend(range(at, begin + found.start() + 1))
+                    at = begin + found.end()
+                offsets.extend(range(at, end + 1))
             return whole.span(offsets[first], offsets[last])
 
         return spans

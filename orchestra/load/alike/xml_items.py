@@ -52,7 +52,10 @@ def items(whole: Source) -> list[Item] | None:
 def _closed(text: str, tag: re.Match[str]) -> int | None:
     """Return where an element ends that begins with a tag; None where there may be another of its name in it."""
     end = text.find(f"</{tag[1]}>", tag.end())
-    if end < 0 or re.search(rf"<{tag[1]}[^\w-]", text[tag.end() : end]) is not None:
+    if end < 0:
+        return None
+    inner = text.find(f"<{tag[1]}", tag.end(), end)
+    if inner >= 0 and re.search(rf"<{tag[1]}[^\w-]", text[inner:end]) is not None:
         return None
     return end + len(tag[1]) + len("</>")
 

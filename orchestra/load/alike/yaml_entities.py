@@ -39,6 +39,7 @@ if TYPE_CHECKING:
     from orchestra.load.reader import Reader
 
 _CHILDREN: Final = "children"
+_TEXTS: Final = frozenset({BARE, IN_DOUBLE, IN_SINGLE})
 
 
 def read(whole: Source, begin: int, end: int, reader: Reader) -> tuple[Action, tuple[str, ...]] | None:
@@ -128,23 +129,27 @@ class _Entities(Scan):
         texts, words = model.texts, self.words
         if head is None:
             head = number << GROUPS | NAME
-        _, _, key, _, _, plain, _, _ = lines[number].groups()
+        line = lines[number]
+        key = line[NAME]
         while True:
             if key is None:
                 raise UnlikeError
             words.append(key)
-            name = texts.get(key)
-            if plain is not None and name is not None and name not in values:
-                values[name] = template(plain, places, number << GROUPS | BARE, False, reader)
+            last: Any = line.lastindex
+            name = texts.get(key) if last in _TEXTS else None
+            text = None if name is None or name in values else line[last]
+            if text is not None and (last == BARE or ("\\" not in text and "'" not in text)):
+                values[name] = template(text, places, number << GROUPS | last, last != BARE, reader)  # type: ignore[index] # a text has one
                 number += 1
             else:
                 way = model.way(key, values)
                 self.line = number + 1
-                values[way.name] = self.behind_key(lines[number], way, column, depth)
+                values[way.name] = self.behind_key(line, way, column, depth)
                 number = self.line
             if number == count:
                 break
-            indent, dash, key, _, _, plain, _, _ = lines[number].groups()
+            line = lines[number]
+            indent, dash, key = line.group(INDENT, DASH, NAME)
             if dash is None and len(indent) == column:
                 continue
             if len(indent) >= column:
