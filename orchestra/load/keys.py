@@ -12,6 +12,7 @@ from orchestra.description.actions import ACTIONS
 from orchestra.description.source import Keyed, Listed
 from orchestra.errors import Code
 from orchestra.load.elements import Tagged, emptied, noun
+from orchestra.load.made_values import made_value
 from orchestra.load.pairs import whole_item, written_item
 from orchestra.load.words import ELSEWHERE, HINTS, KEYS_ELSEWHERE, snake
 from orchestra.nearest import is_slip, nearest
@@ -136,6 +137,7 @@ class _Strangers:
         self.lacking = lacking
         self.mapping = mapping
         self.pair = written_item(known, mapping)
+        self.pairs_with_value = known >= {"name", "value"} and "value" not in mapping
 
     def hint(self, key: str) -> str | None:
         """Return what does what an unknown key is meant to do: another action, or a key that stands here already."""
@@ -156,6 +158,9 @@ class _Strangers:
         if joined is not None and spelled(joined[1]) in self.known:
             message, instead = _parted(*joined.groups())
             stands_for = frozenset({spelled(joined[1])})
+        elif self.pairs_with_value and (made := made_value(key, self.mapping)) is not None:
+            at, instead = made
+            stands_for = frozenset({"value"})
         elif near is None and self.pair is not None:
             whole = whole_item(self.mapping)
             if whole is not None:

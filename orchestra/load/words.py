@@ -101,6 +101,7 @@ KEYS_ELSEWHERE: Final[dict[str, tuple[str, ...]]] = {
     "content": ("message", "value"),
     "cpus": ("cores",),
     "cpu": ("cores",),
+    "data": ("value",),
     "default": ("value",),
     "default_value": ("default", "value"),
     "delay": ("period", "respawn_delay"),

@@ -81,12 +81,16 @@ def check_names(processes: Sequence[ResolvedProcess | ResolvedComponent], proble
         ):
             continue
         told.add(mistake)
+        # Here, because two nodes seldom have one name.
+        from orchestra.plan.copied import name_meant  # noqa: PLC0415
+
         certain = all(map(_is_refused, (earlier, process)))
         report = problems.error if certain else problems.warning
         report(
             Code.DUPLICATE_NODE,
             f"two nodes are called '{name}'",
             process.name.location,
+            suggestion=name_meant(earlier, process),
             notes=(f"the other one is at {_with_includes(earlier.location)}",),
         )
 

@@ -14,6 +14,8 @@ _NUMBER: Final = r"[-+]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
 _ENDED: Final = pattern(rf"({_NUMBER}|true|True|false|False)[,;]|(true|True|false|False)\.")
 _DECIMAL: Final = pattern(r"[-+]?(?:0,[0-9]+|[0-9]+,(?:[0-9]{1,2}|[0-9]{4,}))(?:[eE][-+]?[0-9]+)?")
 _COMMENTED: Final = pattern(rf"({_NUMBER}|true|True|false|False)(?:#+\s?|\s+//\s*)(\S.*)")
+_SUFFIXED: Final = pattern(r"([-+]?[0-9]*\.[0-9]+)[fFdD]")  # as in C
+_BOOLEANS: Final = ("true", "false")
 _SEVERAL: Final = pattern(rf"{_NUMBER}(?:\s*,\s*{_NUMBER})+,?")
 
 
@@ -31,8 +33,10 @@ def without_slip(text: str) -> tuple[str, str] | None:
         return f"the '{text[-1]}' belongs to it, and ends nothing here", ended[1] or ended[2]
     if commented := _COMMENTED.fullmatch(text):
         return "a comment begins with a blank and '#'", f"{commented[1]} # {commented[2]}"
-    if meant := SLIPS.get(text.lower()):
+    if meant := SLIPS.get(text.lower()) or (text.lower() if text.lower() in _BOOLEANS else None):
         return f"the boolean is {meant}", meant
+    if suffixed := _SUFFIXED.fullmatch(text):
+        return "a number has no letter behind it", suffixed[1]
     if _DECIMAL.fullmatch(text):
         return "a number is written with a point", text.replace(",", ".")
     if "." in text and _LETTERED.fullmatch(text):

@@ -88,7 +88,11 @@ def _read(
         from orchestra.load.yaml_faults import explained  # noqa: PLC0415
 
         fault = explained(error, source(file, text))
-        problems.extend(_before(fault.span, [*found][:sound]))
+        above = Problems()
+        above.extend([*found][:sound])
+        report_duplicates(reader.sections(), above)
+        report_surprises(reader.sections(), text, above)
+        problems.extend(_before(fault.span, [*above]))
         at = Location(fault.span, included_from)
         problems.error(Code.PARAMETER_SYNTAX, fault.message, at, suggestion=fault.suggestion)
         return reader.sections(), False

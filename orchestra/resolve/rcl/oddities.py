@@ -31,6 +31,12 @@ _UNIT: Final = pattern(
 _NUMBERS: Final = pattern(r"{0}(?:\s+{0})+".format(r"[-+]?(?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)"))
 _TAG: Final = pattern(r"!\S*")
 _KINDS: Final = {"!!str": str, "!!int": int, "!!float": float, "!!bool": bool, "!!seq": tuple}
+# What a float does not keep: digits around an `e`, a zero behind all others; and names of what is no quantity.
+_IN_DIGITS: Final = pattern(r"[0-9]+[eE][0-9]+|[0-9]+\.[0-9]*[1-9]0+")
+_NAMING: Final = pattern(
+    r"(?:^|[_.])(?:checksum|commit|digest|guid|hash|mac|password|revision|serial|sha|token|uuid|version)(?:$|_)"
+    r"|(?:^|[_.])(?:code|id|label|model|tag)$"
+)
 _DASHED: Final = pattern(r"-[A-Za-z_/]")
 _ITEM: Final = pattern(r"\s*(-\s\S*(?:\s+\S+)*)\s*")
 
@@ -50,11 +56,10 @@ def report_oddities(sections: Sequence[Section], lines: Sequence[str], problems:
                     numbers = _numbers(sections) if numbers is None else numbers
                     _report_unit(entry, found, numbers, problems)
                 _report_items(entry.location, entry.value, lines, problems)
+            elif isinstance(entry.value, float):
+                _report_lost(entry, lines, problems)
             elif isinstance(entry.value, tuple):
-                _report_blanks(entry, problems)
-                for value, at in zip(entry.value, entry.items, strict=False):
-                    if isinstance(value, str):
-                        _report_items(at, value, lines, problems)
+                _report_list(entry, lines, problems)
 
 
 def _report_name(entry: Entry, lines: Sequence[str], problems: Problems) -> None:
@@ -98,10 +103,27 @@ def _report_unit(entry: Entry, found: re.Match[str], numbers: set[str], problems
         problems.warning(Code.SURPRISING_SCALAR, told, entry.location, suggestion=found[1])
 
 
-def _report_blanks(entry: Entry, problems: Problems) -> None:
+def _report_lost(entry: Entry, lines: Sequence[str], problems: Problems) -> None:
+    """Report what looks like a number and names something: the float that it is read as does not say it any more."""
+    text = _text_at(entry.location, lines)
+    if _IN_DIGITS.fullmatch(text) and _NAMING.search(entry.name):
+        told = f"'{text}' is read as the float {entry.value}: a text is written \"{text}\""
+        problems.warning(Code.SURPRISING_SCALAR, told, entry.location, suggestion=f'"{text}"')
+
+
+def _report_list(entry: Entry, lines: Sequence[str], problems: Problems) -> None:
+    _report_blanks(entry, lines, problems)
+    for value, at in zip(entry.value if isinstance(entry.value, tuple) else (), entry.items, strict=False):
+        if isinstance(value, str):
+            _report_items(at, value, lines, problems)
+
+
+def _report_blanks(entry: Entry, lines: Sequence[str], problems: Problems) -> None:
     """Report numbers in brackets without commas, as `[0.5 0.3]`: a list of one text."""
     text = entry.value[0] if isinstance(entry.value, tuple) and len(entry.items) == 1 else None
-    if isinstance(text, str) and "." in text and _NUMBERS.fullmatch(text):
+    if not isinstance(text, str) or not _NUMBERS.fullmatch(text):
+        return
+    if "." in text or _text_at(entry.items[0], lines)[:1] not in ("'", '"'):
         told = f"'{shortened(text)}' is one text: commas stand between the items of a list"
         at, instead = entry.items[0], ", ".join(text.split())
         problems.warning(Code.SURPRISING_SCALAR, told, at, suggestion=instead)
