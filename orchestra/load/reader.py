@@ -178,7 +178,12 @@ class Reader:
             message = error["msg"]
         key = str(place[-1])
         suggestion = error.get("ctx", {}).get("suggestion") or written_as_list(key, error["input"])
-        if suggestion is None and kind == "wrong_type" and key != "type" and isinstance(error["input"], Written):
+        if (
+            suggestion is None
+            and kind == "wrong_type"
+            and key != "type"
+            and isinstance(error["input"], Written)
+        ):
             # Here, because only mistakes need it.
             from orchestra.load.expressions import as_substitutions  # noqa: PLC0415
 

@@ -88,11 +88,7 @@ def _read(
         from orchestra.load.yaml_faults import explained  # noqa: PLC0415
 
         fault = explained(error, source(file, text))
-        above = Problems()
-        above.extend([*found][:sound])
-        report_duplicates(reader.sections(), above)
-        report_surprises(reader.sections(), text, above)
-        problems.extend(_before(fault.span, [*above]))
+        problems.extend(_before(fault.span, [*found][:sound], reader.sections(), text))
         at = Location(fault.span, included_from)
         problems.error(Code.PARAMETER_SYNTAX, fault.message, at, suggestion=fault.suggestion)
         return reader.sections(), False
@@ -140,9 +136,13 @@ def _is_anchored(problem: Problem, lines: Sequence[str]) -> bool:
     )
 
 
-def _before(span: Span, problems: Sequence[Problem]) -> list[Problem]:
+def _before(span: Span, problems: Sequence[Problem], sections: Sequence[Section], text: str) -> list[Problem]:
     """Return the problems that stand before a fault of the text: what stands behind it follows from it."""
-    return [problem for problem in problems if problem.span is not None and problem.span < span]
+    above = Problems()
+    above.extend(problems)
+    report_duplicates(sections, above)
+    report_surprises(sections, text, above)
+    return [problem for problem in above if problem.span is not None and problem.span < span]
 
 
 def _within_section(events: Iterator[yaml.Event]) -> Iterator[yaml.Event]:
