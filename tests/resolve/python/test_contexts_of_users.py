@@ -185,7 +185,8 @@ def test_what_is_raised_in_user_code_is_told_at_its_line_where_nobody_catches_it
     text += "        LaunchContext())\n    return LaunchDescription([])\n"
     _, problems = planned(tmp_path, {"main.launch.py": text})
     (problem,) = problems
-    assert problem.message == "no launch argument or variable 'gone' is set here"
+    told = "no launch argument or variable 'gone' is set here; DeclareLaunchArgument('gone') declares it"
+    assert problem.message == told
     assert problem.span is not None
     assert (
         "LaunchConfiguration('gone')"
