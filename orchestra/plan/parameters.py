@@ -185,8 +185,14 @@ def _are_apart(sources: Sequence[ParameterSource]) -> bool:
 
     Those of arguments differ by their paths, and from all others.
     """
-    paths = [getattr(source.location.span, "path", None) for source in sources]
-    return len(set(paths)) == len(paths)
+    paths = {_path(source.location) for source in sources}
+    return len(paths) == len(sources)
+
+
+def _path(location: Location) -> object:
+    """Return the path of an argument, None where it is none."""
+    group = getattr(location, "group", None)  # as its place does
+    return group if type(group) is tuple else getattr(location.span, "path", None)
 
 
 def check_given(resolved: Resolved, problems: Problems) -> None:

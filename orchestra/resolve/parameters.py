@@ -34,6 +34,7 @@ from orchestra.resolve.scalars import (
     described,
     differs,
     items_alike,
+    number_held,
     read_alike,
     unified,
     upstream_value,
@@ -181,8 +182,7 @@ def _inline(
         return [None]
     if everywhere and not quotes and type_word is None and isinstance(written, Constant):
         value = _retyped(value, at, run)
-    items = written if isinstance(written, tuple) else ()
-    places = tuple(run.at(item.span) for item in items)
+    places = tuple(run.at(item.span) for item in written) if isinstance(written, tuple) else ()
     return [new_parameter(name, value, at, everywhere, keys, places, tuple(reads))]
 
 
@@ -202,16 +202,16 @@ def _warn_of_name(name: str, written: Template, run: Resolution) -> None:
 
 
 def _read_at_once(param: Param | SetParameter, *, quotes: bool) -> ParameterValue | None:
-    """Return the value of a text without a type that everybody reads alike; None where it takes a closer look."""
+    """Return a value without a type that everybody reads alike; None where it takes a closer look."""
     value = param.value
+    if type(value) is Constant:
+        return number_held(value.value) if param.type is None else None
     if param.type is not None or not isinstance(value, Template):
         return items_alike(value) if isinstance(value, Items) and param.type is None else None
     if type(value) is MatchedTemplate:
         text = value.constant
         return None if not text else text if value.quoted and quotes else read_alike(text)
-    if value.faulty or len(value.parts) != 1:
-        return None
-    part = value.parts[0]
+    part = value.parts[0] if len(value.parts) == 1 and not value.faulty else None
     if type(part) is not Words:
         return None
     return part.text if value.quoted and quotes else read_alike(part.text)

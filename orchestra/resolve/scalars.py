@@ -130,6 +130,12 @@ def checked(value: ParameterValue, type_word: str | None = None) -> ParameterVal
     return found
 
 
+def number_held(value: ParameterValue) -> ParameterValue | None:
+    """Return a number or a truth value that rcl can hold, None for anything else: `checked` has more to look at."""
+    held = type(value) is float or type(value) is bool or (type(value) is int and value in _INTEGERS)
+    return value if held else None
+
+
 def flow(value: ParameterValue) -> str:
     """Return the text of a value for `$(param)`, as Python writes it; a list so that it can be read again."""
     return f"[{', '.join(map(_shown, value))}]" if isinstance(value, tuple) else str(value)
