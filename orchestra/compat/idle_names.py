@@ -25,7 +25,8 @@ _NIBBLE: Final = 15  # of instructions with two variables each half of the argum
 def has_idle_actions(module: ModuleType, source: bytes) -> bool:
     """Return whether a launch file, of which this is the text, may make actions that it keeps and never reads."""
     codes = [code for code in _codes(vars(module).values()) if code.co_filename == module.__file__]
-    if not any(map(_idle_names, codes)):
+    idle = {id(code): _idle_names(code) for code in codes}
+    if not any(idle.values()):
         return False
     lines = source.splitlines()
     own = [
@@ -34,7 +35,8 @@ def has_idle_actions(module: ModuleType, source: bytes) -> bool:
         if isinstance(item, type) and item.__module__ == module.__name__
     ]
     methods = _codes(value for item in own for value in vars(item).values())
-    return any(_keeps_action(code, lines) for outer in (*codes, *methods) for code in _with_inner(outer))
+    every = (code for outer in (*codes, *methods) for code in _with_inner(outer))
+    return any(_keeps_action(code, idle.get(id(code)), lines) for code in every)
 
 
 def _codes(values: Iterable[object]) -> Iterator[CodeType]:
@@ -49,9 +51,12 @@ def _with_inner(code: CodeType) -> Iterator[CodeType]:
             yield from _with_inner(item)
 
 
-def _keeps_action(code: CodeType, lines: Sequence[bytes]) -> bool:
-    """Return whether a variable that is never read is set to something that names an action."""
-    idle = _idle_names(code)
+def _keeps_action(code: CodeType, known: set[int] | None, lines: Sequence[bytes]) -> bool:
+    """Return whether a variable that is never read is set to something that names an action.
+
+    These are looked for where they are not `known`.
+    """
+    idle = _idle_names(code) if known is None else known
     for index in _setting(code.co_code, idle) if idle else ():
         # What was done before it is to make the value. Most are set where a function begins.
         begin, end, *_ = next(islice(code.co_positions(), index - 1, None))
@@ -79,9 +84,11 @@ def _idle_names(code: CodeType) -> set[int]:
     written = code.co_code
     operations, operands = written[::2], written[1::2]
     read = set(compress(operands, operations.translate(_table(_READ))))
-    for operand in compress(operands, operations.translate(_table(_READ_TWICE))):
-        read |= {operand >> 4, operand & _NIBBLE}
-    read |= {operand & _NIBBLE for operand in compress(operands, operations.translate(_table(_SET_AND_READ)))}
+    if _operations()[_READ_TWICE] or _operations()[_SET_AND_READ]:  # newer Pythons have such
+        for operand in compress(operands, operations.translate(_table(_READ_TWICE))):
+            read |= {operand >> 4, operand & _NIBBLE}
+        setting = operations.translate(_table(_SET_AND_READ))
+        read |= {operand & _NIBBLE for operand in compress(operands, setting)}
     return {
         index & 255
         for index, name in enumerate(code.co_varnames)

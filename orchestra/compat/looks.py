@@ -34,18 +34,19 @@ def has_doubled_keys(module: ModuleType, source: bytes) -> bool:
     own = [code for code in codes if code.co_filename == module.__file__]
     if any(map(_repeats, own)):
         return True
-    is_long = source.count(b"':") + source.count(b'":') > _PIECE
-    may_stand = is_long and (any(map(_lists_names, own)) or _OUTSIDE.search(b"\n" + source) is not None)
-    return may_stand and _doubles(source)
+    may_stand = any(map(_lists_names, own)) or _OUTSIDE.search(b"\n" + source) is not None
+    return may_stand and source.count(b"':") + source.count(b'":') > _PIECE and _doubles(source)
 
 
 def _repeats(code: CodeType) -> bool:
     """Return whether a text is twice in one constant."""
-    return any(
-        (type(item) is tuple and len(set(item)) < len(item) and _repeats_text(item))
-        or (type(item) is CodeType and _repeats(item))
-        for item in code.co_consts
-    )
+    for item in code.co_consts:
+        if type(item) is tuple:
+            if len(set(item)) < len(item) and _repeats_text(item):
+                return True
+        elif type(item) is CodeType and _repeats(item):
+            return True
+    return False
 
 
 def _repeats_text(items: tuple[object, ...]) -> bool:
