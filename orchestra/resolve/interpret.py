@@ -18,7 +18,7 @@ from orchestra.resolve.mentions import hidden, words_in
 from orchestra.resolve.model import ResolvedSkip
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Iterable
 
     from orchestra.description.entity import Action, Conditional
     from orchestra.description.launch import Description
@@ -77,7 +77,7 @@ class Visitor(Protocol):
         """Carry the action out on the state of the resolution."""
 
 
-def visit(actions: Sequence[Action], run: Resolution) -> None:
+def visit(actions: Iterable[Action], run: Resolution) -> None:
     """Visit actions in order, leaving out those whose condition says so."""
     run.depth += 1
     around = run.around

@@ -22,7 +22,7 @@ from orchestra.resolve.resolution import Resolution
 from orchestra.resolve.scope import Scope
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator, Mapping, Sequence
+    from collections.abc import Iterable, Iterator, Mapping
 
     from orchestra.description.entity import Action, Conditional
     from orchestra.errors import Problem
@@ -76,5 +76,5 @@ def _run_nothing(command: tuple[str, ...], environment: Mapping[str, str]) -> Co
     return CommandResult(0, "", "", "nothing is run here")
 
 
-def _visit_nothing(actions: Sequence[Action], run: Resolution) -> None:
+def _visit_nothing(actions: Iterable[Action], run: Resolution) -> None:
     del actions, run

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
     from orchestra.description.text import Template
 
 LoadFile: TypeAlias = Callable[..., Description | None]
-Visit: TypeAlias = Callable[[Sequence[Action], "Resolution"], None]
+Visit: TypeAlias = Callable[[Iterable[Action], "Resolution"], None]
 
 _MOST_STEPS = 200_000
 # Each level of actions takes some ten calls of the thousand that the interpreter allows.

@@ -25,17 +25,32 @@ from orchestra.resolve.python.calling import user_code
 from orchestra.resolve.python.deferral import Deferred, put_off
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from orchestra.compat.place import Place
     from orchestra.description.actions.opaque import OpaqueAction
+    from orchestra.description.entity import Action as Model
     from orchestra.location import Span
     from orchestra.resolve.resolution import Resolution
 
 
 def visit_entities(entities: Iterable[Any], run: Resolution, place: Place | None = None) -> None:
     """Visit entities in order, which stand at a place. An iterable that grows is followed to its end, as upstream."""
+    run.visit(_models(entities, run, place), run)
+
+
+def visit_entity(entity: Any, run: Resolution, place: Place | None = None) -> None:
+    """Visit an entity, by its model where it has one; `place` is that of what holds it."""
+    visit_entities((entity,), run, place)
+
+
+def _models(entities: Iterable[Any], run: Resolution, place: Place | None) -> Iterator[Model]:
+    """Yield the models of entities, each when it is visited. What has none is dealt with on the way."""
     for index, entity in enumerate(entities):
-        if _is_entity(entity):
-            visit_entity(entity, run, place)
+        if isinstance(entity, LaunchDescriptionEntity):
+            model = _model(entity, run, place)
+            if model is not None:
+                yield model
         else:
             # Here and below, because only mistakes need it, and what it imports.
             from orchestra.compat.literals import item_span  # noqa: PLC0415
@@ -45,17 +60,17 @@ def visit_entities(entities: Iterable[Any], run: Resolution, place: Place | None
             _refuse_other(entity, span, run, is_written=place is None or span != place.span)
 
 
-def visit_entity(entity: Any, run: Resolution, place: Place | None = None) -> None:
-    """Visit an entity, by its model where it has one; `place` is that of what holds it."""
-    if is_lost(entity):
+def _model(entity: Any, run: Resolution, place: Place | None) -> Model | None:
+    """Return the model of an entity; of one without, what it holds is visited."""
+    if "_lost" in vars(entity):
         run.scope.ledger.incomplete = True
         name = vars(entity).get("_lost_name")
         if isinstance(name, str):  # what reads it is not to be told of it
             run.found.lost.add(name)
         visit_entities(entity._lost, run)
-        return
+        return None
     try:
-        model = model_of(entity)
+        return model_of(entity)
     except ValidationError as error:
         _refuse(entity, error, run)
         visit_entities(_children(entity), run)
@@ -66,8 +81,7 @@ def visit_entity(entity: Any, run: Resolution, place: Place | None = None) -> No
         run.scope.ledger.incomplete = True
         if entity._role == "declaration":  # what reads it is not to be told of it
             run.scope.set(entity.name, POISON, run.at(_span(entity, run, place)))
-    else:
-        run.visit((model,), run)
+    return None
 
 
 def _children(entity: Any) -> list[Any]:
