@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.explanation import told
 from orchestra.compat.launch.action import Action, ModelledAction
@@ -80,6 +80,20 @@ def conditioned(action: Action) -> dict[str, Any]:
     if action.condition is None:
         return {"origin": action}
     return {"origin": action, **condition_fields(action.condition, action._place.at("condition"))}
+
+
+def unchecked(common: Mapping[str, Any]) -> dict[str, Any] | None:
+    """Return the condition among the fields that every action has, by its name in models; none where there is none.
+
+    None where it is for the validator to look at its words.
+    """
+    if len(common) == 1:
+        return {}
+    ((word, condition),) = [(name, value) for name, value in common.items() if name != "origin"]
+    return {_CONDITIONS[word]: condition} if condition.constant is None else None
+
+
+_CONDITIONS: Final = {"if": "if_", "unless": "unless"}
 
 
 def condition_fields(condition: Any, span: Span) -> dict[str, Any]:

@@ -6,16 +6,28 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
-from orchestra.compat.place import argument, here
+from orchestra.compat.place import Instructions, argument, here
 from orchestra.compat.text import template
-from orchestra.description.text import Call, Opaque, Template, new_call, new_template
+from orchestra.dataclass import maker
+from orchestra.description.text import (
+    Call,
+    Opaque,
+    Pieces,
+    Template,
+    Words,
+    matched_template,
+    new_call,
+    new_template,
+    new_words,
+)
 from orchestra.description.written import called
+from orchestra.location import Matched
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
     from orchestra.compat.launch.launch_context import LaunchContext
-    from orchestra.compat.place import Step
+    from orchestra.compat.place import Place, Step
     from orchestra.description.text import Part
     from orchestra.location import Span
 
@@ -27,7 +39,7 @@ class CallSubstitution(Substitution):
     """
 
     _name: str
-    _kept: tuple[tuple[list[Substitution], ...], Template] | None = None
+    _kept: tuple[tuple[list[Substitution], ...], Template, Place] | None = None
 
     def __init__(self) -> None:
         self._place = here(self)
@@ -40,11 +52,12 @@ class CallSubstitution(Substitution):
         """Return what the call comes to. Raises `SubstitutionFailure`."""
         return context._engine.evaluate(Template((self._call(),), self._raw(), self._place.span))
 
-    def _call(self) -> Call:
+    def _call(self, given: Sequence[Sequence[Substitution]] | None = None) -> Call:
         place, paths = self._place, self._paths()
+        count = len(paths)
         arguments = [
-            template(item, argument(place, paths[index]) if index < len(paths) else place.span)
-            for index, item in enumerate(self._arguments())
+            template(item, argument(place, paths[index]) if index < count else place.span)
+            for index, item in enumerate(self._arguments() if given is None else given)
         ]
         return new_call(self._name, tuple(arguments), place.span)
 
@@ -55,26 +68,35 @@ class CallSubstitution(Substitution):
         """
         given = tuple(self._arguments())
         kept = self._kept
-        if kept is not None and kept[0] == given and kept[1].span is self._place.span:
+        if kept is not None and kept[0] == given and kept[2] is self._place:
             return kept[1]
-        kinds = {type(item) for argument in given for item in argument}
-        are_texts = kinds <= _TEXT
-        if not are_texts and not all(_is_known(item) for argument in given for item in argument):
+        others = [item for items in given for item in items if type(item) is not TextSubstitution]
+        if others and not all(map(_is_known, others)):
             return None
-        parts = self._parts(self._place.span)
-        if len(parts) != 1:
-            return None
-        call = parts[0]
-        if type(call) is not Call:
+        call = self._known_call(given)
+        if call is None:
             return None
         if type(self)._raw is CallSubstitution._raw:
             raw = called(self._name, [argument.raw for argument in call.arguments])
         else:
             raw = self._raw()
-        made = new_template(parts, raw, call.span)
-        if given and are_texts:
-            self._kept = tuple(map(list, given)), made
+        name = _variable(call)
+        if name is None:
+            made = new_template((call,), raw, call.span)
+        else:
+            made = matched_template(raw, False, _Made(self._place), 0, new_composed((call,), (name,)))
+        if given and not others:
+            self._kept = tuple(map(list, given)), made, self._place
         return made
+
+    def _known_call(self, given: Sequence[Sequence[Substitution]]) -> Call | None:
+        """Return what the substitution comes to where that is a call alone; its arguments are `given`."""
+        kind: Any = type(self)
+        if kind._parts is CallSubstitution._parts:
+            return self._call(given) if kind.perform.__module__.startswith("orchestra.compat.") else None
+        parts = self._parts(self._place.span)
+        call = parts[0] if len(parts) == 1 else None
+        return call if type(call) is Call else None
 
     def _paths(self) -> Sequence[tuple[Step, ...]]:
         """Return where the arguments of the call stand among those of the constructor."""
@@ -92,11 +114,47 @@ class CallSubstitution(Substitution):
         return called(self._name, arguments)
 
 
-_TEXT: Final = frozenset({TextSubstitution})
+class Composed(Pieces):
+    """Texts and variables that code has put together: each variable is known where it was made."""
+
+    __slots__ = ()
+
+    def placed(self, whole: Span) -> tuple[Part, ...]:
+        """Return them as parts of a text that stands at a place."""
+        pieces: tuple[Any, ...] = self.pieces
+        return tuple([new_words(piece, whole) if type(piece) is str else piece for piece in pieces])
+
+
+new_composed: Final[Callable[[tuple[Any, ...], tuple[str, ...]], Composed]] = maker(Composed)
+
+
+class _Made(Matched):
+    """What a substitution alone comes to stands where that was made."""
+
+    __slots__ = ("_place",)
+
+    def __init__(self, place: Place) -> None:
+        self._place = place
+
+    @property
+    def whole(self) -> Instructions:  # type: ignore[override] # nobody sets it
+        """The text."""
+        return Instructions(self._place._code)
+
+    def span(self, group: int) -> Span:
+        """Return the place."""
+        del group
+        return self._place.span
 
 
 def _is_known(item: Substitution) -> bool:
     """Return whether no code of launch files says what a substitution comes to, nor how it is described."""
-    return type(item) is TextSubstitution or (
-        isinstance(item, CallSubstitution) and item._whole() is not None
-    )
+    return isinstance(item, CallSubstitution) and item._whole() is not None
+
+
+def _variable(call: Call) -> str | None:
+    """Return the variable whose value a call is, None for any other one."""
+    if call.name != "var" or len(call.arguments[0].parts) != 1:
+        return None
+    name = call.arguments[0].parts[0]
+    return name.text if type(name) is Words else None

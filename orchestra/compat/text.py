@@ -5,9 +5,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution, text_of
@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 Sub: TypeAlias = str | Substitution | Iterable[str | Substitution]
+
+_SERIES: Final = frozenset({list, tuple})
 
 
 def normalized(subs: Sub) -> list[Substitution]:
@@ -35,14 +37,11 @@ def normalized(subs: Sub) -> list[Substitution]:
 
 def template(subs: Sub, span: Span, *, quoted: bool = False) -> Template:
     """Return the template of some substitutions; those without a place of their own are at `span`."""
-    if isinstance(subs, list | tuple) and len(subs) == 1 and type(subs[0]) is TextSubstitution:
-        subs = subs[0].text
+    if type(subs) in _SERIES and len(subs) == 1 and type(subs[0]) is TextSubstitution:  # type: ignore[arg-type,index] # as it says
+        subs = subs[0].text  # type: ignore[index] # as above
     if type(subs) is str:
         return new_template((new_words(subs, span),) if subs else (), escaped(subs), span, quoted)
-    try:
-        items = normalized(subs)
-    except WrongType as error:
-        raise WrongType(str(error), error.value, at=span) from None
+    items = _items(subs, span)
     parts: tuple[Part, ...] = ()
     raw = ""
     for item in items:
@@ -58,6 +57,20 @@ def template(subs: Sub, span: Span, *, quoted: bool = False) -> Template:
     if len(parts) == 1:
         span = parts[0].span
     return new_template(parts, raw, span, quoted)
+
+
+def _items(subs: Sub, span: Span) -> Sequence[Substitution]:
+    """Return substitutions: a list of them, which constructors keep, as it is."""
+    if type(subs) is list:
+        for item in subs:
+            if not isinstance(item, Substitution):
+                break
+        else:
+            return subs
+    try:
+        return normalized(subs)
+    except WrongType as error:
+        raise WrongType(str(error), error.value, at=span) from None
 
 
 def _is_unordered(subs: Any) -> bool:

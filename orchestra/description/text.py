@@ -170,6 +170,10 @@ class Pieces:
         following = iter(values)
         return "".join([piece if type(piece) is str else next(following) for piece in self.pieces])
 
+    def placed(self, whole: Span) -> tuple[Part, ...]:
+        """Return them as parts of a text that stands at a place."""
+        return _placed(self.pieces, whole)
+
 
 def pieces_of(pieces: Sequence[Piece]) -> Pieces:
     """Return them with the variables among them."""
@@ -212,7 +216,7 @@ class MatchedTemplate(Template):
         try:
             return self._parts
         except AttributeError:
-            made = self._words() if self.pieces is None else _placed(self.pieces.pieces, self.span)
+            made = self._words() if self.pieces is None else self.pieces.placed(self.span)
             object.__setattr__(self, "_parts", made)
             return made
 

@@ -12,7 +12,7 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
-from orchestra.description.text import MatchedTemplate, Opaque, Words
+from orchestra.description.text import MatchedTemplate, Opaque, Pieces, Words
 from orchestra.errors import Code
 from orchestra.fields import field
 from orchestra.location import Span, inside, is_within
@@ -82,12 +82,14 @@ def _bare(template: MatchedTemplate, context: Context) -> tuple[Value, ...] | No
         return tuple(
             new_value(found[0], context.at(inside(span, *found.span()))) for found in _WORD.finditer(raw)
         )
-    names = None if template.pieces is None else template.pieces.variables
-    known = None if names is None else context.variables.known(names)
-    if template.pieces is None or known is None:
+    pieces = template.pieces
+    if type(pieces) is not Pieces or pieces.variables is None:  # those of code stand at no offsets
+        return None
+    known = context.variables.known(pieces.variables)
+    if known is None:
         return None
     words: list[Value] = []
-    for text, begin, end, reads in _words_of(template.pieces.pieces, *known):
+    for text, begin, end, reads in _words_of(pieces.pieces, *known):
         at = context.at(inside(span, begin, end))
         words.append(new_value(text, at, through=reads, raw=raw[begin:end]))
     return tuple(words)

@@ -27,10 +27,12 @@ from orchestra.compat.refusing import collecting
 from orchestra.description.entity import Entity
 from orchestra.errors import Problems
 from orchestra.location import Span
+from orchestra.pipeline import collect, inputs_from
 from tests.compat.contexts import loading
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
+    from pathlib import Path
 
 
 class _Own(Substitution):
@@ -247,3 +249,28 @@ def test_a_condition_that_is_no_text_is_refused_as_ever() -> None:
     node = _made({"executable": "talker", "condition": IfCondition("perhaps")})
     with pytest.raises(Exception, match="expected true or false"):
         _model(node)
+
+
+@pytest.mark.parametrize(
+    ("prefix", "words"),
+    [
+        ("LaunchConfiguration('tool')", ("nice", "-n")),
+        ("[LaunchConfiguration('tool'), ' 5']", ("nice", "-n", "5")),
+        ("['time -p ', LaunchConfiguration('tool'), '5']", ("time", "-p", "nice", "-n5")),
+    ],
+)
+def test_a_prefix_with_variables_is_taken_apart(prefix: str, words: tuple[str, ...], tmp_path: Path) -> None:
+    file = tmp_path / "prefix.launch.py"
+    file.write_text(
+        "from launch import LaunchDescription\n"
+        "from launch.actions import DeclareLaunchArgument\n"
+        "from launch.substitutions import LaunchConfiguration\n"
+        "from launch_ros.actions import Node\n"
+        "def generate_launch_description():\n"
+        "    return LaunchDescription([DeclareLaunchArgument('tool', default_value='nice -n'),\n"
+        f"        Node(executable='true', prefix={prefix})])\n"
+    )
+    plan = collect(str(file), inputs_from((), environment={"PATH": "/usr/bin:/bin"}), problems := Problems())
+    assert plan is not None
+    assert not problems.errors
+    assert plan.processes[0].prefix == words

@@ -11,6 +11,7 @@ import math
 import os
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.compat.building import unchecked
 from orchestra.compat.launch.actions.execute_local import OVERRIDE
 from orchestra.compat.launch.actions.execute_process import ExecuteProcess
 from orchestra.compat.launch_ros.plain_parameters import parameters
@@ -46,10 +47,9 @@ class Plain:
         origin, fields = common["origin"], self.fields
         if len(common) == 1:
             return entity(NodeModel, fields, place.span, origin)
-        ((word, condition),) = [(name, value) for name, value in common.items() if name != "origin"]
-        if condition.constant is None:
-            name = "if_" if word == "if" else word
-            return entity(NodeModel, {**fields, name: condition}, place.span, origin)
+        condition = unchecked(common)
+        if condition is not None:
+            return entity(NodeModel, {**fields, **condition}, place.span, origin)
         said = {name: value for name, value in fields.items() if value is not None}
         return NodeModel.at(place.span, **said, **common)
 

@@ -4,10 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat.calls import CallSubstitution
+from orchestra.compat.calls import CallSubstitution, Composed, new_composed
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.description.model import Model
-from orchestra.description.text import Template, matched_words, new_template, new_words
+from orchestra.description.text import (
+    MatchedTemplate,
+    Template,
+    matched_template,
+    matched_words,
+    new_template,
+    new_words,
+)
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
@@ -40,13 +47,36 @@ def plain_text(value: Any, call: Arguments, path: tuple[Way, ...]) -> Template:
     if kind is str:
         return divisible(value, call.span(path))
     if kind is list or kind is tuple:
-        return joined(value, call.span(path))
+        return composed(value, call, path)
     return whole_text(value)
 
 
 def divisible(text: str, span: Span) -> Template:
     """Return a text that may be taken apart: its words know where they stand."""
     return new_template((new_words(text, span),) if text else (), escaped(text), span)
+
+
+def composed(items: Any, call: Arguments, path: tuple[Way, ...]) -> Template:
+    """Return several texts and substitutions as one, which an argument of a call holds."""
+    pieces: list[Any] = []
+    names: tuple[str, ...] = ()
+    raw = ""
+    for item in items:
+        text = item.text if type(item) is TextSubstitution else item
+        if type(text) is str:
+            pieces.append(text)
+            raw += text if "$" not in text and "\\" not in text else escaped(text)
+            continue
+        whole = whole_text(text)
+        if type(whole) is not MatchedTemplate or type(whole.pieces) is not Composed:
+            return joined(items, call.span(path))
+        pieces += whole.pieces.pieces
+        names += whole.pieces.variables or ()
+        raw += whole.raw
+    if len(pieces) < _SEVERAL or not names or "" in pieces:
+        return joined(items, call.span(path))
+    made = new_composed(tuple(pieces), names)
+    return matched_template(raw, False, call, path, made)  # type: ignore[arg-type] # its groups are paths
 
 
 def joined(items: Any, span: Span) -> Template:
@@ -68,9 +98,10 @@ def joined(items: Any, span: Span) -> Template:
 
 def copied(value: Any) -> Any:
     """Return a list, or what is in a tuple, so that nobody else changes it."""
-    if type(value) is list:
-        return list(map(copied, value))
-    return tuple(map(copied, value)) if type(value) is tuple else value
+    kind = type(value)
+    if kind is list:
+        return [copied(item) if type(item) in _SERIES else item for item in value]
+    return tuple([copied(item) for item in value]) if kind is tuple else value
 
 
 def entity(kind: type[Any], values: dict[str, Any], span: Span, origin: Any = None) -> Any:
@@ -81,6 +112,8 @@ def entity(kind: type[Any], values: dict[str, Any], span: Span, origin: Any = No
     return made
 
 
+_SEVERAL: Final = 2
+_SERIES: Final = frozenset({list, tuple})
 _new = object.__new__
 _set_beside: Final[Callable[[Any, dict[str, Any]], None]] = vars(Model)["__pydantic_private__"].__set__
 _set_values: Final[Callable[[Any, dict[str, Any]], None]] = vars(Model)["__dict__"].__set__

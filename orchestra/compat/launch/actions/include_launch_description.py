@@ -6,7 +6,7 @@ import os
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
-from orchestra.compat.building import models_of
+from orchestra.compat.building import models_of, unchecked
 from orchestra.compat.extensions import INCLUDED, extension_fields, taken
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.launch.actions.set_launch_configuration import SetLaunchConfiguration
@@ -124,11 +124,12 @@ class IncludeLaunchDescription(ModelledAction):
             return self._refused_model(error, common)
         given = self._place.at("launch_description_source") if self.__is_path else None
         file = self.__launch_description_source._file(given)
-        if self.__extensions or len(common) > 1:
+        condition = unchecked(common)
+        if self.__extensions or condition is None:
             extensions = extension_fields(Include, self.__extensions, self._place, file=file)
             include = Include.at(span, file=file, arg=arguments, **extensions, **common)
         else:
-            include = Include.made(span, {"file": file, "arg": arguments}, common["origin"])
+            include = Include.made(span, {"file": file, "arg": arguments, **condition}, common["origin"])
         if not self.__launch_description_source._reads_file:
             return include.holding(models_of((_Sourced(self.__launch_description_source),), self._place))
         return include.read_as(self.__launch_description_source._language)

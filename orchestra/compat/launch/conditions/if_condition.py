@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.described import described
 from orchestra.compat.launch.condition import Condition
@@ -27,7 +27,7 @@ class IfCondition(Condition):
     def __init__(self, predicate_expression: Sub) -> None:
         self.__expression = normalized(predicate_expression)
         self._place = here(self)
-        super().__init__(predicate=self._predicate_func)
+        self._predicate = self._predicate_func
 
     def describe(self) -> str:
         """Return the text and what becomes of it."""
@@ -38,7 +38,15 @@ class IfCondition(Condition):
         return evaluate_condition_expression(context, self.__expression) is self._wanted
 
     def _fields(self, span: Span) -> dict[str, Any]:
-        judging: tuple[Any, ...] = (type(self).evaluate, type(self)._predicate_func)
-        if not all(method.__module__.startswith("orchestra.compat.") for method in judging):
+        kind = type(self)
+        if kind.evaluate is not _evaluate or kind._predicate_func is not _judge:  # of a user's
             return super()._fields(span)
-        return {self._field: template(self.__expression, self._place.at("predicate_expression"))}
+        expression = self.__expression
+        whole = expression[0]._whole() if len(expression) == 1 else None
+        if whole is None:
+            whole = template(expression, self._place.at("predicate_expression"))
+        return {self._field: whole}
+
+
+_evaluate: Final = Condition.evaluate
+_judge: Final = IfCondition._predicate_func

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.described import described
 from orchestra.compat.parsed import ParsedSubstitution
+from orchestra.compat.place import here
 from orchestra.compat.text import normalized
 
 if TYPE_CHECKING:
@@ -14,6 +15,7 @@ if TYPE_CHECKING:
 
     from orchestra.compat.launch.substitution import Substitution
     from orchestra.compat.text import Sub
+    from orchestra.description.text import Template
 
 
 class LaunchConfiguration(ParsedSubstitution):
@@ -23,7 +25,7 @@ class LaunchConfiguration(ParsedSubstitution):
     _parameters = ("variable_name", "default")
 
     def __init__(self, variable_name: Sub, *, default: Any = None) -> None:
-        super().__init__()
+        self._place = here(self)
         self.__variable_name = normalized(variable_name)
         self.__default = None if default is None else normalized(_texts(default))
 
@@ -39,6 +41,14 @@ class LaunchConfiguration(ParsedSubstitution):
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
         name = self.variable_name
         return (name,) if self.__default is None else (name, self.__default)
+
+    def _whole(self) -> Template | None:
+        kept = self._kept
+        if kept is None or self.__default is not None:
+            return super()._whole()
+        # As there, at once: launch files have thousands of these.
+        same = kept[0][0] == self.__variable_name and kept[2] is self._place
+        return kept[1] if same else super()._whole()
 
 
 def _texts(default: Any) -> Any:

@@ -9,6 +9,7 @@ from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.performed import Concatenated
+from orchestra.compat.place import here
 from orchestra.compat.text import normalized
 from orchestra.compat.wrong import WrongType
 from orchestra.description.written import escaped
@@ -32,7 +33,7 @@ class PathJoinSubstitution(ParsedSubstitution):
     _name = "path-join"
 
     def __init__(self, substitutions: Iterable[Sub]) -> None:
-        super().__init__()
+        self._place = here(self)
         components = [_component(item) for item in _listed(substitutions)]
         if not components:
             raise WrongType("a PathJoinSubstitution needs at least one component", path=("substitutions",))
@@ -63,7 +64,8 @@ class PathJoinSubstitution(ParsedSubstitution):
         texts = [item.text for item in others if isinstance(item, TextSubstitution)]
         if any(text[-1] == "/" for text in texts[:-1]):
             return super()._raw()
-        return "/".join((first._raw(), *map(escaped, texts)))
+        whole = first._whole()
+        return "/".join((first._raw() if whole is None else whole.raw, *map(escaped, texts)))
 
     def _paths(self) -> Sequence[tuple[Step, ...]]:
         return [("substitutions", index) for index in range(len(self.substitutions))]

@@ -9,6 +9,7 @@ from orchestra.compat.expressions import visible
 from orchestra.compat.launch.utilities.perform_substitutions_impl import perform_substitutions
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.performed import Concatenated
+from orchestra.compat.place import here
 from orchestra.compat.text import normalized
 
 if TYPE_CHECKING:
@@ -28,7 +29,7 @@ class PythonExpression(ParsedSubstitution):
     _parameters = ("expression", "python_modules")
 
     def __init__(self, expression: Sub, python_modules: Sub = _MATH) -> None:
-        super().__init__()
+        self._place = here(self)
         self.__expression = normalized(expression)
         self.__python_modules = normalized(python_modules)
         self.__is_default = python_modules in (_MATH, list(_MATH), "math")

@@ -151,6 +151,12 @@ class Node(PlainNode):
         self._perform_substitutions(context)
         super().prepare(context)
 
+    def _is_as_described(self) -> bool:
+        kind = type(self)
+        if kind.visit is _visit and kind.execute is _execute and kind.prepare is _prepare:
+            return True
+        return super()._is_as_described()
+
     def _words_of_its_own(self, context: LaunchContext) -> list[str]:
         """Return the words that follow the last `--ros-args`: names, parameters and remappings."""
         known = self.is_node_name_fully_specified()
@@ -232,6 +238,9 @@ class Node(PlainNode):
             return None
         words = enumerate((*(self.__ros_arguments or ()), *appended))
         return tuple(template(word, self._place.at("ros_arguments", index)) for index, word in words)
+
+
+_visit, _execute, _prepare = Node.visit, Node.execute, Node.prepare
 
 
 def _refuse_former(kwargs: Mapping[str, Any]) -> None:
