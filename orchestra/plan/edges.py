@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Final
 from orchestra.errors import Code, Problems
 from orchestra.nearest import nearest
 from orchestra.plan.absent import is_mistake
-from orchestra.plan.circles import circles
 from orchestra.plan.conditions import Dependency
 from orchestra.plan.ids import node_name
 from orchestra.resolve.names import InvalidName, expanded
@@ -82,6 +81,10 @@ def dependencies(
 
 def check_cycles(edges: Mapping[str, tuple[Dependency, ...]], problems: Problems) -> None:
     """Report processes that wait for each other, each in one circle at the most."""
+    if not any(edges.values()):
+        return
+    from orchestra.plan.circles import circles  # noqa: PLC0415 - only where something waits
+
     graph = {identity: dict.fromkeys(edge.process for edge in waits) for identity, waits in edges.items()}
     for circle in circles(graph):
         way = " waits for ".join(reversed(circle))

@@ -18,7 +18,6 @@ from orchestra.resolve.environment_names import is_faulty_name
 from orchestra.resolve.exit_codes import exit_codes
 from orchestra.resolve.for_all import emulate_tty, set_for_all
 from orchestra.resolve.idle_keys import check_keys
-from orchestra.resolve.limits import limits
 from orchestra.resolve.model import (
     EnvironmentChange,
     FileParameters,
@@ -42,6 +41,7 @@ if TYPE_CHECKING:
     from orchestra.description.running import Running
     from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
+    from orchestra.values import Limits
 
 
 # What an action may say of how its process runs, and the variables that say it for all.
@@ -176,7 +176,7 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         stop=sound(stop(action, run)),
         depends_on=run.frame.depends_on + (sound(dependencies(action.depends_on, run)) or ()),
         labels=run.frame.labels,
-        limits=sound(limits(action.limits, run)),
+        limits=sound(_limits(action, run)),
         stdin=sound(_stdin(action, run)),
         warm=sound(run.flag(action.warm)),
         location=location,
@@ -285,3 +285,11 @@ def _environment(action: Running, run: Resolution) -> dict[str, tuple[Environmen
         change = EnvironmentChange(value.text, run.place(pair.value), value.through)
         changes[name] = with_change(changes.get(name, ()), change)
     return changes
+
+
+def _limits(action: Running, run: Resolution) -> Limits | Poison | None:
+    if action.limits is None:
+        return None
+    from orchestra.resolve.limits import limits  # noqa: PLC0415 - few processes have some
+
+    return limits(action.limits, run)
