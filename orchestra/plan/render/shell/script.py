@@ -10,11 +10,14 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
+from orchestra.plan.model import Component, Process
 from orchestra.plan.parameter_file import contents
 from orchestra.plan.reactions import StartAction
 from orchestra.plan.render.setting import Additions, Setting
 from orchestra.plan.render.shell import process as one
 from orchestra.plan.render.shell import waiting
+from orchestra.plan.render.shell.order import in_order
 from orchestra.plan.render.shell.words import comment, is_name, word, written, written_bytes
 from orchestra.plan.render.triggers import trigger_lines
 from orchestra.values import Stop
@@ -22,7 +25,7 @@ from orchestra.values import Stop
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
 
-    from orchestra.plan.model import Component, Plan, Process
+    from orchestra.plan.model import Plan
 
 _HEAD = """\
 # Whoever starts it with sh gets bash, which is what it is written for.
@@ -149,10 +152,15 @@ done
 def render(plan: Plan, setting: Setting = Setting(), /) -> str:  # noqa: B008 - it is frozen
     """Return the script. Bytes that are no Unicode are surrogates in it, as the system's own calls have them."""
     additions = setting.additions or Additions()
-    order = _in_order(plan)
-    numbers = {process.id: number for number, process in enumerate(order, 1)}
-    late = dict(_late(plan))
-    first = [process for process in order if process.id not in _held(plan)]
+    order = in_order(plan)
+    whole = _Whole(
+        {process.id: number for number, process in enumerate(order, 1)},
+        {process.id: process for process in order},
+        _loaded(plan.components),
+        additions,
+    )
+    late, held = dict(_late(plan)), _held(plan)
+    first = [process for process in order if process.id not in held]
     then = [process for process in order if process.id in late]
     sections = [
         ["#!/usr/bin/env bash", *_introduction(plan)],
@@ -160,9 +168,9 @@ def render(plan: Plan, setting: Setting = Setting(), /) -> str:  # noqa: B008 - 
         *_environment(additions),
         *_files(plan),
         [*_FUNCTIONS.splitlines(), f"grace={_grace(plan)}"],
-        *(_section(process, numbers, plan, additions, None) for process in first),
+        *(_section(process, whole, None) for process in first),
         *(
-            _section(process, numbers, plan, additions, late[process.id])
+            _section(process, whole, late[process.id])
             for process in sorted(then, key=lambda item: late[item.id])
         ),
         _END.splitlines(),
@@ -205,19 +213,6 @@ def _files(plan: Plan) -> Iterator[list[str]]:
             yield written(path, text)
 
 
-def _in_order(plan: Plan) -> list[Process]:
-    """Return the processes so that each follows what it waits for, else as in the plan."""
-    waiting_for = {process.id: {edge.process for edge in process.depends_on} for process in plan.processes}
-    ordered: list[Process] = []
-    left = list(plan.processes)
-    while left:
-        names = {process.id for process in left}
-        free = [process for process in left if not waiting_for[process.id] & names]
-        ordered += free or left  # in a circle, which is an error of the plan, any order is as good
-        left = [process for process in left if process not in free] if free else []
-    return ordered
-
-
 def _held(plan: Plan) -> set[str]:
     """Return the processes that do not start with the run."""
     return {
@@ -243,21 +238,28 @@ def _grace(plan: Plan) -> int:
     return max(1, round(10 * max(max(stop.timeout, stop.kill_timeout) for stop in stops)))
 
 
-def _section(
-    process: Process, numbers: dict[str, int], plan: Plan, additions: Additions, delay: float | None
-) -> list[str]:
-    number = numbers[process.id]
+@dataclass(frozen=True, slots=True)
+class _Whole:
+    """What of the whole plan counts for each process: numbers and processes by name, components by their process."""
+
+    numbers: dict[str, int]
+    others: dict[str, Process]
+    loaded: dict[str, list[Component]]
+    additions: Additions
+
+
+def _section(process: Process, whole: _Whole, delay: float | None) -> list[str]:
+    number = whole.numbers[process.id]
     starting = [f"names[{number}]={word(process.id)}"]
     starting += [f"signals[{number}]={(process.stop or Stop()).signal.removeprefix('SIG')}"]
     starting += [f"wanted[{number}]=1"] if process.required else []
-    starting += one.start(process, number, additions)
-    others = {other.id: other for other in plan.processes}
+    starting += one.start(process, number, whole.additions)
     return [
-        *one.introduction(process, _loaded(plan.components)),
-        *one.around(process, number, additions),
+        *one.introduction(process, whole.loaded),
+        *one.around(process, number, whole.additions),
         *waiting.probe(process, number),
         *([] if delay is None else [f"wait_until {round(1000 * delay)}"]),
-        *_conditional(process.id, waiting.waits(process, numbers, others), starting),
+        *_conditional(process.id, waiting.waits(process, whole.numbers, whole.others), starting),
     ]
 
 
