@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.launch_ros.plain_texts import (
     UnusualError,
+    composed,
     copied,
     entity,
-    joined,
     plain_text,
     whole_text,
 )
@@ -66,7 +66,7 @@ def _entries(
             called = new_template(parts, written + escaped(key), span)
         else:
             called = matched_words(key, False, call, path)  # type: ignore[arg-type] # its groups are paths
-        read, own[key] = _value(value, argument(call.place, (*path, name)))
+        read, own[key] = _value(value, call, (*path, name))
         made.append(_param({"name": called, "value": read}, span))
     return own
 
@@ -76,11 +76,11 @@ def _param(fields: dict[str, Any], span: Span) -> Param:
     return made
 
 
-def _value(value: Any, span: Span) -> tuple[Any, Any]:
+def _value(value: Any, call: Arguments, path: tuple[Way, ...]) -> tuple[Any, Any]:
     """Return what the value of a parameter is to the model, and a copy of it."""
     kind = type(value)
     if kind in _SCALARS:
-        return new_constant(value, span), value
+        return new_constant(value, argument(call.place, path)), value
     if kind is not list and kind is not tuple:
         return whole_text(value), value
     kinds = set(map(type, value))
@@ -88,8 +88,8 @@ def _value(value: Any, span: Span) -> tuple[Any, Any]:
         if len(kinds) > 1 and kinds not in ({int, float}, {bool, int}):
             raise UnusualError
         items = map(float, value) if kinds == {int, float} else value
-        return new_constant(tuple(items), span), kind(value)
-    return joined(value, span), kind(value)
+        return new_constant(tuple(items), argument(call.place, path)), kind(value)
+    return composed(value, call, path), kind(value)
 
 
 _SCALARS: Final = frozenset({str, bool, int, float})
