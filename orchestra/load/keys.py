@@ -12,7 +12,6 @@ from orchestra.description.actions import ACTIONS
 from orchestra.description.source import Keyed, Listed
 from orchestra.errors import Code
 from orchestra.load.elements import Tagged, emptied, noun
-from orchestra.load.made_values import made_value
 from orchestra.load.pairs import whole_item, written_item
 from orchestra.load.words import ELSEWHERE, HINTS, KEYS_ELSEWHERE, snake
 from orchestra.nearest import is_slip, nearest
@@ -158,7 +157,7 @@ class _Strangers:
         if joined is not None and spelled(joined[1]) in self.known:
             message, instead = _parted(*joined.groups())
             stands_for = frozenset({spelled(joined[1])})
-        elif self.pairs_with_value and (made := made_value(key, self.mapping)) is not None:
+        elif self.pairs_with_value and (made := _made(key, self.mapping)) is not None:
             at, instead = made
             stands_for = frozenset({"value"})
         elif near is None and self.pair is not None:
@@ -202,3 +201,10 @@ def _is_within(word: str, name: str) -> bool:
 def as_written(key: str, word: str) -> str:
     """Return a key with the joint of the word that stands for it."""
     return key.replace("_", "-") if "-" in word and "_" not in word else key
+
+
+def _made(key: str, mapping: Keyed) -> tuple[Span, str] | None:
+    """See `made_value`, which only an unknown key needs."""
+    from orchestra.load.made_values import made_value  # noqa: PLC0415
+
+    return made_value(key, mapping)

@@ -17,7 +17,6 @@ from orchestra.patterns import pattern
 from orchestra.resolve.context import Value
 from orchestra.resolve.model import FileParameters
 from orchestra.resolve.near_paths import near_path
-from orchestra.resolve.other_kinds import refused_as_parameters
 from orchestra.resolve.paths import beside, existing_file, folder_of
 from orchestra.resolve.rcl.files import read_kept, read_plain_file
 from orchestra.resolve.rcl.sections import included
@@ -126,7 +125,7 @@ def read_file(
         text, back, reads = evaluated
     bare = plain and SECTION_KEY not in text
     sections, whole, found = _read(text, file, bare=bare)
-    if not sections and refused_as_parameters(path, text, location, run):
+    if not sections and _is_refused(path, text, location, run):
         return None
     for problem in found:
         span = back(problem.span) if back is not None and problem.span is not None else problem.span
@@ -178,3 +177,10 @@ def _text(path: str, location: Location, chain: tuple[Span, ...], run: Resolutio
         at = Location(point(displayed(path, real), error.line, error.column), chain)
         run.problems.error(Code.PARAMETER_SYNTAX, str(error), at)
     return None
+
+
+def _is_refused(path: str, text: str, location: Location, run: Resolution) -> bool:
+    """See `refused_as_parameters`, which only a file without parameters needs."""
+    from orchestra.resolve.other_kinds import refused_as_parameters  # noqa: PLC0415
+
+    return refused_as_parameters(path, text, location, run)
