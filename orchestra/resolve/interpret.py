@@ -93,15 +93,16 @@ def visit(actions: Iterable[Action], run: Resolution) -> None:
         if conditional:
             run.found.visited.add(id(action))
         outer = run.held
-        if conditional and (action.origin is not None or type(action).__name__ not in _LEAVES):
+        origin = action.origin
+        if conditional and (origin is not None or type(action).__name__ not in _LEAVES):
             run.held = (*outer, *_held(action, run))
-        if action.origin is None:
+        if origin is None:
             _visitor(type(action).__name__).visit(action, run)
         else:
-            run.around = (*around, action.origin)
+            run.around = (*around, origin)
             _visitor(type(action).__name__).visit(action, run)
             run.around = around
-            run.found.carried_out[id(action.origin)] = action.origin
+            run.found.carried_out[id(origin)] = origin
         run.conditions -= conditional
         run.held = outer
     run.depth -= 1

@@ -38,6 +38,7 @@ from orchestra.resolve.scalars import (
     read_alike,
     unified,
     upstream_value,
+    value_alike,
 )
 from orchestra.resolve.worded import look_at_paths
 from orchestra.resolve.wrong_lists import meant_as_text, odd_in_text, odd_place, wrong_as_a_whole
@@ -71,14 +72,13 @@ def parameters(
             found.append(None)  # it may be no parameter at all: a remap stands where one belongs
         elif param.from_ is not None:
             substitute = run.flag(param.allow_substs, default=False)
-            sound_flag = isinstance(substitute, bool)
             file = file_parameters(param.from_, run, substitute=substitute is True, plain=component)
-            found.append(file if sound_flag else None)
+            found.append(file if isinstance(substitute, bool) else None)
         else:
             found += _inline(param, (), run, everywhere=isinstance(param, Override), quotes=quotes)
     sound = tuple([item for item in found if item is not None])
-    whole = len(sound) == len(found)
-    return sound, whole and all(item.sound for item in sound if type(item) is FileParameters)
+    files = [item for item in sound if type(item) is FileParameters]
+    return sound, len(sound) == len(found) and all(item.sound for item in files)
 
 
 def everywhere(action: SetParameter, run: Resolution) -> list[InlineParameter | None]:
@@ -167,7 +167,7 @@ def _inline(
         return [item for nested in param.param for item in below(nested)]
     if param.value is None:
         return [None]
-    type_word = run.word(param.type, VALUE_TYPES)
+    type_word = None if param.type is None else run.word(param.type, VALUE_TYPES)
     if isinstance(type_word, Poison):
         return [None]
     written = param.value
@@ -210,7 +210,7 @@ def _read_at_once(param: Param | SetParameter, *, quotes: bool) -> ParameterValu
         return items_alike(value) if isinstance(value, Items) and param.type is None else None
     if type(value) is MatchedTemplate:
         text = value.constant
-        return None if not text else text if value.quoted and quotes else read_alike(text)
+        return None if not text else text if value.quoted and quotes else value_alike(text)
     part = value.parts[0] if len(value.parts) == 1 and not value.faulty else None
     if type(part) is not Words:
         return None

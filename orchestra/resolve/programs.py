@@ -75,6 +75,9 @@ def packaged_words(
     For a package that is not on this machine they name the place symbolically; whether that is an error is decided
     where it is reported.
     """
+    known = (package.text, executable.text, run.scope.environment.get("PATH", os.defpath))
+    if known in run.packaged:
+        return run.packaged[known]
     packages = run.context.packages
     own = own_words(package, executable, written[0], run)
     if own is not None:
@@ -94,7 +97,11 @@ def packaged_words(
         if is_another(package.text, packages.share(package.text), run.context.file):
             return _elsewhere(package, executable, written, run)
         return report_missing_executable(executable.text, package.text, written[1], run.context, executable)
-    return words if _is_runnable(words[0], executable.location, run) else POISON
+    if not _is_runnable(words[0], executable.location, run):
+        return POISON
+    if (words[0], known[2]) in run.startable:  # there is nothing to tell of it
+        run.packaged[known] = words
+    return words
 
 
 def _elsewhere(

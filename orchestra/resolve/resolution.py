@@ -67,8 +67,8 @@ class Frame:
 class Resolution:
     """Where the visit is, and what it may use. `around` are the objects of Python launch files that it is inside of.
 
-    `startable` has the programs that have been found to be there and sound, each with the search path; `components`
-    are those that distributions declare, by where code is imported from.
+    `startable` has the programs that have been found to be there and sound, each with the search path, `packaged` the
+    words of those of packages. `components` are what distributions declare, by where code is imported from.
     """
 
     inputs: Inputs
@@ -87,6 +87,7 @@ class Resolution:
     repetitions: int = 0
     held: tuple[Held, ...] = ()
     startable: set[tuple[str, str]] = field(default_factory=set)
+    packaged: dict[tuple[str, str, str], tuple[str, ...]] = field(default_factory=dict)
     components: dict[tuple[str, ...], tuple[Any, ...]] = field(default_factory=dict)
     descriptions: dict[str, Description | None] = field(default_factory=dict)
     parameter_files: dict[tuple[str, bool], FileParameters | None] = field(default_factory=dict)

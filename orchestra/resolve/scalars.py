@@ -66,7 +66,7 @@ def differs(text: str) -> str | None:
 
     A text that upstream cannot read is no surprise but an error: None too.
     """
-    if read_alike(text) is not None or _list_alike(text) is not None:
+    if value_alike(text) is not None:
         return None
     try:
         upstream = upstream_value(text)
@@ -151,6 +151,12 @@ def read_alike(text: str) -> Scalar | None:
     return text if _WORD.fullmatch(text) and text.lower() not in _MEANT else None
 
 
+def value_alike(text: str) -> ParameterValue | None:
+    """Return what a text is to everybody who reads it, also a list in brackets; None where that is not plain to see."""
+    scalar = read_alike(text)
+    return _list_alike(text) if scalar is None else scalar
+
+
 def items_alike(items: Sequence[Template]) -> ParameterValue | None:
     """Return what the items of a list in a file are to everybody, None where that takes a closer look."""
     values: list[Any] = []
@@ -180,9 +186,7 @@ def _is_text(text: str) -> bool:
 
 
 def _value(text: str, construct: Construct) -> ParameterValue:
-    alike: ParameterValue | None = read_alike(text)
-    if alike is None:
-        alike = _list_alike(text)
+    alike = value_alike(text)
     if alike is not None:
         return alike
     return (_parsed if len(text) > _LONGEST_KEPT else _parsed_once)(text, construct)

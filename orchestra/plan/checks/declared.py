@@ -102,9 +102,10 @@ def _known(package: str | None, called: str) -> ParameterSchema | None:
 
 
 def _of_every_node(values: dict[str, ParameterValue]) -> Iterable[Fault]:
-    if all(isinstance(values.get(name, True), bool) for name in COMMON) and not any(
-        map(common_meant, values)
-    ):
+    typed = COMMON.keys().isdisjoint(values) or all(
+        isinstance(values.get(name, True), bool) for name in COMMON
+    )
+    if typed and not any(map(common_meant, values)):
         return ()
     from orchestra.declared.judging import of_every_node  # noqa: PLC0415 - hardly any description needs it
 
