@@ -2,7 +2,7 @@
 
 A node of rclcpp refuses a value of another type and ends, and drops names that it does not declare without a word. Of
 another version than the one here a node may declare more: so a name is told only where it is a slip for one of these,
-and everything as a warning. Source: the nodes' own code, Jazzy.
+and everything as a warning. Source: the nodes' own code, Humble to Jazzy.
 """
 
 from __future__ import annotations
@@ -33,7 +33,9 @@ _WORD: Final = pattern(r"[a-z]+(?=_|$)")
 def known_schema(package: str | None, called: str) -> ParameterSchema | None:
     """Return the schema of a node that is started by an executable of a package, or by a class; None for others."""
     known = NODES.get((package or "", called))
-    return None if known is None else _Known(DeclaredParameters(_declarations(known)), known)
+    if known is None:
+        return None
+    return _Known(DeclaredParameters(_declarations(known)), known, f"{called} of {package}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,16 +44,31 @@ class _Known:
 
     declared: DeclaredParameters
     known: Known
+    source: str
 
     def faults(self, values: Mapping[str, ParameterValue]) -> Iterator[Fault]:
         """Yield what is wrong with values by dotted name."""
+        for fault in self._faults(values):
+            yield replace(fault, certain=False, source=self.source)
+
+    def _faults(self, values: Mapping[str, ParameterValue]) -> Iterator[Fault]:
         for fault in self.declared.faults(values):
-            if fault.kind != "undeclared" or self._is_slip(fault, values):
-                yield replace(fault, certain=False)
+            if fault.kind != "undeclared":
+                if self._is_read(fault.name, values):
+                    yield fault
+            elif self._is_slip(fault, values):
+                yield fault
             elif (meant := self._numbered(fault.name, values)) is not None:
-                yield replace(fault, meant=meant, certain=False)
+                yield replace(fault, meant=meant)
         if _WORLD in self.known.texts:
             yield from _of_frames(values)
+
+    def _is_read(self, name: str, values: Mapping[str, ParameterValue]) -> bool:
+        """Return whether the node declares a name, given the parameters that decide whether it does."""
+        for item, decides in self.known.only_where:
+            if (found := re.search(item, name)) is not None:
+                return values.get(decides or found[1], False) is not False
+        return True
 
     def _is_slip(self, fault: Fault, values: Mapping[str, ParameterValue]) -> bool:
         meant = fault.meant
@@ -86,9 +103,11 @@ def _declarations(known: Known) -> Declarations:
 
 
 def _of_frames(values: Mapping[str, ParameterValue]) -> Iterator[Fault]:
-    """Yield that the world of a filter is neither of the two frames that it can be."""
+    """Yield that the world of a filter that publishes transforms is neither of the two frames that it can be."""
+    if values.get("publish_tf") is False:
+        return  # then the name is that of the frame in messages, and may be any
     world = values.get(_WORLD)
     frames = [values.get(name, default) for name, default in _FRAMES.items()]
     if isinstance(world, str) and world not in frames:
         told = f"'{_WORLD}' must be the value of map_frame or of odom_frame, not '{world}'"
-        yield Fault("value", _WORLD, told, str(frames[-1]), certain=False)
+        yield Fault("value", _WORLD, told, str(frames[-1]), whole=True)

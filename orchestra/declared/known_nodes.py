@@ -1,6 +1,7 @@
 """The parameters that well-known nodes declare: a row for each kind of value, names apart by blanks.
 
-`sized` are patterns of names with a type and with a number of items, None for any. Source: the nodes' own code.
+`sized` are patterns of names with a type and with a number of items, None for any. Source: the nodes' own code, where
+every row is of one type from Humble to Jazzy.
 """
 
 from __future__ import annotations
@@ -9,11 +10,16 @@ from typing import Final
 
 from orchestra.dataclass import dataclass
 from orchestra.declared.model import RosType
+from orchestra.fields import replace
 
 
 @dataclass(frozen=True, slots=True)
 class Known:
-    """What one node declares; below `groups` may be anything."""
+    """What one node declares; below `groups` may be anything.
+
+    `only_where` are patterns of names that the node declares only where the first group, or else the second item, is a
+    parameter that is given, and not false: of others it reads nothing.
+    """
 
     truths: tuple[str, ...] = ()
     integers: tuple[str, ...] = ()
@@ -22,6 +28,7 @@ class Known:
     lists: tuple[str, ...] = ()
     sized: tuple[tuple[str, RosType, int | None], ...] = ()
     groups: tuple[str, ...] = ()
+    only_where: tuple[tuple[str, str | None], ...] = ()
 
 
 def _names(text: str) -> tuple[str, ...]:
@@ -58,10 +65,13 @@ _FILTER: Final = Known(
         (r"^initial_state$", "double_array", 15),
         (r"^(?:initial_estimate|process_noise)_covariance$", "double_array", None),
     ),
+    only_where=(
+        (r"^((?:imu|odom|pose|twist)\d+)_", None),
+        (r"^(?:control_config|(?:acceleration|deceleration)_(?:gains|limits))$", "use_control"),
+        (r"^debug_out_file$", "debug"),
+    ),
 )
-_UNSCENTED: Final = Known(
-    _FILTER.truths, (), (*_FILTER.doubles, "alpha", "beta", "kappa"), _FILTER.texts, (), _FILTER.sized
-)
+_UNSCENTED: Final = replace(_FILTER, doubles=(*_FILTER.doubles, "alpha", "beta", "kappa"))
 _NAVSAT: Final = Known(
     truths=_names(
         """broadcast_cartesian_transform broadcast_cartesian_transform_as_parent_frame broadcast_utm_transform
@@ -72,8 +82,8 @@ _NAVSAT: Final = Known(
 )
 _AMCL: Final = Known(
     truths=_names(
-        """always_reset_initial_pose do_beamskip first_map_only set_initial_pose tf_broadcast freespace_downsampling
-        use_map_topic"""
+        """always_reset_initial_pose do_beamskip first_map_only freespace_downsampling set_initial_pose
+        tf_broadcast"""
     ),
     integers=_names("max_beams max_particles min_particles resample_interval"),
     doubles=_names(

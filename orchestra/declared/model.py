@@ -65,7 +65,9 @@ class Fault:
     """What is wrong with the parameters of a node.
 
     `name` is that of the parameter, or of the group, that is meant; `item` the index of an item of a list. `meant` is
-    the value or the name that should stand there, as YAML has it. What is not `certain` may be as it is to be.
+    the value or the name that should stand there, as YAML has it. What is not `certain` may be as it is to be; what
+    is `whole` is about all values, and nothing where one is given that is not known. `source` is the program in whose
+    code it is so, where neither the description nor the package has a schema.
     """
 
     kind: FaultKind
@@ -74,6 +76,8 @@ class Fault:
     meant: str | None = None
     item: int | None = None
     certain: bool = True
+    whole: bool = False
+    source: str | None = None
 
 
 class ParameterSchema(Protocol):

@@ -25,7 +25,6 @@ _FLAGS = (True, False, True) * 5
         ("freqency", 30.0, "frequency"),
         ("odom0_cofnig", _FLAGS, "odom0_config"),
         ("twist_config", _FLAGS, "twist0_config"),
-        ("imu0_config", _FLAGS[:14], None),
         ("initial_state", (0.0,) * 14, None),
         ("world_frame", "base_link", "odom"),
     ],
@@ -42,6 +41,9 @@ def test_a_parameter_of_a_filter_is_told(name: str, value: ParameterValue, meant
     [
         {"frequency": 30.0, "imu0": "imu/data", "imu0_config": _FLAGS, "imu0_queue_size": 5},
         {"world_frame": "map"},
+        {"world_frame": "utm", "publish_tf": False},
+        {"odom1_config": _FLAGS[:14], "odom1_queue_size": 10.0},
+        {"use_control": False, "control_config": (True,), "acceleration_limits": (1, 0, 0, 0, 0, 3)},
         {"world_frame": "robot1/odom", "odom_frame": "robot1/odom"},
         {"odom0_nodelay": True, "use_sim_time": True, "a_new_one": 1},
         {"twist0": "speed", "twist1": "speed", "process_noise_covariance": (0.1,) * 225},
@@ -52,6 +54,20 @@ def test_what_may_be_right_stays_silent(values: dict[str, ParameterValue]) -> No
     schema = known_schema("robot_localization", "ekf_node")
     assert schema is not None
     assert list(schema.faults(values)) == []
+
+
+@pytest.mark.parametrize(
+    "values",
+    [
+        {"imu0": "imu/data", "imu0_config": _FLAGS[:14]},
+        {"use_control": True, "control_config": (True,)},
+        {"use_control": True, "acceleration_limits": (1, 0, 0, 0, 0, 3)},
+    ],
+)
+def test_what_the_node_looks_at_is_told(values: dict[str, ParameterValue]) -> None:
+    schema = known_schema("robot_localization", "ekf_node")
+    assert schema is not None
+    assert [fault.name for fault in schema.faults(values)] == [list(values)[-1]]
 
 
 def test_a_number_that_is_left_out_is_the_first_that_is_free() -> None:

@@ -40,7 +40,7 @@ def check_declared(resolved: Resolved, plan: Plan, problems: Problems) -> None:
         schema, named = schemas.of(node)
         faults = _of_every_node(planned.parameters) if schema is None else schema.faults(planned.parameters)
         for fault in faults:
-            if fault.kind != "missing" or _is_whole(node):
+            if not (fault.whole or fault.kind == "missing") or _is_whole(node):
                 written = places.of(fault.name, node, planned)
                 problem = _problem(fault, written, node, named=named)
                 if fault.kind == "value" and _line(problem) in broken:
@@ -137,8 +137,14 @@ def _problem(
         at.span,
         at.included_from,
         suggestion,
-        notes,
+        notes if fault.source is None else (*notes, _source(fault)),
     )
+
+
+def _source(fault: Fault) -> str:
+    """Return from where a fault is known, and what to do where the node at hand is another."""
+    silenced = f"'orchestra: ignore[{_CODES[fault.kind]}]'"
+    return f"so it is in the code of {fault.source} (Humble to Jazzy); a comment with {silenced} silences it"
 
 
 def _is_lenient(fault: Fault, at: Location, *, named: bool) -> bool:

@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import pytest
+
 from orchestra.errors import Code
 from tests.plan.checks.told import told
+from tests.resolve.launching import outcome
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -39,4 +42,42 @@ def test_values_and_names_that_a_known_node_does_not_take_are_told(tmp_path: Pat
         (Code.DECLARED_TYPE, "1", "true"),
         (Code.DECLARED_TYPE, "30", "30.0"),
         (Code.UNDECLARED_PARAMETER, "odom0_cofnig", "odom0_config"),
+    ]
+
+
+_WORLD = """\
+launch:
+- arg: {name: earth}
+- node:
+    pkg: robot_localization
+    exec: ekf_node
+    name: ekf
+    param: [{name: world_frame, value: earth}, %s]
+"""
+
+
+@pytest.mark.parametrize(
+    ("more", "expected"),
+    [
+        ("{name: frequency, value: 30.0}", [(Code.REFUSED_VALUE, "earth", "odom")]),
+        ("{name: map_frame, value: $(var earth)}", []),
+        ("{from: $(find-pkg-share not_here)/p.yaml}", []),
+    ],
+)
+def test_a_frame_is_wrong_only_where_all_others_are_known(
+    more: str, expected: list[tuple[Code, str, str]], tmp_path: Path
+) -> None:
+    found = told(tmp_path, {"main.launch.yaml": _WORLD % more})
+    assert [item for item in found if item[0] is Code.REFUSED_VALUE] == expected
+
+
+def test_it_is_told_from_where_a_parameter_is_known(tmp_path: Path) -> None:
+    files = {"main.launch.yaml": _WORLD % "{name: frequency, value: 30}"}
+    report = outcome(tmp_path, files, launching=False).problems.ordered
+    notes = [problem.notes for problem in report if problem.code is Code.DECLARED_TYPE]
+    assert notes == [
+        (
+            "so it is in the code of ekf_node of robot_localization (Humble to Jazzy); "
+            "a comment with 'orchestra: ignore[ORC092]' silences it",
+        )
     ]
