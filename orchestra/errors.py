@@ -141,11 +141,14 @@ class Problems:
 
     _found: dict[tuple[object, ...], Problem] = field(default_factory=dict)
     silencing: set[tuple[str, int]] = field(default_factory=set)
+    _by_place: dict[tuple[object, ...], list[Problem]] = field(default_factory=dict)
 
     def report(self, problem: Problem) -> None:
         """Keep a problem unless the same one stands already at this place."""
         key = (problem.code, problem.span, problem.message)
         known = self._found.get(key)
+        if known is None:
+            self._by_place.setdefault(key[:2], []).append(problem)
         if known is None or len(problem.included_from) < len(known.included_from):
             self._found[key] = problem
 
@@ -192,10 +195,24 @@ class Problems:
 
     def amend(self, amended: Callable[[Problem], Problem | None]) -> None:
         """Put another problem in place of each, or none; those that come to be the same are one."""
-        found, self._found = self._found, {}
+        found, self._found, self._by_place = self._found, {}, {}
         for problem in map(amended, found.values()):
             if problem is not None:
                 self.report(problem)
+
+    def take_back(self, code: Code, span: Span | None) -> None:
+        """Forget what was reported with a code at a place."""
+        for problem in self._by_place.pop((code, span), ()):
+            self._found.pop((code, span, problem.message), None)
+
+    def withdraw(self, problem: Problem) -> None:
+        """Forget a problem."""
+        self._found.pop((problem.code, problem.span, problem.message), None)
+
+    @property
+    def last(self) -> Problem | None:
+        """The problem that was reported last, None where there is none."""
+        return next(reversed(self._found.values()), None)
 
     def forget(self, code: Code, first: int) -> None:
         """Forget the problems of a code but for those among the first so many."""

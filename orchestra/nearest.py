@@ -27,13 +27,28 @@ _STEPS_OF_LETTERS: Final = 4
 _STEPS_OF_A_RATIO: Final = 16
 
 _left = [_STEPS]
+_renewals = [0]
 
 
 def renew() -> None:
     """Begin with another launch file, for which as much is looked at as for any."""
     _left[0] = _STEPS
+    _renewals[0] += 1
     _nearest.cache_clear()
     _first_slip.cache_clear()
+
+
+def may_look(steps: int) -> bool:
+    """Return whether so many steps may be taken still to look for what was meant; then they are taken."""
+    if _left[0] <= 0:
+        return steps <= _FEW
+    _left[0] -= steps
+    return True
+
+
+def renewals() -> int:
+    """Return how many launch files have been begun with: what was seen for one may have changed for the next."""
+    return _renewals[0]
 
 
 def one_slip(word: str, candidates: Sequence[str]) -> str | None:

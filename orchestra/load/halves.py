@@ -31,11 +31,11 @@ class Halves:
         adjoining = end is not None and at.line == end.end_line + 1 and at.column == before.column
         if _FIRST.get(key) != first or not adjoining:
             return False
-        lacked = next(reversed(tuple(self.problems)), None)
+        lacked = self.problems.last
         if lacked is None or lacked.span != before:
             return False
         told = f"`{key}` belongs to the item before: the '- ' that makes it one of its own is too many"
-        self.problems.amend(lambda problem: None if problem == lacked else problem)
+        self.problems.withdraw(lacked)
         self.problems.report(
             Problem(Code.MISSING_KEY, lacked.severity, told, at, lacked.included_from, None, ())
         )

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import os
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from orchestra.location import is_file
-from orchestra.nearest import nearest
+from orchestra.nearest import may_look, nearest, renewals
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
@@ -30,6 +32,36 @@ _GENERAL: Final = frozenset(
         "test",
     }
 )
+_STEPS_OF_A_LOOK: Final = 3  # at a file, in steps of what is looked for
+
+
+class _Listed:
+    """What is in a folder. It is read once for a launch file, in which a thousand files of one folder may be missing.
+
+    `files` and `folders` are names; `entries` are all of them by what stands before their first dot, `of_files` files.
+    """
+
+    def __init__(self, folder: str) -> None:
+        self.files, self.folders = list[str](), list[str]()
+        with os.scandir(folder) as entries:
+            for entry in entries:
+                (self.folders if entry.is_dir() else self.files).append(entry.name)
+
+    @cached_property
+    def of_files(self) -> dict[str, list[str]]:
+        return _by_stem(self.files)
+
+    @cached_property
+    def entries(self) -> dict[str, list[str]]:
+        return _by_stem([*self.files, *self.folders])
+
+    @cached_property
+    def said(self) -> dict[str, list[tuple[str, set[str]]]]:
+        """Files by their ending, with what their names say."""
+        found = dict[str, list[tuple[str, set[str]]]]()
+        for name in self.files:
+            found.setdefault(Path(name).suffix, []).append((name, _said(name)))
+        return found
 
 
 def near_path(path: Path, written: str) -> str | None:
@@ -65,14 +97,14 @@ def related_names(path: Path) -> tuple[tuple[str, str], ...]:
 
     Such is `ekf.yaml` for `ekf_params.yaml`: less than a near name, for a file that must be there all the same.
     """
-    try:
-        names = [entry.name for entry in path.parent.iterdir() if entry.is_file()]
-    except (OSError, ValueError):
+    listed = _listed(path.parent)
+    alike = listed.said.get(path.suffix, ()) if listed is not None and path.suffix else ()
+    if not may_look(len(alike)):
         return ()
     wanted = _said(path.name)
-    shared = {name: len(wanted & _said(name)) for name in names if Path(name).suffix == path.suffix != ""}
-    most = max(shared.values(), default=0)
-    best = [name for name, number in shared.items() if number == most]
+    shared = [(len(wanted & said), name) for name, said in alike]
+    most = max((number for number, _ in shared), default=0)
+    best = [name for number, name in shared if number == most]
     return ((path.name, best[0]),) if most and len(best) == 1 else ()
 
 
@@ -106,10 +138,10 @@ def _elsewhere(there: Path, names: Sequence[str]) -> tuple[tuple[str, str], ...]
 
 def _one_folder_below(folder: Path, name: str) -> str | None:
     """Return the name of a file with the one folder below that has it, None where none or several have it."""
-    try:
-        found = [entry.name for entry in folder.iterdir() if (entry / name).is_file()]
-    except (OSError, ValueError):
+    listed = _listed(folder)
+    if listed is None or not may_look(_STEPS_OF_A_LOOK * len(listed.folders)):
         return None
+    found = [other for other in listed.folders if is_file(f"{folder}/{other}/{name}")]
     return f"{found[0]}/{name}" if len(found) == 1 else None
 
 
@@ -118,16 +150,33 @@ def _near(folder: Path, name: str, *, is_last: bool) -> str | None:
 
     The last name of a path is that of a folder only where it has no ending.
     """
-    is_file = is_last and bool(Path(name).suffix)
+    listed = _listed(folder)
+    if listed is None:
+        return None
+    stem, stems = _stem(name), listed.of_files if is_last and Path(name).suffix else listed.entries
+    meant = stem if stem in stems else nearest(stem, stems)
+    alike = [] if meant is None else stems[meant]
+    return nearest(name, alike) or min(alike, default=None)
+
+
+def _listed(folder: Path) -> _Listed | None:
+    """Return what is in a folder, None where it cannot be read."""
+    return _read(str(folder), renewals())
+
+
+@lru_cache(maxsize=32)
+def _read(folder: str, _renewals: int) -> _Listed | None:
     try:
-        names = [entry.name for entry in folder.iterdir() if not (is_file and entry.is_dir())]
+        return _Listed(folder)
     except (OSError, ValueError):
         return None
-    stem = _stem(name)
-    stems = {_stem(other) for other in names}
-    meant = stem if stem in stems else nearest(stem, stems)
-    alike = [other for other in names if _stem(other) == meant]
-    return nearest(name, alike) or min(alike, default=None)
+
+
+def _by_stem(names: Iterable[str]) -> dict[str, list[str]]:
+    found = dict[str, list[str]]()
+    for name in names:
+        found.setdefault(_stem(name), []).append(name)
+    return found
 
 
 def _said(name: str) -> set[str]:

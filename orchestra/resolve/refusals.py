@@ -104,10 +104,7 @@ def made_at(value: Value) -> Location | None:
 
 def forget_surprise(at: Span, problems: Problems) -> None:
     """Take back the warning that a value is surprising where it is told to be wrong."""
-    if any(problem.span == at and problem.code is Code.SURPRISING_SCALAR for problem in problems):
-        problems.amend(
-            lambda known: None if known.span == at and known.code is Code.SURPRISING_SCALAR else known
-        )
+    problems.take_back(Code.SURPRISING_SCALAR, at)
 
 
 def set_by_code(value: Value) -> Location | None:

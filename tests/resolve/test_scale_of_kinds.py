@@ -40,11 +40,24 @@ def _silenced(count: int) -> str:
     )
 
 
+def _of_no_package(count: int) -> str:
+    return "\n".join(
+        f"- node: {{pkg: brinugp, exec: simulation, name: n{number}}}" for number in range(count)
+    )
+
+
+def _in_halves(count: int) -> str:
+    pairs = "".join(f"    - name: p{number}\n    - value: 1\n" for number in range(count))
+    return f"- node:\n    exec: /bin/true\n    name: n\n    param:\n{pairs}"
+
+
 _KINDS: dict[str, Callable[[int], str]] = {
     "arguments of an include": _given,
     "parameters that nobody declares": _undeclared,
     "values of one parameter": _overruled,
     "problems that a comment silences": _silenced,
+    "nodes of a package that is not here": _of_no_package,
+    "items that are two": _in_halves,
 }
 
 

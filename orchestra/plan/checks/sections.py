@@ -9,6 +9,7 @@ is missing without any such is told at the reference.
 
 from __future__ import annotations
 
+from functools import cached_property
 from typing import TYPE_CHECKING, TypeAlias
 
 from orchestra.dataclass import dataclass
@@ -22,7 +23,7 @@ from orchestra.resolve.rcl.patterns import matches
 from orchestra.resolve.typos import is_typo
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Mapping, Sequence
+    from collections.abc import Collection, Iterable, Mapping, Sequence
 
     from orchestra.errors import Problems
     from orchestra.plan.model import Plan
@@ -83,9 +84,21 @@ class _Names:
             return _absolute(pattern) in self._names
         if pattern not in self._known:
             last = pattern.rpartition("/")[2]
-            names = self._names if "*" in last else self._lasts.get(last, ())
+            names: Collection[str] = self._names if "*" in last else self._lasts.get(last, ())
+            if len(names) > 1:
+                names = min(names, self._below.get(_absolute(pattern).partition("/*")[0], ()), key=len)
             self._known[pattern] = any(matches(pattern, name) for name in names)
         return self._known[pattern]
+
+    @cached_property
+    def _below(self) -> dict[str, list[str]]:
+        """The names by each that they are or stand below: patterns may begin with as many namespaces as there are."""
+        below: dict[str, list[str]] = {"": list(self._names)}
+        for name in self._names:
+            for end, character in enumerate(f"{name}/"):
+                if end and character == "/":
+                    below.setdefault(name[:end], []).append(name)
+        return below
 
 
 def _files(nodes: Sequence[_Node]) -> list[_File]:

@@ -7,6 +7,8 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.errors import Code
+from orchestra.plan.checks import sections
+from orchestra.resolve.rcl.patterns import matches
 from tests.plan.checks.told import Told, node, told
 
 if TYPE_CHECKING:
@@ -183,3 +185,21 @@ def test_a_section_that_two_robots_miss_is_told_once(tmp_path: Path) -> None:
         "p.yaml": _section("/ekf"),
     }
     assert told(tmp_path, files) == [(_CODE, "/ekf", "/**/ekf")]
+
+
+def test_of_sections_with_wildcards_those_names_are_tried_that_stand_below(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tried = list[str]()
+
+    def counted(pattern: str, name: str) -> bool:
+        tried.append(pattern)
+        return matches(pattern, name)
+
+    monkeypatch.setattr(sections, "matches", counted)
+    file = "".join(
+        _section(f"/{pattern}") for number in range(40) for pattern in (f"r{number}/*", f"s{number}/*")
+    )
+    actions = "".join(node("n", namespace=f"r{number}", param=_FILE) for number in range(40))
+    assert told(tmp_path, {"main.launch.yaml": f"launch:\n{actions}", "p.yaml": file}) == []
+    assert len(tried) <= 80
