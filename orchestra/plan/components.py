@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.errors import Code
+from orchestra.errors import Code, Severity
 from orchestra.nearest import nearest
 from orchestra.plan import candidates
 from orchestra.plan.absent import is_mistake
@@ -26,7 +26,7 @@ if TYPE_CHECKING:
     from orchestra.errors import Problems
     from orchestra.location import Location
     from orchestra.plan.passed_on import Sections
-    from orchestra.resolve.model import ParameterSource, Resolved, ResolvedComponent
+    from orchestra.resolve.model import ParameterSource, Resolved, ResolvedComponent, ResolvedProcess
     from orchestra.resolve.rcl.effective import Setting
     from orchestra.values import ParameterValue
 
@@ -121,7 +121,7 @@ def _container(component: ResolvedComponent, index: int | None, resolved: Resolv
 def _report_missing(
     component: ResolvedComponent, containers: _Containers, resolved: Resolved, problems: Problems
 ) -> None:
-    """Report a container that is not of this plan. By its name alone it may be of another launch."""
+    """Report a container that is not of this plan. It may be of another launch, which is said where none is like it."""
     if component.faulty:
         return
     if component.container is None:
@@ -133,7 +133,15 @@ def _report_missing(
         message = f"no process of this plan is the container '{component.container.text}'"
         suggestion = nearest(component.container.text, known)
         at = component.container.location
-        problems.warning(Code.UNKNOWN_DEPENDENCY, message, at, suggestion=suggestion)
+        if suggestion is not None or any(map(_is_container, resolved.processes)):
+            problems.warning(Code.UNKNOWN_DEPENDENCY, message, at, suggestion=suggestion)
+        else:
+            told = f"{message}; whoever includes this, or another launch, starts it"
+            problems.weighed(Severity.NOTE, Code.UNKNOWN_DEPENDENCY, told, at)
+
+
+def _is_container(process: ResolvedProcess) -> bool:
+    return process.kind == "container" or process.executable.startswith("component_container")
 
 
 def _candidates(

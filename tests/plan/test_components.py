@@ -212,6 +212,14 @@ def test_a_container_that_is_nowhere_may_be_of_another_launch(tmp_path: Path) ->
     assert found.plan.components[0].process is None
 
 
+@pytest.mark.parametrize("other", ["node: {exec: sleep, name: gain}", "let: {name: a, value: b}"])
+def test_where_nothing_is_a_container_another_launch_starts_it(other: str, tmp_path: Path) -> None:
+    found = outcome(tmp_path, f"launch:\n- {other}\n- load_composable_node: {{target: /box, {LOADED}}}\n")
+    assert [(item.severity, item.code) for item in found.problems] == [
+        (Severity.NOTE, Code.UNKNOWN_DEPENDENCY)
+    ]
+
+
 MISTAKES = {
     "node_container: {exec: sleep, namespace: ''}": Code.MISSING_KEY,
     "node_container: {exec: sleep, name: box}": Code.MISSING_KEY,
