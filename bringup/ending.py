@@ -23,6 +23,18 @@ def wait_for_the_end(told_to_end: Event, wake_up: Callable[[], None]) -> None:
     wake_up()
 
 
+def leave(node: Node) -> None:
+    """Take a node out of the graph, after which its process ends; SIGTERM ends the process at once from here on.
+
+    Fast DDS may never come back from giving its participant back while other nodes come or go: it waits for one of its
+    callbacks in a loop that leaves the callback no lock (eProsima/Fast-DDS#6513). Whoever waits for the end of the
+    process sends SIGTERM next, and nothing of the node is left to do then.
+    """
+    signal.signal(signal.SIGTERM, signal.SIG_DFL)
+    signal.pthread_sigmask(signal.SIG_UNBLOCK, (signal.SIGTERM,))
+    node.destroy_node()
+
+
 def spin_until_told(node: Node) -> None:
     """Let a node work until SIGINT or SIGTERM.
 

@@ -10,7 +10,7 @@ from rclpy.logging import get_logger
 from bringup.beginning import REFUSED_VALUES, begun
 from bringup.control_node.parameters import UnusableSettingsError
 from bringup.control_node.taking import TAKEN_WHEN_NEEDED
-from bringup.ending import wait_for_the_end
+from bringup.ending import leave, wait_for_the_end
 from bringup.filter.settings import NANOSECONDS
 from bringup.filter_node.ticks import Ticks
 from bringup.filter_node.waiting import Waiting
@@ -55,7 +55,7 @@ def _run(make: Callable[[], Any], name: str, frequency: float) -> int:
     try:
         _spin(node, node, frequency)
     finally:
-        node.destroy_node()
+        leave(node)
     return 0
 
 

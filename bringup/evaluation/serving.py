@@ -5,7 +5,7 @@ from __future__ import annotations
 import rclpy
 
 from bringup.beginning import begun
-from bringup.ending import spin_until_told
+from bringup.ending import leave, spin_until_told
 from bringup.evaluation.listening import Recorder
 
 
@@ -24,5 +24,5 @@ def _run() -> int:
         node.get_logger().fatal(f"the recording cannot be written: {error}")
         return 1
     finally:
-        node.destroy_node()
+        leave(node)
     return 0

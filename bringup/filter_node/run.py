@@ -11,7 +11,7 @@ from rclpy.logging import get_logger
 from rclpy.node import Node
 
 from bringup.beginning import begun
-from bringup.ending import wait_for_the_end
+from bringup.ending import leave, wait_for_the_end
 from bringup.filter.parameter_reader import ParameterError
 from bringup.filter_node.node import FilterNode
 from bringup.filter_node.waiting import Waiting
@@ -49,7 +49,7 @@ def _node() -> Iterator[Node]:
     try:
         yield node
     finally:
-        node.destroy_node()
+        leave(node)
 
 
 def _spin(node: Node) -> int:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from rclpy.logging import get_logger
 
 from bringup.beginning import REFUSED_VALUES, begun
-from bringup.ending import spin_until_told
+from bringup.ending import leave, spin_until_told
 from bringup.fleet_node.node import FleetMonitor
 
 
@@ -25,5 +25,5 @@ def _run() -> int:
         get_logger("fleet_monitor").fatal(str(error))
         return 1
     spin_until_told(node)
-    node.destroy_node()
+    leave(node)
     return 0

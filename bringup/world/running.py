@@ -18,6 +18,7 @@ from rclpy.node import Node
 from rclpy.task import Future
 
 from bringup.beginning import REFUSED_VALUES, begun
+from bringup.ending import leave
 from bringup.world import pace
 from bringup.world.course import Course
 from bringup.world.layout import LayoutError
@@ -196,5 +197,5 @@ def _serve(stop: Stop) -> int:
     finally:
         gc.unfreeze()
         # Without this the other participants would see the node for 20 s more.
-        node.destroy_node()
+        leave(node)
     return 0

@@ -44,11 +44,20 @@ def ask_rcl() -> Iterator[Callable[..., Any]]:
         asked, answers = process.stdin, process.stdout
 
         def ask(ask: str, **question: Any) -> Any:
-            asked.write(json.dumps({"ask": ask, **question}) + "\n")
-            asked.flush()
-            answer = answers.readline()
+            try:
+                asked.write(json.dumps({"ask": ask, **question}) + "\n")
+                asked.flush()
+                answer = answers.readline()
+            except BaseException:
+                # The time is up: the next example must not wait for this answer, nor take it for its own.
+                process.kill()
+                raise
             assert answer, _told(process, errors)
             return json.loads(answer)
 
         yield ask
         process.stdin.close()
+        try:
+            process.wait(10)
+        except subprocess.TimeoutExpired:
+            process.kill()  # it may be held up as it gives back its participant

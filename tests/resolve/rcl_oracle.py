@@ -196,6 +196,10 @@ def main() -> None:
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())
     context = rclpy.Context()
     context.init([])
+    # As long as there is a node, nodes come and go without a participant of DDS: one that is given back while others
+    # are found may never come back (eProsima/Fast-DDS#6513).
+    with context.handle:
+        stays = rcl.Node("stays", "", context.handle, [], False, False)
     for line in sys.stdin:
         question = json.loads(line)
         kind = question.pop("ask")
@@ -207,6 +211,7 @@ def main() -> None:
             answer = names(**question)
         answers.write(json.dumps(answer) + "\n")
         answers.flush()
+    stays.destroy_when_not_in_use()
     context.shutdown()
 
 

@@ -7,6 +7,8 @@ handlers only note the signal. A second one ends at once what does not come to a
 from __future__ import annotations
 
 import signal
+import sys
+from contextlib import suppress
 from typing import TYPE_CHECKING, Final, Self
 
 if TYPE_CHECKING:
@@ -34,6 +36,17 @@ class Ending:
     ) -> None:
         for number, handler in self._before.items():
             signal.signal(number, handler)  # type: ignore[arg-type]  # what it has returned
+
+    def leave(self) -> None:
+        """Let the next signal end this process by itself, until this is left: what comes may not come back to Python.
+
+        A participant that is given back while others come or go can hold the interpreter up for good
+        (eProsima/Fast-DDS#6513).
+        """
+        with suppress(OSError):  # which whoever writes the rest is told of
+            sys.stdout.flush()
+        for number in self._before:
+            signal.signal(number, signal.SIG_DFL)
 
     def check(self) -> None:
         """Raise `KeyboardInterrupt`, or `SystemExit` with the status for another signal, where one has come."""

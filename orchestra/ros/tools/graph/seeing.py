@@ -148,6 +148,7 @@ class Graph:
     def close(self) -> None:
         """Leave the graph, and take back what was said to others to make them known."""
         self._attendance.close()
+        self._ending.leave()
         self.node.destroy_node()
         complaint = self._servers.complaint() or (_LATE if self._gave_up else self._of_the_stopped())
         if complaint:
