@@ -8,6 +8,7 @@ and everything as a warning. Source: the nodes' own code, Humble to Jazzy.
 from __future__ import annotations
 
 import re
+from itertools import zip_longest
 from typing import TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
@@ -28,6 +29,8 @@ if TYPE_CHECKING:
 _FRAMES: Final = {"map_frame": "map", "odom_frame": "odom"}
 _WORLD: Final = "world_frame"
 _WORD: Final = pattern(r"[a-z]+(?=_|$)")
+_BETWEEN: Final = pattern(r"[_.-]+")
+_LONG_WORD: Final = 6
 
 
 def known_schema(package: str | None, called: str) -> ParameterSchema | None:
@@ -58,7 +61,7 @@ class _Known:
                     yield fault
             elif self._is_slip(fault, values):
                 yield fault
-            elif (meant := self._numbered(fault.name, values)) is not None:
+            elif (meant := self._joined(fault.name) or self._numbered(fault.name, values)) is not None:
                 yield replace(fault, meant=meant)
         if _WORLD in self.known.texts:
             yield from _of_frames(values)
@@ -72,7 +75,13 @@ class _Known:
 
     def _is_slip(self, fault: Fault, values: Mapping[str, ParameterValue]) -> bool:
         meant = fault.meant
-        return meant is not None and meant not in values and is_slip(fault.name, meant)
+        return meant is not None and meant not in values and _is_slip_of(fault.name, meant)
+
+    def _joined(self, name: str) -> str | None:
+        """Return the name that has the same letters: `initial_pose.x` for `initial_pose_x`."""
+        letters = "".join(_words(name))
+        names = (item.name for item in self.declared.declared.parameters)
+        return next((other for other in names if "".join(_words(other)) == letters), None)
 
     def _numbered(self, name: str, values: Mapping[str, ParameterValue]) -> str | None:
         """Return a name that lacks its number with the first one that is free: `imu0_config` for `imu_config`."""
@@ -83,6 +92,25 @@ class _Known:
         free = (other for other in numbered if other not in values)
         patterns = self.declared.declared.patterns
         return next((other for other in free if any(re.search(item, other) for item, _ in patterns)), None)
+
+
+def _is_slip_of(name: str, meant: str) -> bool:
+    """Return whether a name is another one but for the order of its words, or for a slip in one of them.
+
+    `imu_frame` is none of `map_frame`: another version may declare it.
+    """
+    one, other = _words(name), _words(meant)
+    if sorted(one) == sorted(other) or "".join(one) == "".join(other):
+        return True
+    differing = [pair for pair in zip_longest(one, other, fillvalue="") if pair[0] != pair[1]]
+    if len(differing) != 1 or not is_slip(*differing[0]):
+        return False
+    word, right = differing[0]
+    return word[:1] == right[:1] or len(right) >= _LONG_WORD
+
+
+def _words(name: str) -> list[str]:
+    return _BETWEEN.split(name.lower())
 
 
 def _declarations(known: Known) -> Declarations:

@@ -111,12 +111,16 @@ _JOY: Final = Known(
 )
 _TELEOP: Final = Known(
     truths=_names("inverted_reverse publish_stamped_twist require_enable_button"),
-    integers=_names("enable_button enable_turbo_button"),
-    texts=_names("frame"),
-    sized=(
-        (r"^axis_(?:linear\.[xyz]|angular\.(?:yaw|pitch|roll))$", "integer", None),
-        (r"^scale_(?:linear(?:_turbo)?\.[xyz]|angular(?:_turbo)?\.(?:yaw|pitch|roll))$", "double", None),
+    integers=_names(
+        """axis_angular.pitch axis_angular.roll axis_angular.yaw axis_linear.x axis_linear.y axis_linear.z
+        enable_button enable_turbo_button"""
     ),
+    doubles=_names(
+        """scale_angular.pitch scale_angular.roll scale_angular.yaw scale_angular_turbo.pitch
+        scale_angular_turbo.roll scale_angular_turbo.yaw scale_linear.x scale_linear.y scale_linear.z
+        scale_linear_turbo.x scale_linear_turbo.y scale_linear_turbo.z"""
+    ),
+    texts=_names("frame"),
 )
 _STATE_PUBLISHER: Final = Known(
     truths=_names("ignore_timestamp"),

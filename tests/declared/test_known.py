@@ -46,6 +46,7 @@ def test_a_parameter_of_a_filter_is_told(name: str, value: ParameterValue, meant
         {"use_control": False, "control_config": (True,), "acceleration_limits": (1, 0, 0, 0, 0, 3)},
         {"world_frame": "robot1/odom", "odom_frame": "robot1/odom"},
         {"odom0_nodelay": True, "use_sim_time": True, "a_new_one": 1},
+        {"imu_frame": "imu", "publish_rate": 20, "silent_tf_failure": True},
         {"twist0": "speed", "twist1": "speed", "process_noise_covariance": (0.1,) * 225},
     ],
 )
@@ -68,6 +69,31 @@ def test_what_the_node_looks_at_is_told(values: dict[str, ParameterValue]) -> No
     schema = known_schema("robot_localization", "ekf_node")
     assert schema is not None
     assert [fault.name for fault in schema.faults(values)] == [list(values)[-1]]
+
+
+@pytest.mark.parametrize(
+    ("node", "name", "meant"),
+    [
+        (("robot_localization", "ekf_node"), "base_link_output_frame", "base_link_frame_output"),
+        (("robot_localization", "ekf_node"), "sensor_time_out", "sensor_timeout"),
+        (("nav2_amcl", "amcl"), "initial_pose_x", "initial_pose.x"),
+        (("nav2_amcl", "amcl"), "max_particels", "max_particles"),
+        (("nav2_lifecycle_manager", "lifecycle_manager"), "node_name", "node_names"),
+        (("teleop_twist_joy", "teleop_node"), "axis_linaer.x", "axis_linear"),
+    ],
+)
+def test_a_slip_for_a_name_is_told(node: tuple[str, str], name: str, meant: str) -> None:
+    schema = known_schema(*node)
+    assert schema is not None
+    assert [(fault.kind, fault.meant) for fault in schema.faults({name: 1.5})] == [("undeclared", meant)]
+
+
+@pytest.mark.parametrize("name", ["odom_model_type", "save_pose_delay", "laser_topic", "use_map_topic"])
+def test_a_name_of_other_words_is_no_slip(name: str) -> None:
+    """Another version may declare it, or a file be for several nodes."""
+    schema = known_schema("nav2_amcl", "amcl")
+    assert schema is not None
+    assert list(schema.faults({name: 1.5})) == []
 
 
 def test_a_number_that_is_left_out_is_the_first_that_is_free() -> None:
