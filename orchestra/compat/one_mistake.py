@@ -1,4 +1,4 @@
-"""Problems of Python files that are one mistake: lists side by side where actions belong."""
+"""Problems of Python files that are one mistake: lists side by side, and what follows from an exception."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.source_text import text_at
-from orchestra.errors import Code
+from orchestra.errors import Code, Severity
 from orchestra.fields import replace
 
 if TYPE_CHECKING:
@@ -38,6 +38,28 @@ def together(problems: Iterable[Problem]) -> Callable[[Problem], Problem | None]
         else:
             made[id(first)], made[id(problem)] = joined, None
     return lambda problem: made.get(id(problem), problem)
+
+
+def behind_exceptions(problems: Iterable[Problem]) -> Callable[[Problem], Problem | None]:
+    """Return what leaves out the problems of a text that has raised an exception: they are those of what was meant."""
+    raised: dict[str, list[Span]] = {}
+    for problem in problems:
+        is_of_code = problem.code in (Code.USER_CODE, Code.SYNTAX) and problem.severity is Severity.ERROR
+        if is_of_code and problem.span is not None and problem.span.file.endswith(".py"):
+            raised.setdefault(problem.span.file, []).append(problem.span)
+
+    def amended(problem: Problem) -> Problem | None:
+        span = problem.span
+        if span is None or problem.code in (Code.USER_CODE, Code.SYNTAX):
+            return problem
+        return None if any(_holds(outer, span) for outer in raised.get(span.file, ())) else problem
+
+    return amended
+
+
+def _holds(outer: Span, inner: Span) -> bool:
+    begins = (outer.line, outer.column) <= (inner.line, inner.column)
+    return begins and (inner.end_line, inner.end_column) <= (outer.end_line, outer.end_column)
 
 
 def _is_list(problem: Problem) -> bool:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 if TYPE_CHECKING:
     from orchestra.errors import Problem
+
+CARRYING: Final = "__carrying_on__"  # the name in a module of what goes on behind its mistakes
 
 
 class ReportedError(RuntimeError):

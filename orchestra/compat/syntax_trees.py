@@ -5,10 +5,12 @@ from __future__ import annotations
 import ast
 import linecache
 import warnings
-from functools import lru_cache
+from bisect import bisect_right
+from functools import cached_property, lru_cache
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from orchestra.compat.place import is_own, span_in
+from orchestra.compat.scopes import Function, names_set, of_scope, parameters, value_of
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -16,9 +18,12 @@ if TYPE_CHECKING:
 
     from orchestra.location import Span
 
-Function: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef
 _Range: TypeAlias = tuple[int, int, int, int]
 _RAISED: Final = frozenset({"BaseException", "Exception", "RuntimeError", "TypeError", "ValueError"})
+
+_MOST_TEXTS: Final = 16
+_read_as: dict[str, Tree] = {}  # texts that are no Python
+_of_file: dict[str, tuple[list[str], Tree | None]] = {}
 
 
 class Tree:
@@ -27,16 +32,28 @@ class Tree:
     def __init__(self, module: ast.Module) -> None:
         self.module = module
         self.nodes = [node for node in ast.walk(module) if isinstance(node, ast.expr | ast.stmt)]
+        self._places: dict[tuple[str, int, int], dict[Span, ast.expr]] = {}
+        self._setting: dict[Function | ast.Module, dict[str, list[ast.AST]]] = {}
 
     def expression(self, file: str, span: Span) -> ast.expr | None:
         """Return the expression at a place, None where there is none; that of a text is with its quotes or without."""
+        lines = (span.line, span.end_line)
+        known = self._places.get((file, *lines))
+        if known is None:
+            known = self._places[file, *lines] = {}
+            for node in self._of_lines.get(lines, ()):
+                for place in (node_span(file, node, quotes=True), node_span(file, node)):
+                    known.setdefault(place, node)
+        return known.get(span)
+
+    @cached_property
+    def _of_lines(self) -> dict[tuple[int, int | None], list[ast.expr]]:
+        """The expressions by their first and last line."""
+        found: dict[tuple[int, int | None], list[ast.expr]] = {}
         for node in self.nodes:
-            begins = (node.lineno, node.end_lineno) == (span.line, span.end_line)
-            if not begins or not isinstance(node, ast.expr):
-                continue
-            if span in (node_span(file, node, quotes=True), node_span(file, node)):
-                return node
-        return None
+            if isinstance(node, ast.expr):
+                found.setdefault((node.lineno, node.end_lineno), []).append(node)
+        return found
 
     def texts(self, file: str) -> dict[str, Span]:
         """Return the texts that stand but once in the file, and where."""
@@ -49,16 +66,40 @@ class Tree:
     def functions_around(self, node: ast.AST) -> Iterator[Function]:
         """Yield the functions that a node stands in, innermost first."""
         place = _range(node)
-        around = [item for item in self.nodes if isinstance(item, Function) and _holds(_range(item), place)]
-        yield from sorted(around, key=_range, reverse=True)
+        begins, functions = self._functions
+        last = bisect_right(begins, (place[0], place[2])) - 1
+        while last >= 0:
+            function, last_around = functions[last]
+            if _holds(_range(function), place):
+                yield function
+            last = last_around
+
+    @cached_property
+    def _functions(self) -> tuple[list[tuple[int, int]], list[tuple[Function, int]]]:
+        """Where functions begin, in order, and these with the number of the one that each stands in, else -1."""
+        every = sorted((node for node in self.nodes if isinstance(node, Function)), key=_range)
+        found: list[tuple[Function, int]] = []
+        for function in every:
+            around = len(found) - 1
+            while around >= 0 and not _holds(_range(found[around][0]), _range(function)):
+                around = found[around][1]
+            found.append((function, around))
+        return [(function.lineno, function.col_offset) for function in every], found
 
     def context_around(self, node: ast.AST) -> str | None:
         """Return what functions around a node call the launch context that they are given, None where none is."""
         given = (item.arg for around in self.functions_around(node) for item in around.args.args)
         return next((name for name in given if "context" in name or name == "ctx"), None)
 
-    def declared(self) -> Iterator[str]:
-        """Yield the launch arguments that the file declares by names that are written there."""
+    def declared(self) -> frozenset[str]:
+        """Return the launch arguments that the file declares by names that are written there."""
+        return self._declared
+
+    @cached_property
+    def _declared(self) -> frozenset[str]:
+        return frozenset(self._declarations())
+
+    def _declarations(self) -> Iterator[str]:
         for node in self.nodes:
             match node:
                 case ast.Call(args=[ast.Constant(value=str(name)), *_]) if (
@@ -116,17 +157,44 @@ class Tree:
     def _assigned(self, name: ast.Name) -> ast.expr | None:
         """Return what is assigned to a name in the innermost scope that sets it, None unless that is done once."""
         for scope in (*self.functions_around(name), self.module):
-            set_here = [node for node in _of_scope(scope) if _sets(node, name.id)]
-            if isinstance(scope, Function) and name.id in _parameters(scope):
+            set_here = self._set_in(scope).get(name.id, ())
+            if isinstance(scope, Function) and name.id in parameters(scope):
                 return None
             if set_here:
-                return _value_of(set_here[0], name.id) if len(set_here) == 1 else None
+                return value_of(set_here[0], name.id) if len(set_here) == 1 else None
         return None
+
+    def _set_in(self, scope: Function | ast.Module) -> dict[str, list[ast.AST]]:
+        """Return what sets names in a scope, by these."""
+        if scope not in self._setting:
+            found = self._setting[scope] = {}
+            for node in of_scope(scope):
+                for name in set(names_set(node)):
+                    found.setdefault(name, []).append(node)
+        return self._setting[scope]
 
 
 def tree_of(file: str) -> Tree | None:
     """Return the tree of a file, None where it has changed since it was run, or is none of Python."""
-    return _tree("".join(linecache.getlines(file)))
+    lines = linecache.getlines(file)
+    known = _of_file.get(file)
+    if known is not None and known[0] is lines:
+        return known[1]
+    text = "".join(lines)
+    tree = _tree(text) or _read_as.get(text)
+    if len(_of_file) >= _MOST_TEXTS:
+        _of_file.clear()
+    _of_file[file] = (lines, tree)
+    return tree
+
+
+def read_as(text: str, module: ast.Module) -> None:
+    """Let a text that is no Python have the tree of what was meant by it, in which places are those of the text."""
+    if _tree(text) is None:
+        if len(_read_as) >= _MOST_TEXTS:
+            _read_as.clear()
+        _read_as[text] = Tree(module)
+        _of_file.clear()
 
 
 def node_span(file: str, node: ast.expr | ast.stmt | ast.keyword, *, quotes: bool = False) -> Span:
@@ -171,55 +239,6 @@ def _range(node: ast.AST) -> _Range:
 def _holds(outer: _Range, inner: _Range) -> bool:
     begins = (outer[0], outer[2]) <= (inner[0], inner[2])
     return begins and (inner[1], inner[3]) <= (outer[1], outer[3])
-
-
-def _of_scope(scope: Function | ast.Module) -> Iterator[ast.AST]:
-    """Yield what stands in a scope, without what is in functions and classes inside of it."""
-    waiting: list[ast.AST] = list(scope.body)
-    while waiting:
-        node = waiting.pop(0)
-        yield node
-        if not isinstance(node, Function | ast.ClassDef | ast.Lambda):
-            waiting.extend(ast.iter_child_nodes(node))
-
-
-def _sets(node: ast.AST, name: str) -> bool:
-    if isinstance(node, Function | ast.ClassDef):
-        return node.name == name
-    if isinstance(node, ast.Import | ast.ImportFrom):
-        return any((item.asname or item.name) == name for item in node.names)
-    targets = _targets(node)
-    return any(
-        isinstance(item, ast.Name) and item.id == name for target in targets for item in ast.walk(target)
-    )
-
-
-def _targets(node: ast.AST) -> list[ast.expr]:
-    match node:
-        case ast.Assign(targets=targets) | ast.Delete(targets=targets):
-            return targets
-        case ast.AnnAssign(target=target) | ast.AugAssign(target=target) | ast.NamedExpr(target=target):
-            return [target]
-        case ast.For(target=target) | ast.AsyncFor(target=target) | ast.comprehension(target=target):
-            return [target]
-        case ast.withitem(optional_vars=target) if target is not None:
-            return [target]
-    return []
-
-
-def _value_of(node: ast.AST, name: str) -> ast.expr | None:
-    match node:
-        case ast.Assign(targets=[ast.Name(id=found)], value=value) if found == name:
-            return value
-        case ast.AnnAssign(target=ast.Name(id=found), value=value) if found == name:
-            return value
-    return None
-
-
-def _parameters(function: Function) -> set[str]:
-    given = function.args
-    every = (*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg)
-    return {item.arg for item in every if item is not None}
 
 
 def called_by(node: ast.AST) -> str | None:

@@ -12,13 +12,14 @@ from importlib.machinery import ModuleSpec
 from types import CoroutineType, FunctionType, ModuleType
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat import faults
 from orchestra.compat.explanation import told
 from orchestra.compat.idle_names import has_idle_actions
 from orchestra.compat.launch.launch_description import LaunchDescription
+from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
 from orchestra.compat.looks import has_doubled_keys, has_joined_words, has_late_roots
 from orchestra.compat.place import show
 from orchestra.compat.refusing import collecting, is_lost
+from orchestra.compat.reported import CARRYING
 from orchestra.compat.seam import connection
 from orchestra.compat.wrong import WrongType
 from orchestra.description.actions.opaque import OpaqueAction
@@ -33,8 +34,10 @@ from orchestra.witness.observing import observer
 from orchestra.witness.once import real
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Mapping
+    from types import CodeType
 
+    from orchestra.compat.carrying_on import CarryingOn
     from orchestra.errors import Problem
     from orchestra.location import Span
 
@@ -54,35 +57,80 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
         location = Location(included_from[0], included_from[1:]) if included_from else Location(at)
         problems.error(Code.UNREADABLE_FILE, f"cannot read {file}: {error.strerror}", location)
         return None
-    try:
-        connection().prepare()
-        show(path, file)
-        with collecting(problems, included_from):
-            module = load_module(path, source)
-            at = _definition(module, at)
-            with _in_place(module):
-                made = _made(module)
-    except KeyboardInterrupt:
-        raise
-    except BaseException as error:  # noqa: BLE001 - the boundary of user code
-        found = Problems()
-        faults.report(error, found, included_from, at)
-        problems.extend(found if included_from else map(_grave, found))
+    ran = _ran(path, source, at, problems, included_from)
+    if ran is None:
         return None
+    module, made, at = ran
     if is_lost(made):
         return None
     if isinstance(made, LaunchDescription):
         _look_for_slips(module, source, path, problems, included_from)
-        at = point(file)
-        return Description(
-            path, file, (OpaqueAction.at(at, target=made, origin=made),), _deprecated(made, at)
-        )
+        return _described(path, made)
+    if getattr(vars(module).get(CARRYING), "has_guessed", False):
+        return None
     message, *notes = _undescribed(module, made, file)
     where, meant = _undescribed_at(module, made, at)
     problems.error(
         Code.NO_DESCRIPTION, message, Location(where, included_from), suggestion=meant, notes=notes
     )
+    instead = _instead(module, made, problems, included_from)
+    return None if instead is None else _described(path, instead)
+
+
+def _described(path: str, made: LaunchDescription) -> Description:
+    file = displayed(path, real)
+    at = point(file)
+    opaque = OpaqueAction.at(at, target=made, origin=made)
+    return Description(path, file, (opaque,), _deprecated(made, at))
+
+
+def _instead(
+    module: ModuleType, made: object, problems: Problems, included_from: tuple[Span, ...]
+) -> LaunchDescription | None:
+    """Return the launch description that was meant: what is wrong in it is told as well."""
+    with collecting(problems, included_from), _in_place(module):
+        if made is module:
+            meant = _meant(module)
+            try:
+                made = None if meant is None or _needs_arguments(meant) else meant()
+            except Exception:  # noqa: BLE001 - what is wrong with the file has been told
+                return None
+        if isinstance(made, LaunchDescription):
+            return made
+        actions: Any = made if isinstance(made, list | tuple) else [made]
+        if actions and all(isinstance(item, LaunchDescriptionEntity) for item in actions):
+            return LaunchDescription(actions)
     return None
+
+
+def _ran(
+    path: str, source: bytes, at: Span, problems: Problems, included_from: tuple[Span, ...]
+) -> tuple[ModuleType, Any, Span] | None:
+    """Return the module of a file, what it describes, and where; None where it is not known how to go on."""
+    carrying: CarryingOn | None = None
+    code: CodeType | None = None
+    known: dict[str, Any] = {}
+    while True:
+        try:
+            connection().prepare()
+            show(path, at.file)
+            with collecting(problems, included_from):
+                module = load_module(path, source, code, known)
+                at = _definition(module, at)
+                with _in_place(module):
+                    return module, _made(module), at
+        except KeyboardInterrupt:
+            raise
+        except BaseException as error:  # noqa: BLE001 - the boundary of user code
+            # Here, because only mistakes need it, and what it imports.
+            from orchestra.compat.carrying_on import CarryingOn  # noqa: PLC0415
+
+            carrying = carrying or CarryingOn(path, included_from, at)
+            found = carrying.problems(error)
+            problems.extend(found if included_from else map(_grave, found))
+            code, known = carrying.code(error), {CARRYING: carrying}
+            if code is None:
+                return None
 
 
 def _look_for_slips(
@@ -149,12 +197,18 @@ def _grave(problem: Problem) -> Problem:
     return replace(problem, severity=Severity.ERROR)
 
 
-def load_module(path: str, source: bytes) -> ModuleType:
-    """Run a Python file, of which this is in it, as a module of its own, which stays out of `sys.modules`."""
+def load_module(
+    path: str, source: bytes, code: CodeType | None = None, known: Mapping[str, Any] | None = None
+) -> ModuleType:
+    """Run a Python file, of which this is in it, as a module of its own, which stays out of `sys.modules`.
+
+    `code` is run instead of that of the source, with what is `known` to it.
+    """
     module = ModuleType(_MODULE)
     module.__file__ = path
     module.__spec__ = ModuleSpec(_MODULE, None, origin=path)
-    code = connection().code(path, source)
+    vars(module).update(known or {})
+    code = connection().code(path, source) if code is None else code
     with _in_place(module):
         exec(code, vars(module))  # noqa: S102 - a launch file is code
     return module

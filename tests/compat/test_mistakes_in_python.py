@@ -31,6 +31,7 @@ from launch_ros.descriptions import *
 from launch_ros.substitutions import *
 TALKER = dict(package='demo', executable='talker')
 """
+_NOTHING = "import launch as l\ndef generate_launch_description(): return l.LaunchDescription([])"
 _INNER = "from launch import *\nfrom launch.actions import *\n"
 
 
@@ -114,27 +115,27 @@ _CALLS = {
 
 _NAMES = {
     "a name that a package does not have": Mistake(
-        "from launch.actions import «ExecuteProces»\ndef generate_launch_description(): ...",
+        f"from launch.actions import «ExecuteProces»\n{_NOTHING}",
         "launch.actions has no 'ExecuteProces'",
         suggestion="ExecuteProcess",
     ),
     "a name of several lines of names": Mistake(
-        "from launch.actions import (\n    LogInfo,\n    «GroupActon»,\n)\ndef generate_launch_description(): ...",
+        f"from launch.actions import (\n    LogInfo,\n    «GroupActon»,\n)\n{_NOTHING}",
         "launch.actions has no 'GroupActon'",
         suggestion="GroupAction",
     ),
     "a name that is in another package": Mistake(
-        "from launch_ros.actions import «ComposableNode»\ndef generate_launch_description(): ...",
+        f"from launch_ros.actions import «ComposableNode»\n{_NOTHING}",
         "launch_ros.actions has no 'ComposableNode': it is in launch_ros.descriptions",
         suggestion="from launch_ros.descriptions import ComposableNode",
     ),
     "a module": Mistake(
-        "from «launch_ros.action» import Node\ndef generate_launch_description(): ...",
+        f"from «launch_ros.action» import Node\n{_NOTHING}",
         "there is no Python module 'launch_ros.action' here",
         suggestion="launch_ros.actions",
     ),
     "a package": Mistake(
-        "import «launch_rso»\ndef generate_launch_description(): ...",
+        f"import «launch_rso»\n{_NOTHING}",
         "there is no Python module 'launch_rso' here",
         suggestion="launch_ros",
     ),

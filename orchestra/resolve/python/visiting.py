@@ -140,15 +140,7 @@ def _carry_out(entity: Any, span: Span, run: Resolution) -> None:
     following: Any = None
     context = run.engine.context
     with user_code(run, span):
-        judged = isinstance(entity, Action) and type(entity).visit is Action.visit
-        try:
-            made = entity.execute(context) if judged else entity.visit(context)
-        except TypeError as error:
-            at = _uncallable(entity, error)
-            if at is None:
-                raise
-            told_so = f"{_name(entity)} is called with the context: {_short(entity, error)}"
-            raise WrongType(told_so, at=at) from None
+        made = _executed(entity, context, span, run)
         if made is not None and (isinstance(made, str | Mapping) or not isinstance(made, Iterable)):
             told_so = f"{_name(entity)} returns a list of actions or None, this is {told(made)}"
             raise WrongType(told_so, made, at=_returned(entity, made))
@@ -157,6 +149,27 @@ def _carry_out(entity: Any, span: Span, run: Resolution) -> None:
         _visit_returned(entity, following, run)
     elif isinstance(entity, OpaqueFunction):
         _tell_thrown_away(entity, run)
+
+
+def _executed(entity: Any, context: Any, span: Span, run: Resolution) -> Any:
+    """Return what the code of an entity returns; what it stops at is told, and what was meant is run instead."""
+    judged = isinstance(entity, Action) and type(entity).visit is Action.visit
+    while True:
+        try:
+            return entity.execute(context) if judged else entity.visit(context)
+        except TypeError as error:
+            at = _uncallable(entity, error)
+            if at is not None:
+                told_so = f"{_name(entity)} is called with the context: {_short(entity, error)}"
+                raise WrongType(told_so, at=at) from None
+            fault: Exception = error
+        except Exception as error:  # noqa: BLE001 - the boundary of user code
+            fault = error
+        if isinstance(fault, RecursionError):
+            raise fault
+        from orchestra.compat.carrying_on import go_on  # noqa: PLC0415 - as above
+
+        go_on(fault, getattr(entity, "function", None), run.problems, run.context.included_from, span)
 
 
 def _tell_thrown_away(entity: OpaqueFunction, run: Resolution) -> None:
@@ -253,8 +266,8 @@ def _variable(text: str | None, file: str, run: Resolution) -> str | None:
     from orchestra.compat.syntax_trees import tree_of  # noqa: PLC0415
 
     tree = tree_of(file)
-    declared = set(run.scope.variables) if tree is None else {*run.scope.variables, *tree.declared()}
-    return Rewritten(f"LaunchConfiguration({text!r})") if text in declared else None
+    declared = text in run.scope.variables or (tree is not None and text in tree.declared())
+    return Rewritten(f"LaunchConfiguration({text!r})") if declared else None
 
 
 def _name(entity: Any) -> str:
