@@ -199,4 +199,4 @@ def _parts(meant: str, text: str) -> Iterator[str]:
     for token in _BETWEEN.split(meant):
         steps = token.split("/")
         for begin in range(len(steps) - count + 1):
-            yield first + "/".join(steps[begin : begin + count]).removeprefix("/")
+            yield first + "/".join(steps[begin : begin + count]).removeprefix(first)
