@@ -1,0 +1,62 @@
+"""Scopes of the user's Python: what stands in one, and the names that are set there."""
+
+from __future__ import annotations
+
+import ast
+from collections import deque
+from typing import TYPE_CHECKING, TypeAlias
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+Function: TypeAlias = ast.FunctionDef | ast.AsyncFunctionDef
+
+
+def of_scope(scope: Function | ast.Module) -> Iterator[ast.AST]:
+    """Yield what stands in a scope, without what is in functions and classes inside of it."""
+    waiting = deque[ast.AST](scope.body)
+    while waiting:
+        node = waiting.popleft()
+        yield node
+        if not isinstance(node, Function | ast.ClassDef | ast.Lambda):
+            waiting.extend(ast.iter_child_nodes(node))
+
+
+def names_set(node: ast.AST) -> Iterator[str]:
+    """Yield the names that a statement or a target sets."""
+    if isinstance(node, Function | ast.ClassDef):
+        yield node.name
+    elif isinstance(node, ast.Import | ast.ImportFrom):
+        yield from (item.asname or item.name for item in node.names)
+    for target in _targets(node):
+        yield from (item.id for item in ast.walk(target) if isinstance(item, ast.Name))
+
+
+def _targets(node: ast.AST) -> list[ast.expr]:
+    match node:
+        case ast.Assign(targets=targets) | ast.Delete(targets=targets):
+            return targets
+        case ast.AnnAssign(target=target) | ast.AugAssign(target=target) | ast.NamedExpr(target=target):
+            return [target]
+        case ast.For(target=target) | ast.AsyncFor(target=target) | ast.comprehension(target=target):
+            return [target]
+        case ast.withitem(optional_vars=target) if target is not None:
+            return [target]
+    return []
+
+
+def value_of(node: ast.AST, name: str) -> ast.expr | None:
+    """Return what a name alone is set to by a statement, None where it is set in another way."""
+    match node:
+        case ast.Assign(targets=[ast.Name(id=found)], value=value) if found == name:
+            return value
+        case ast.AnnAssign(target=ast.Name(id=found), value=value) if found == name:
+            return value
+    return None
+
+
+def parameters(function: Function) -> set[str]:
+    """Return the names of what a function is given."""
+    given = function.args
+    every = (*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg)
+    return {item.arg for item in every if item is not None}
