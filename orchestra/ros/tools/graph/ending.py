@@ -16,6 +16,8 @@ if TYPE_CHECKING:
 
 _SIGNALS: Final = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 _STATUS: Final = 128
+# Seconds that leaving the graph may take: some hundredths, a second on a busy machine.
+_LONGEST: Final = 10.0
 
 
 class Ending:
@@ -24,6 +26,7 @@ class Ending:
     def __init__(self) -> None:
         self._noted: int | None = None
         self._before: dict[int, object] = {}
+        self._timer: tuple[float, float] | None = None
 
     def __enter__(self) -> Self:
         for number in _SIGNALS:
@@ -34,19 +37,25 @@ class Ending:
     def __exit__(
         self, _kind: type[BaseException] | None, _error: BaseException | None, _trace: TracebackType | None
     ) -> None:
+        if self._timer is not None:
+            signal.setitimer(signal.ITIMER_REAL, 0)
         for number, handler in self._before.items():
             signal.signal(number, handler)  # type: ignore[arg-type]  # what it has returned
+        if self._timer is not None:
+            signal.setitimer(signal.ITIMER_REAL, *self._timer)
 
     def leave(self) -> None:
         """Let the next signal end this process by itself, until this is left: what comes may not come back to Python.
 
         A participant that is given back while others come or go can hold the interpreter up for good
-        (eProsima/Fast-DDS#6513).
+        (eProsima/Fast-DDS#6513). So SIGALRM ends the process where nobody else does within 10 s.
         """
         with suppress(OSError):  # which whoever writes the rest is told of
             sys.stdout.flush()
+        self._before[signal.SIGALRM] = signal.getsignal(signal.SIGALRM)
         for number in self._before:
             signal.signal(number, signal.SIG_DFL)
+        self._timer = signal.setitimer(signal.ITIMER_REAL, _LONGEST)
 
     def check(self) -> None:
         """Raise `KeyboardInterrupt`, or `SystemExit` with the status for another signal, where one has come."""
