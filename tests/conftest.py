@@ -17,6 +17,7 @@ import hypothesis
 import pytest
 
 from tests.heeding import heed_signals
+from tests.held_up import pytest_runtest_protocol  # noqa: F401 - a hook
 from tests.restoring import environment_restored
 
 if TYPE_CHECKING:
