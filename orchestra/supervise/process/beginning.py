@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import heapq
 from functools import partial
+from operator import itemgetter
 from typing import TYPE_CHECKING
 
 from orchestra.logs.names import shown
@@ -27,7 +28,8 @@ _PARTICIPLES = {"started": "started", "ready": "ready", "completed": "completed"
 class Beginning:
     """Lets waiting processes begin.
 
-    A process is looked at when it is new, and when something that it waits for has changed; in plan order.
+    A process is looked at when it is new, and when something that it waits for has changed; in plan order. Of what it
+    waits for only that is looked at then: it may be a thousand processes that end one by one.
     """
 
     def __init__(self, units: Mapping[str, Unit], surroundings: Surroundings, listener: Listener) -> None:
@@ -40,21 +42,39 @@ class Beginning:
         self._names: list[str] = []
         self._ranks: dict[str, int] = {}
         self._dependents: dict[str, list[int]] = {}
-        self._due: list[int] = []  # ranks, as a heap; some twice
+        self._due: list[int] = []  # ranks, as a heap
+        self._news: dict[int, set[str] | None] = {}  # what has changed for those that are due; None: anything
+        self._open: dict[str, set[Dependency]] = {}  # what those that were looked at wait for still
+        self._edges_to: dict[
+            tuple[int, str], list[tuple[int, Dependency]]
+        ] = {}  # with their places among all
 
     def add(self, processes: Iterable[Process]) -> None:
         """Take up processes, which wait from now on."""
         for process in processes:
             rank = self._ranks[process.id] = len(self._names)
             self._names.append(process.id)
-            heapq.heappush(self._due, rank)
-            for target in {edge.process for edge in process.depends_on}:
-                self._dependents.setdefault(target, []).append(rank)
+            self._look_whole(rank)
+            for place, edge in enumerate(process.depends_on):
+                edges = self._edges_to.setdefault((rank, edge.process), [])
+                if not edges:
+                    self._dependents.setdefault(edge.process, []).append(rank)
+                edges.append((place, edge))
 
     def changed(self, process: str) -> None:
         """A process is in another phase: look at those that wait for it."""
         for rank in self._dependents.get(process, ()):
+            if rank not in self._news:
+                self._news[rank] = {process}
+                heapq.heappush(self._due, rank)
+            elif (news := self._news[rank]) is not None:
+                news.add(process)
+
+    def _look_whole(self, rank: int) -> None:
+        """Look at all that a process waits for."""
+        if rank not in self._news:
             heapq.heappush(self._due, rank)
+        self._news[rank] = None
 
     def hold(self, processes: Iterable[str]) -> None:
         """Only a trigger starts these."""
@@ -85,23 +105,30 @@ class Beginning:
             if begun == _MOST_AT_ONCE:
                 self._listener.again()
                 return
-            unit = self._units[self._names[heapq.heappop(self._due)]]
+            rank = heapq.heappop(self._due)
+            unit, news = self._units[self._names[rank]], self._news.pop(rank)
             if unit.state.phase is Phase.WAITING:
-                begun += self._look_at(unit)
+                begun += self._look_at(unit, self._edges(unit, rank, news))
+            else:
+                self._open.pop(unit.id, None)
 
-    def _look_at(self, unit: Unit) -> bool:
-        """Tell whether it has begun."""
-        fate = order.fate(self._edges(unit), _Standings(self._units))
+    def _look_at(self, unit: Unit, edges: list[Dependency]) -> bool:
+        """Tell whether it has begun. `edges` are those that something has changed for since the last look."""
+        fate = order.fate(edges, _Standings(self._units))
         if fate.blocker:
             self._skip(unit, fate.blocker)
-        elif unit.id in self._held:
             return False
-        elif fate.begin:
-            self._untime_edges(unit)
-            unit.handle(life.Start())
-        else:
+        waiting = self._open.setdefault(unit.id, set())
+        waiting.difference_update(edges)
+        waiting.update(fate.awaited)
+        if unit.id in self._held:
+            return False
+        if waiting:
             self._time_edges(unit, fate.awaited)
-        return fate.begin
+            return False
+        self._untime_edges(unit)
+        unit.handle(life.Start())
+        return True
 
     def forget(self, unit: Unit) -> None:
         """Let a process begin without being waited for: somebody starts it by hand."""
@@ -118,7 +145,7 @@ class Beginning:
 
     def _free(self, unit: Unit) -> None:
         self._held.discard(unit.id)
-        heapq.heappush(self._due, self._ranks[unit.id])
+        self._look_whole(self._ranks[unit.id])
 
     def stop(self) -> None:
         """Nothing begins any more."""
@@ -130,15 +157,20 @@ class Beginning:
         if unit.id in self._held:
             return ["a trigger that starts it"]
         words = []
-        for edge in self._edges(unit):
+        for edge in self._edges(unit, self._ranks[unit.id], None):
             target = self._units[edge.process]
             if order.reached(edge.condition, target.standing) is None:
                 what = f" ({target.awaited})" if edge.condition == "ready" else ""
                 words.append(f"{target.name} to be {_PARTICIPLES[edge.condition]}{what}")
         return words
 
-    def _edges(self, unit: Unit) -> list[Dependency]:
-        return [edge for edge in unit.process.depends_on if (unit.id, edge) not in self._waived]
+    def _edges(self, unit: Unit, rank: int, news: set[str] | None) -> list[Dependency]:
+        """Return what a process waits for of those that have changed, in order; all where it was not looked at yet."""
+        edges: Iterable[Dependency] = unit.process.depends_on
+        if news is not None and unit.id in self._open:
+            found = (edge for target in news for edge in self._edges_to[rank, target])
+            edges = [edge for _, edge in sorted(found, key=itemgetter(0))]
+        return [edge for edge in edges if (unit.id, edge) not in self._waived]
 
     def _skip(self, unit: Unit, blocker: Dependency) -> None:
         target, condition = shown(blocker.process), _PARTICIPLES[blocker.condition]
@@ -177,7 +209,7 @@ class Beginning:
             self._listener.failed(reason, target.id)
         else:
             self._waived.add((unit.id, edge))
-            heapq.heappush(self._due, self._ranks[unit.id])
+            self._look_whole(self._ranks[unit.id])
             self._around.journal.say(f"{reason}; it is not required")
             self._listener.changed()
 
