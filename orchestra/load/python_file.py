@@ -130,6 +130,9 @@ def _ran(
             problems.extend(found if included_from else map(_grave, found))
             code, known = carrying.code(error), {CARRYING: carrying}
             if code is None:
+                from orchestra.compat.calls_behind import tell_keywords  # noqa: PLC0415 - as above
+
+                tell_keywords(path, FUNCTION, problems, included_from)
                 return None
 
 
