@@ -15,7 +15,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import CodeType
 
-    from orchestra.compat.syntax_trees import Function
+    from orchestra.compat.scopes import Function
     from orchestra.location import Span
 
 _MOST: Final = 100  # characters: what is longer is read better in the message alone

@@ -126,22 +126,27 @@ class Tree:
         """Return whether the code of a line is tried, whatever the code itself deals with."""
         return any(
             node.body[0].lineno <= line <= (node.body[-1].end_lineno or 0) and node.handlers
-            for node in self.nodes
-            if isinstance(node, ast.Try)
+            for node in self._tries
         ) or self.catches(line)
 
     def catches(self, line: int) -> bool:
         """Return whether the code of a line is tried, and what our classes raise is dealt with by the code itself."""
         return any(
             node.body[0].lineno <= line <= (node.body[-1].end_lineno or 0) and any(map(_takes, node.handlers))
-            for node in self.nodes
-            if isinstance(node, ast.Try)
+            for node in self._tries
         ) or any(
             node.lineno <= line <= (node.end_lineno or 0)
             and any("suppress" in ast.unparse(item) for item in node.items)
-            for node in self.nodes
-            if isinstance(node, ast.With)
+            for node in self._withs
         )
+
+    @cached_property
+    def _tries(self) -> list[ast.Try]:
+        return [node for node in self.nodes if isinstance(node, ast.Try)]
+
+    @cached_property
+    def _withs(self) -> list[ast.With]:
+        return [node for node in self.nodes if isinstance(node, ast.With)]
 
     def meaning(self, node: ast.expr) -> ast.expr:
         """Return the expression that a name stands for where it is set once, else the node itself."""

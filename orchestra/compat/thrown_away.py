@@ -19,7 +19,7 @@ from orchestra.errors import Code
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from orchestra.compat.syntax_trees import Function
+    from orchestra.compat.scopes import Function
     from orchestra.errors import Problems
     from orchestra.location import Span
 

@@ -8,8 +8,7 @@ from __future__ import annotations
 
 import ast
 import linecache
-import re
-from collections import Counter
+from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.idle_names import ACTIONS, PROCESSES
@@ -17,15 +16,15 @@ from orchestra.compat.literals import keyword
 from orchestra.compat.syntax_trees import called_by, node_span, tree_of
 from orchestra.errors import Code
 from orchestra.location import Location
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
-
     from orchestra.compat.place import Place
     from orchestra.compat.syntax_trees import Tree
     from orchestra.errors import Problems
     from orchestra.location import Span
 
+_WORD: Final = pattern(r"\w+")
 _TARGETS: Final = ("target_action", "target_lifecycle_node")
 # Code that reaches variables in another way than by their names.
 _REACHING: Final = frozenset({"dir", "eval", "exec", "globals", "locals", "vars"})
@@ -36,15 +35,15 @@ def tell_unadded(path: str, problems: Problems, chain: tuple[Span, ...]) -> None
     tree = _tree(path)
     if tree is None:
         return
-    counts = Counter(node.id for node in tree.nodes if isinstance(node, ast.Name))
-    for name in _made(tree, lambda name: counts[name] == 1):
-        if not _is_remarked(name.id, path):
+    for name in _made(tree).values():
+        if len(_names(tree)[name.id]) == 1 and name.id not in _remarked("".join(linecache.getlines(path))):
             described = _description(tree)
             way = f"; {described}.add_action({name.id}) adds it" if described is not None else ""
             told = f"'{name.id}' is added to no launch description: it has no effect{way}"
             problems.warning(Code.USER_CODE, told, Location(node_span(path, name), chain))
 
 
+@lru_cache(maxsize=4)  # a thousand actions of a file may be part of nothing
 def _description(tree: Tree) -> str | None:
     """Return the variable that alone is set to a launch description which actions are added to."""
     found = {
@@ -66,10 +65,11 @@ def target_unadded(handler: Place) -> Span | None:
         if tree is None or target is None:
             continue
         if isinstance(target, ast.Name):
-            made = next(_made(tree, target.id.__eq__), None)
-            waiting = list(_targets(tree))
-            is_sure = made is not None and all(item in waiting for item in _others(made, tree))
-            if not is_sure or _is_remarked(target.id, handler.file):
+            made, waiting = _made(tree).get(target.id), _targets(tree)
+            is_sure = made is not None and all(
+                item in waiting for item in _names(tree)[target.id] if item is not made
+            )
+            if not is_sure or target.id in _remarked("".join(linecache.getlines(handler.file))):
                 continue
         elif called_by(target) not in PROCESSES:
             continue
@@ -80,34 +80,44 @@ def target_unadded(handler: Place) -> Span | None:
 def _tree(path: str) -> Tree | None:
     """Return the tree of a file, None where its code reaches variables in another way than by their names."""
     tree = tree_of(path)
-    return None if tree is None or any(called_by(node) in _REACHING for node in tree.nodes) else tree
+    return None if tree is None or _reaches(tree) else tree
 
 
-def _made(tree: Tree, wanted: Callable[[str], bool]) -> Iterator[ast.Name]:
-    """Yield the variables of functions with a name that is wanted where they are set to an action."""
+@lru_cache(maxsize=4)  # asked of each of the handlers in a file, as what follows
+def _reaches(tree: Tree) -> bool:
+    return any(called_by(node) in _REACHING for node in tree.nodes)
+
+
+@lru_cache(maxsize=4)
+def _made(tree: Tree) -> dict[str, ast.Name]:
+    """Return the variables of functions where they are set to an action."""
+    found: dict[str, ast.Name] = {}
     for node in tree.nodes:
         match node:
             case ast.Assign(targets=[ast.Name() as name], value=value) if called_by(value) in ACTIONS:
-                if wanted(name.id) and not name.id.startswith("_") and any(tree.functions_around(node)):
-                    yield name
+                if not name.id.startswith("_") and any(tree.functions_around(node)):
+                    found.setdefault(name.id, name)
+    return found
 
 
-def _others(name: ast.Name, tree: Tree) -> list[ast.expr]:
-    """Return where a name stands besides."""
-    return [
-        item for item in tree.nodes if isinstance(item, ast.Name) and item.id == name.id and item is not name
-    ]
-
-
-def _targets(tree: Tree) -> Iterator[ast.expr]:
-    """Yield what event handlers wait for."""
+@lru_cache(maxsize=4)
+def _names(tree: Tree) -> dict[str, list[ast.Name]]:
+    """Return where each name stands."""
+    found: dict[str, list[ast.Name]] = {}
     for node in tree.nodes:
-        match node:
-            case ast.Call(keywords=words):
-                yield from (word.value for word in words if word.arg in _TARGETS)
+        if isinstance(node, ast.Name):
+            found.setdefault(node.id, []).append(node)
+    return found
 
 
-def _is_remarked(name: str, path: str) -> bool:
-    """Return whether a name stands in a comment of a file."""
-    comments = "".join(line.partition("#")[2] for line in linecache.getlines(path))
-    return re.search(rf"\b{re.escape(name)}\b", comments) is not None
+@lru_cache(maxsize=4)
+def _targets(tree: Tree) -> frozenset[ast.expr]:
+    """Return what event handlers wait for."""
+    calls = (node for node in tree.nodes if isinstance(node, ast.Call))
+    return frozenset(word.value for node in calls for word in node.keywords if word.arg in _TARGETS)
+
+
+@lru_cache(maxsize=4)
+def _remarked(text: str) -> frozenset[str]:
+    """Return the words that stand in the comments of a file."""
+    return frozenset(word for line in text.splitlines() for word in _WORD.findall(line.partition("#")[2]))

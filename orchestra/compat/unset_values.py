@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -73,9 +74,16 @@ def _places(problem: Problem, tree: Tree, file: str, span: Span) -> Iterator[ast
 
 def _defaults(tree: Tree, name: ast.expr) -> Iterator[ast.expr]:
     """Yield the default of an argument that is declared by a name."""
-    for node in tree.nodes:
-        if isinstance(node, ast.Call) and name in (*node.args, *(item.value for item in node.keywords)):
-            yield from (item.value for item in node.keywords if item.arg == "default_value")
+    call = _calls(tree).get(name)
+    if call is not None:
+        yield from (item.value for item in call.keywords if item.arg == "default_value")
+
+
+@lru_cache(maxsize=4)  # of one file, a thousand arguments may be missing
+def _calls(tree: Tree) -> dict[ast.expr, ast.Call]:
+    """Return the calls by what they are given."""
+    calls = (node for node in tree.nodes if isinstance(node, ast.Call))
+    return {given: node for node in calls for given in (*node.args, *(item.value for item in node.keywords))}
 
 
 def _assignment(tree: Tree, line: int) -> ast.AST | None:
