@@ -1,4 +1,4 @@
-"""Components in Python as a launch file names them: what can be told of one without importing anything."""
+"""Components as a launch file names them: what can be told of one without importing anything."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 from orchestra.errors import HERE, Code, Severity
 from orchestra.nearest import is_slip, nearest
 from orchestra.resolve.containers import known_components
-from orchestra.resolve.packages.components import is_named_by_module, target_of
+from orchestra.resolve.packages.components import is_named_by_module, registered_by, target_of
 from orchestra.resolve.packages.modules import Unrunnable, source_of, unimportable
 from orchestra.resolve.python_programs import PATHS
 from orchestra.resolve.refusals import refuse_value
@@ -49,13 +49,26 @@ def _fault(package: str, plugin: str, run: Resolution) -> Unrunnable | None:
         own = {point.name.rpartition("::")[2]: point.name for point in known if package in point.owners}
         name = plugin.rpartition("::")[2]
         meant = nearest(name, own)
-        if meant is None or not is_slip(name, meant):
-            return None
-        return Unrunnable(f"package {package!r} has no component {plugin!r}", own[meant])
+        whole = (
+            own[meant] if meant is not None and is_slip(name, meant) else _registered(package, plugin, run)
+        )
+        return (
+            None if whole is None else Unrunnable(f"package {package!r} has no component {plugin!r}", whole)
+        )
     if not is_named_by_module(plugin) or not run.scope.changes.keys().isdisjoint(PATHS):
         return None
     folder = str(Path.cwd())
     return once(("component", plugin, folder, *sys.path), lambda: _fault_in(plugin, folder))
+
+
+def _registered(package: str, plugin: str, run: Resolution) -> str | None:
+    """Return the component in C++ of a package that a name is a slip for, None where it has one of that name."""
+    prefix = run.context.packages.prefix(package)
+    if prefix is None:
+        return None
+    names = once(("registered", package, str(prefix)), lambda: registered_by(package, Path(prefix)))
+    meant = None if plugin in names else nearest(plugin, names)
+    return meant if meant is not None and is_slip(plugin, meant) else None
 
 
 def _fault_in(plugin: str, folder: str) -> Unrunnable | None:

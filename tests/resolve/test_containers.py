@@ -148,3 +148,19 @@ def test_a_component_without_a_name_has_that_of_its_class_as_its_id(folder: Path
     for plugin in ("demo.talker:Talker", "demo::Talker"):
         found = outcome(folder, text.replace("PLUGIN", f"'{plugin}'"))
         assert [component.id for component in found.plan.components] == ["/Talker"]
+
+
+@pytest.mark.parametrize(
+    ("plugin", "meant"),
+    [("demo::RectifyNode", None), ("demo::RectifyNod", "demo::RectifyNode"), ("demo::Elsewhere", None)],
+)
+def test_a_slip_of_a_component_that_a_package_registers_is_told(
+    plugin: str, meant: str | None, folder: Path
+) -> None:
+    index = folder / "prefix/share/ament_index/resource_index"
+    for kind, text in (("packages", ""), ("rclcpp_components", "demo::RectifyNode;lib/librectify.so\n")):
+        (index / kind).mkdir(parents=True)
+        (index / kind / "demo").write_text(text, "utf-8")
+    told = _planned(folder, plugin, launching=False, prefix=folder / "prefix").problems
+    found = [problem.suggestion for problem in told if problem.code is Code.MISSING_EXECUTABLE]
+    assert found == ([] if meant is None else [meant])

@@ -43,6 +43,12 @@ def resources(prefix: Path, kind: str) -> Iterator[tuple[str, str]]:
             yield path.name, path.read_text("utf-8", "replace")
 
 
+def resource(prefix: Path, kind: str, package: str) -> str | None:
+    """Return the text of the resource of a kind that a package has in a prefix, None where it has none."""
+    path = prefix / _RESOURCES / kind / package
+    return path.read_text("utf-8", "replace") if is_file(path) else None
+
+
 def executables(prefix: Path, package: str) -> dict[str, Path]:
     """Return the executables of a package by name: the executable files in `PREFIX/lib/PKG`."""
     folder = prefix / "lib" / package

@@ -17,6 +17,7 @@ from orchestra.resolve.packages.entry_points import declared
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
+    from pathlib import Path
 
     from orchestra.resolve.packages.entry_points import EntryPoint
 
@@ -35,12 +36,23 @@ def registered(environment: Mapping[str, str]) -> dict[str, list[str]]:
     found: dict[str, list[str]] = {}
     for prefix in ament.prefixes(environment):
         for package, text in ament.resources(prefix, _RESOURCE):
-            names = (line.partition(";")[0].strip() for line in text.splitlines())
-            found.setdefault(package, []).extend(name for name in names if name)
+            found.setdefault(package, []).extend(_names(text))
     for point in declared_components():
         package, colons, _ = point.name.partition("::")
         found.setdefault(package if colons else point.owners[0], []).append(point.name)
     return {package: list(dict.fromkeys(found[package])) for package in sorted(found)}
+
+
+def registered_by(package: str, prefix: Path) -> list[str]:
+    """Return the names of the components in C++ that a package registers in a prefix."""
+    text = ament.resource(prefix, _RESOURCE, package)
+    return [] if text is None else _names(text)
+
+
+def _names(text: str) -> list[str]:
+    """Return the names in a resource: what stands before the first semicolon of a line."""
+    names = (line.partition(";")[0].strip() for line in text.splitlines())
+    return [name for name in names if name]
 
 
 def is_named_by_module(plugin: str) -> bool:
