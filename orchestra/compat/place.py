@@ -292,9 +292,6 @@ def _shown(file: str, _working_directory: str) -> str:
 
 def code_points(file: str, line: int, offset: int) -> int:
     """Return a column in code points for one in bytes of UTF-8, as the compiler counts."""
-    import linecache  # noqa: PLC0415 - slow, and launch files in YAML and XML have no use for it
+    from orchestra.compat import columns  # noqa: PLC0415 - launch files in YAML and XML have no use for it
 
-    text = linecache.getline(file, line)
-    if text.isascii():
-        return offset
-    return len(text.encode()[:offset].decode(errors="replace"))
+    return columns.code_points(file, line, offset)
