@@ -57,6 +57,8 @@ class MendedSource:
 
     def mend(self, span: Span, meant: str) -> bool:
         """Put what was meant in place of a range; false where that has been done or makes no sense."""
+        if span.end_line > len(self._lines):  # the file has changed since
+            return False
         begin, end = self._offset(span.line, span.column), self._offset(span.end_line, span.end_column)
         imported = IMPORT.fullmatch(meant)
         if imported is None:
