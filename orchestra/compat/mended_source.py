@@ -9,6 +9,7 @@ import ast
 import linecache
 import re
 import warnings
+from bisect import bisect_right
 from importlib import import_module
 from itertools import accumulate
 from typing import TYPE_CHECKING, Any, Final
@@ -137,7 +138,7 @@ class MendedSource:
         return self._place(offset - moved)
 
     def _place(self, offset: int) -> tuple[int, int]:
-        line = next(line for line, begin in enumerate(self._begins[1:], 1) if offset < begin)
+        line = bisect_right(self._begins, offset, 1)
         return line, offset - self._begins[line - 1]
 
 
