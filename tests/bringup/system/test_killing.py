@@ -91,9 +91,10 @@ class _Witness:
 
 @pytest.fixture
 def witness(launch: Callable[..., Run]) -> Iterator[_Witness]:
-    # Slower than real time, so that a busy machine delays what is measured in simulated seconds by less: at half the
-    # speed a robot stood 0.4 s too late where eight sessions of tests shared two processors.
-    run = launch(_TWO_ROBOTS, "speed:=0.25")
+    # Slower than real time, so that a busy machine delays what is measured in simulated seconds by less. Not slower still:
+    # a node is back 1 s of the machine's clock after its end, and the robot must stand before: 0.2 s of silence, and 0.2 s
+    # of braking. At a quarter of the speed it began to brake, and drove on.
+    run = launch(_TWO_ROBOTS, "speed:=0.5")
     run.wait_ready(timeout=60)
     witness = _Witness(run)
     try:
