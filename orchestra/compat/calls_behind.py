@@ -6,6 +6,7 @@ They are read, not run: only calls that the file comes to by every way are told 
 from __future__ import annotations
 
 import ast
+from collections import deque
 from importlib import import_module
 from importlib.util import find_spec
 from typing import TYPE_CHECKING, Any, Final
@@ -25,19 +26,20 @@ if TYPE_CHECKING:
 
 # What is in these may never be run.
 _PERHAPS: Final = (
-    *(
-        ast.BoolOp,
-        ast.ClassDef,
-        ast.For,
-        ast.If,
-        ast.IfExp,
-        ast.Lambda,
-        ast.Match,
-        ast.Try,
-        ast.While,
-        ast.With,
-    ),
-    *(ast.DictComp, ast.GeneratorExp, ast.ListComp, ast.SetComp),
+    ast.BoolOp,
+    ast.ClassDef,
+    ast.DictComp,
+    ast.For,
+    ast.GeneratorExp,
+    ast.If,
+    ast.IfExp,
+    ast.Lambda,
+    ast.ListComp,
+    ast.Match,
+    ast.SetComp,
+    ast.Try,
+    ast.While,
+    ast.With,
 )
 
 
@@ -93,10 +95,10 @@ def _is_there(module: str) -> bool:
 
 
 def _calls(body: list[ast.stmt]) -> Iterator[ast.Call]:
-    """Yield the calls that are made by every way; what stands behind a `return` is not."""
-    waiting: list[ast.AST] = list(body)
+    """Yield the calls that stand in no branch, loop or function, the outer ones first."""
+    waiting: deque[ast.AST] = deque(body)
     while waiting:
-        node = waiting.pop(0)
+        node = waiting.popleft()
         if isinstance(node, ast.Call):
             yield node
         if not isinstance(node, (*_PERHAPS, ast.FunctionDef, ast.AsyncFunctionDef)):

@@ -70,16 +70,7 @@ class _Entities(Scan):
     def listed(self, column: int, model: Model | None, depth: int) -> tuple[Any, ...]:
         """Return the list whose dashes stand in a column, from the next line on: of entities, else of actions."""
         found: list[Any] = []
-        lines, count, words = self.lines, self.count, self.words
-        while self.line < count:
-            line = lines[self.line]
-            indent = len(line[INDENT])
-            if line[DASH] is None or indent < column:
-                break
-            last = line.lastindex
-            if indent > column or last == DASH or depth > DEEPEST:
-                raise UnlikeError
-            words.append("-")
+        for line in self.dashed(column, depth):
             if line[NAME] is not None:
                 at = line.start(NAME) - line.start()
                 if model is None:
@@ -88,7 +79,7 @@ class _Entities(Scan):
                     found.append(self.entity(at, None, depth + 1, model))
                 continue
             self.line += 1
-            if last != OPEN:
+            if line.lastindex != OPEN:
                 raise UnlikeError
             if model is None:
                 found.append(read_action(self.opened(line, None), self.places, self.reader))

@@ -17,6 +17,8 @@ from orchestra.load.offsets import spans_of
 from orchestra.location import GROUPS, Places, stretch
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from orchestra.load.alike.straight import Scalar
     from orchestra.load.offsets import Source
 
@@ -126,30 +128,33 @@ class Scan:
             raise UnlikeError
         return self.keys(indent, head, depth + 1)
 
+    def dashed(self, column: int, depth: int) -> Iterator[re.Match[str]]:
+        """Yield the lines with the dashes of a list; whoever takes one goes on to the line behind its item."""
+        while self.line < self.count:
+            line = self.lines[self.line]
+            indent = len(line[INDENT])
+            if line[DASH] is None or indent < column:
+                return
+            if indent > column or line.lastindex == DASH or depth > DEEPEST:
+                raise UnlikeError
+            self.words.append("-")
+            yield line
+
     def series(self, column: int, head: int, depth: int) -> Series:
         """Return the list whose dashes stand in a column, from the next line on."""
         items: list[Any] = []
-        lines, count = self.lines, self.count
-        begin = lines[self.line].start(DASH)
-        while self.line < count:
-            line = lines[self.line]
-            indent = len(line[INDENT])
-            if line[DASH] is None or indent < column:
-                break
-            last = line.lastindex
-            if indent > column or last == DASH or depth > DEEPEST:
-                raise UnlikeError
-            self.words.append("-")
+        begin = self.lines[self.line].start(DASH)
+        for line in self.dashed(column, depth):
             if line[NAME] is not None:
                 items.append(self.keys(line.start(NAME) - line.start(), None, depth + 1))
                 continue
             self.line += 1
-            if last == OPEN:
+            if line.lastindex == OPEN:
                 items.append(self.opened(line, None))
             else:
-                items.append(self.scalar(line, self.line - 1 << GROUPS, last == BARE))
+                items.append(self.scalar(line, self.line - 1 << GROUPS, line.lastindex == BARE))
         # It ends where the next thing begins.
-        end = self.end if self.line == count else lines[self.line].end(INDENT)
+        end = self.end if self.line == self.count else self.lines[self.line].end(INDENT)
         return Series(items, self.places.add((begin, end)), head)
 
     def scalar(self, found: re.Match[str], at: int, plain: bool) -> Scalar | Written:
