@@ -225,6 +225,40 @@ def test_a_lock_that_is_fresh_or_held_stays(made: list[Path]) -> None:
     assert port.name not in closed or not (port.exists() or free.exists())
 
 
+def test_the_folder_is_listed_again_only_where_something_has_come_or_gone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(shared_memory, "_FOLDER", str(tmp_path))
+    listed: list[str] = []
+    listdir = os.listdir
+
+    def counted(path: str) -> list[str]:
+        listed.append(path)
+        return listdir(path)
+
+    monkeypatch.setattr(os, "listdir", counted)
+    dead = shared_memory.DeadReaders()
+    settled = time.time() - 10.0
+    os.utime(tmp_path, (settled, settled))
+    assert [dead.close() for _ in range(5)] == [[]] * 5
+    assert len(listed) == 1
+
+    def came(name: str) -> None:
+        lock = tmp_path / f"{name}_el"
+        lock.touch()
+        os.utime(lock, (settled, settled))
+
+    came("fastrtps_port1")
+    assert dead.close() == ["fastrtps_port1"]
+    # This one comes while the clock of the folder stands still.
+    tick = tmp_path.stat().st_mtime
+    came("fastrtps_port2")
+    os.utime(tmp_path, (tick, tick))
+    assert dead.close() == ["fastrtps_port2"]
+    dead.end()
+    assert not listdir(tmp_path)
+
+
 def test_a_port_that_a_dead_supervisor_has_closed_goes(made: list[Path]) -> None:
     port = make(made, "fastrtps_port4000000004", age=10.0)
     free = make(made, f"{port.name}_el", age=10.0)

@@ -63,6 +63,8 @@ class DeadReaders:
     def __init__(self) -> None:
         # By the stem of a port: the descriptor of its lock, and since when it is held, in seconds that only pass.
         self._held: dict[str, tuple[int, float]] = {}
+        # The ports that were there, and when the folder had been changed last, in seconds since the epoch.
+        self._seen: tuple[float, list[str]] = (-math.inf, [])
 
     def close(self) -> list[str]:
         """Close the ports whose one reader has died, and return them; remove those that are forgotten."""
@@ -70,17 +72,26 @@ class DeadReaders:
         old = {port for port, (_, since) in self._held.items() if since < now - _FORGOTTEN}
         # Who maps one still would send to it for ever: Fast DDS does not see of every reader that it is dead.
         self._end(sorted(old - _mapped(removed=True)) if old else [])
-        try:
-            names = os.listdir(_FOLDER)  # noqa: PTH208 - few processes are killed
-        except OSError:
-            return []
         latest = time.time() - _FRESH
-        ports = [match[1] for name in names if (match := _READER.fullmatch(name))]
-        return [port for port in ports if port not in self._held and self._closed(port, latest, now)]
+        return [port for port in self._ports() if port not in self._held and self._closed(port, latest, now)]
 
     def end(self) -> None:
         """Remove all ports that are closed."""
         self._end([*self._held])
+
+    def _ports(self) -> list[str]:
+        """Return the ports that have a lock: hundreds of processes may end at once, among thousands of files."""
+        try:
+            changed = os.stat(_FOLDER).st_mtime  # noqa: PTH116 - as below
+            if changed != self._seen[0]:
+                # What comes in the same tick of the kernel's clock as what was seen changes no time stamp.
+                settled = changed < time.time() - _TICK
+                names = os.listdir(_FOLDER)  # noqa: PTH208 - without pathlib
+                ports = [match[1] for name in names if (match := _READER.fullmatch(name))]
+                self._seen = (changed if settled else -math.inf, ports)
+        except OSError:
+            return []
+        return self._seen[1]
 
     def _closed(self, port: str, latest: float, now: float) -> bool:
         """Close a port, if its lock is ours, came before `latest` and is held by nobody."""
