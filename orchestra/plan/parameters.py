@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 from orchestra.dataclass import dataclass, maker
 from orchestra.errors import Code, Problems
 from orchestra.fields import field
-from orchestra.location import is_python
 from orchestra.nearest import nearest
 from orchestra.plan import candidates
 from orchestra.plan.absent import is_mistake
@@ -28,7 +27,6 @@ if TYPE_CHECKING:
 
     from orchestra.location import Location
     from orchestra.resolve.model import (
-        ParameterSource,
         Resolved,
         ResolvedComponent,
         ResolvedProcess,
@@ -101,11 +99,8 @@ _Single: TypeAlias = "tuple[ParameterValue | None, Location, InlineParameter | N
 def _plain(process: ResolvedProcess, own: str, sections: Sections, *, whole: bool) -> Parameters | None:
     """Return the parameters of a node where each is written once; None where it takes a closer look.
 
-    In Python several may have one place, so that what was read for one is taken for what was read for all. Where the
-    full name is not known, other nodes in the process may read them too.
+    Where the full name is not known, other nodes in the process may read them too.
     """
-    if is_python(process.location) and not _are_apart(process.parameters):
-        return None
     found = _each_once(process, own, sections)
     if found is None:
         return None
@@ -167,7 +162,7 @@ def _each_once(
             else:
                 found[own] = {source.name: single}
             continue
-        if own == EVERY_NODE or is_python(source.location):
+        if own == EVERY_NODE:
             return None
         for section in sections.of_file(source, own):  # type: ignore[arg-type]  # the other kind of source
             entries = alone(section)
@@ -178,21 +173,6 @@ def _each_once(
             for name, entry in entries[0].items():
                 singles[name] = (entry.value, entry.location, None)
     return found
-
-
-def _are_apart(sources: Sequence[ParameterSource]) -> bool:
-    """Return whether values have places of their own, as far as that can be told without working the places out.
-
-    Those of arguments differ by their paths, and from all others.
-    """
-    paths = {_path(source.location) for source in sources}
-    return len(paths) == len(sources)
-
-
-def _path(location: Location) -> object:
-    """Return the path of an argument, None where it is none."""
-    group = getattr(location, "group", None)  # as its place does
-    return group if type(group) is tuple else getattr(location.span, "path", None)
 
 
 def check_given(resolved: Resolved, problems: Problems) -> None:

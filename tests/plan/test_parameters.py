@@ -68,6 +68,50 @@ def _described(chance: random.Random) -> str:
     return "\n".join(lines) + "\n"
 
 
+_PYTHON = """\
+import os
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration, PathJoinSubstitution
+from launch_ros.actions import Node
+
+FOLDER = os.path.dirname(__file__)
+
+
+def called(name):
+    return LaunchConfiguration(name)
+
+
+def generate_launch_description():
+    v = LaunchConfiguration('v')
+    return LaunchDescription([
+        DeclareLaunchArgument('v', default_value='3'),
+        DeclareLaunchArgument('w', default_value='x'),
+        DeclareLaunchArgument('p', default_value='p1.yaml'),
+"""
+_WRITTEN = (
+    *("1", "2.5", "True", "'text'", "[1, 2]", "['a', v]", "v", "v", "LaunchConfiguration('w')"),
+    *("called('v')", "called('w')", "{'a': 1, 'b': v}"),
+)
+_FILES = (
+    *("os.path.join(FOLDER, 'p0.yaml')", "PathJoinSubstitution([FOLDER, called('p')])"),
+    "PathJoinSubstitution([FOLDER, 'p2.yaml'])",
+)
+
+
+def _described_in_python(chance: random.Random) -> str:
+    lines = []
+    for number in range(6):
+        names = chance.sample(_NAMES, k=chance.randrange(4))
+        written = [f"{{{name!r}: {chance.choice(_WRITTEN)}}}" for name in names]
+        written += chance.sample(_FILES, k=chance.randrange(2))
+        chance.shuffle(written)
+        place = f", name='n{number}'" if chance.random() < 0.8 else ""
+        place += ", namespace='/x'" if chance.random() < 0.5 else ""
+        lines.append(f"        Node(executable='/bin/true'{place}, parameters=[{', '.join(written)}]),\n")
+    return f"{_PYTHON}{''.join(lines)}    ])\n"
+
+
 def _found(path: Path, *, whole: bool) -> tuple[Any, Any]:
     problems = Problems()
     with pipeline.opened(
@@ -79,9 +123,13 @@ def _found(path: Path, *, whole: bool) -> tuple[Any, Any]:
 
 
 @pytest.mark.parametrize("seed", range(12))
-def test_a_closer_look_finds_the_same(seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    path, chance = tmp_path / "main.launch.yaml", random.Random(seed)  # noqa: S311 - the same each time
-    path.write_text(_described(chance))
+@pytest.mark.parametrize("language", ["yaml", "py"])
+def test_a_closer_look_finds_the_same(
+    language: str, seed: int, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    chance = random.Random(seed)  # noqa: S311 - the same each time
+    path = tmp_path / f"main.launch.{language}"
+    path.write_text(_described(chance) if language == "yaml" else _described_in_python(chance))
     for number in range(3):
         (tmp_path / f"p{number}.yaml").write_text(_file(chance))
     plainly = [_found(path, whole=whole) for whole in (True, False)]

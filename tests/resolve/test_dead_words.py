@@ -146,6 +146,9 @@ ALIVE: dict[str, str] = {
     "something else than around": _inside("if: $(var gui)", "if: $(equals $(var map) b)"),
     "set anew in between": _GUI + "- group:\n    if: $(var gui)\n    children:\n"
     "    - let: {name: gui, value: 'false'}\n    " + _say("if: $(var gui)"),
+    "another value of what is set anew in between": _GUI
+    + "- group:\n    if: $(equals $(var map) a)\n    children:\n"
+    "    - let: {name: map, value: b}\n    " + _say("if: $(equals $(var map) c)"),
     "a delay with respawn switched off": node("a", respawn="false", respawn_delay="2.0"),
     "what is required and may end": node("a", restart="on-failure", required="true"),
     "a remap by an argument": "- arg: {name: t, default: scan}\n"

@@ -6,39 +6,52 @@ from typing import TYPE_CHECKING
 
 from orchestra.description.text import Call, Template, Words
 from orchestra.errors import Code
-from orchestra.resolve.impossible.held import Form, Held
+from orchestra.location import Location
+from orchestra.resolve.impossible.held import Form, Held, Said
 from orchestra.resolve.mentions import variables_in
 from orchestra.resolve.substitutions.equality import equal
 
 if TYPE_CHECKING:
-    from orchestra.resolve.context import Evaluated
     from orchestra.resolve.resolution import Resolution
 
 
-def held(template: Template, run: Resolution, *, truth: bool) -> Held | None:
-    """Return what a condition that has just been found true says; None for one that other code decides."""
-    names = variables_in(template)
-    form, truth, compared = _simplified(template, truth=truth)
-    if form is None or not names:
-        return None  # constants are how people switch something off
-    values = tuple((name, _value(name, run)) for name in sorted(names))
-    return Held(form, truth, compared, values, run.at(template.span))
+def held(template: Template, run: Resolution, *, truth: bool) -> Held:
+    """Return a condition that has just been evaluated."""
+    return Held(template, run.context.included_from, run.scope, truth=truth)
 
 
 def check_contradiction(template: Template, run: Resolution, *, truth: bool) -> None:
     """Report a condition, found false, that cannot be true inside of those around it."""
-    mine = held(template, run, truth=truth) if run.held else None
+    mine = _said(held(template, run, truth=truth)) if run.held else None
     if mine is None:
         return
-    for outer in run.held:
-        if _contradict(outer, mine):
+    for condition in run.held:
+        outer = _said(condition)
+        if outer is not None and _contradict(outer, mine):
             message = "this is never true here: a condition around it says the contrary"
             notes = (f"it is at {outer.location}",)
             run.problems.warning(Code.IMPOSSIBLE_CONDITION, message, mine.location, notes=notes)
             return
 
 
-def _contradict(outer: Held, inner: Held) -> bool:
+def _said(condition: Held) -> Said | None:
+    """Return what a condition says; None for one that other code decides."""
+    if condition.said is None:
+        condition.said = (_worked_out(condition),)
+    return condition.said[0]
+
+
+def _worked_out(condition: Held) -> Said | None:
+    template = condition.template
+    names = variables_in(template)
+    form, truth, compared = _simplified(template, truth=condition.truth)
+    if form is None or not names:
+        return None  # constants are how people switch something off
+    values = tuple((name, condition.value(name)) for name in sorted(names))
+    return Said(form, truth, compared, values, Location(template.span, condition.chain))
+
+
+def _contradict(outer: Said, inner: Said) -> bool:
     same_file = outer.location.span.file == inner.location.span.file
     if not same_file or outer.location.included_from != inner.location.included_from:
         return False
@@ -50,14 +63,9 @@ def _contradict(outer: Held, inner: Held) -> bool:
     return outer.truth != inner.truth if alike else outer.truth and inner.truth
 
 
-def _same_values(outer: Held, inner: Held) -> bool:
+def _same_values(outer: Said, inner: Said) -> bool:
     """Return whether nothing that they read has been set anew in between."""
     return all(one is other for (_, one), (_, other) in zip(outer.values, inner.values, strict=True))
-
-
-def _value(name: str, run: Resolution) -> Evaluated | None:
-    variable = run.scope.variables.get(name)
-    return None if variable is None else variable.value
 
 
 def _simplified(template: Template, *, truth: bool) -> tuple[Form | None, bool, str | None]:
