@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.place import Key, Letters, ValueOf
 from orchestra.compat.source_text import part_in
-from orchestra.compat.syntax_trees import Tree, node_span, tree_of
+from orchestra.compat.syntax_trees import Tree, is_apart, node_span, tree_of
 from orchestra.location import Span
 
 if TYPE_CHECKING:
@@ -218,7 +218,8 @@ class Literal:
             case ast.Dict(values=values):
                 return None if None in node.keys else values
             case ast.List(elts=items) | ast.Tuple(elts=items) | ast.Set(elts=items):
-                return None if any(isinstance(item, ast.Starred) for item in items) else items
+                apart = is_apart(node) if self._tree is None else self._tree.is_apart(node)
+                return items if apart else None
             case ast.Call(func=ast.Name(id="dict"), args=[], keywords=words):
                 return [word.value for word in words] if all(word.arg for word in words) else None
             case ast.BinOp(left=left, op=ast.Add(), right=right):

@@ -34,6 +34,14 @@ class Tree:
         self.nodes = [node for node in ast.walk(module) if isinstance(node, ast.expr | ast.stmt)]
         self._places: dict[tuple[str, int, int], dict[Span, ast.expr]] = {}
         self._setting: dict[Function | ast.Module, dict[str, list[ast.AST]]] = {}
+        self._apart: dict[int, bool] = {}
+
+    def is_apart(self, listed: ast.List | ast.Tuple | ast.Set) -> bool:
+        """Return whether each item of a list is written there; each of thousands may be asked for."""
+        known = self._apart.get(id(listed))
+        if known is None:
+            known = self._apart[id(listed)] = is_apart(listed)
+        return known
 
     def expression(self, file: str, span: Span) -> ast.expr | None:
         """Return the expression at a place, None where there is none; that of a text is with its quotes or without."""
@@ -200,6 +208,11 @@ def read_as(text: str, module: ast.Module) -> None:
             _read_as.clear()
         _read_as[text] = Tree(module)
         _of_file.clear()
+
+
+def is_apart(listed: ast.List | ast.Tuple | ast.Set) -> bool:
+    """Return whether each item of a list is written there, none spread into it."""
+    return not any(isinstance(item, ast.Starred) for item in listed.elts)
 
 
 def node_span(file: str, node: ast.expr | ast.stmt | ast.keyword, *, quotes: bool = False) -> Span:

@@ -48,6 +48,22 @@ class Found:
     unpackaged: list[tuple[str, Location]] = field(default_factory=list)
     stand_ins: list[Any] = field(default_factory=list)
     lets: dict[str, Location] = field(default_factory=dict)
+    _by_origin: dict[int, list[int]] = field(default_factory=dict)
+    _sorted: int = 0
+
+    def made_by(self, origin: object) -> tuple[int, ...]:
+        """Return the processes that an object of a Python launch file has made."""
+        for index in range(self._sorted, len(self.processes)):
+            self._by_origin.setdefault(id(self.processes[index].origin), []).append(index)
+        self._sorted = len(self.processes)
+        return tuple(self._by_origin.get(id(origin), ()))
+
+    def drop_process(self) -> None:
+        """Forget the process that has come last."""
+        self.processes.pop()
+        if len(self.processes) < self._sorted:
+            self._by_origin.clear()
+            self._sorted = 0
 
     @property
     def size(self) -> int:

@@ -94,10 +94,10 @@ def settled_actions(occasion: Occasion, run: Resolution) -> tuple[TriggeredActio
 
 def processes_of(target: Any, run: Resolution) -> tuple[int, ...]:  # noqa: ANN401 - an object or a predicate
     """Return the processes that an object of a Python launch file made, or those whose objects a predicate accepts."""
-    processes = list(enumerate(run.found.processes))
-    made = tuple(index for index, process in processes if process.origin is target)
+    made = run.found.made_by(target)
     if made or not callable(target):
         return made
+    processes = enumerate(tuple(run.found.processes))
     return tuple(index for index, process in processes if run.engine.accepts(target, index, process))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import deque
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
@@ -50,7 +51,9 @@ class ResolvingEngine:
         self._configurations = Configurations(run)
         self._environment = Environment(run)
         self.happening: list[tuple[Any, Location]] = []
-        self._handlers: list[Any] = []
+        # The newest first, each once.
+        self._handlers: deque[Any] = deque()
+        self._waiting: set[int] = set()
         self.context = LaunchContext(argv=argv, noninteractive=run.inputs.noninteractive, _engine=self)
 
     @property
@@ -126,18 +129,20 @@ class ResolvingEngine:
         self.waits(handler)
         self.carry_out(RegisterEventHandler.at(here().span, handlers=models))
         if not first:
-            self._handlers.append(self._handlers.pop(0))
+            self._handlers.append(self._handlers.popleft())
 
     def waits(self, handler: Any) -> None:
         """Take note that an event handler waits, the newest of all."""
-        if not any(known is handler for known in self._handlers):
-            self._handlers.insert(0, handler)
+        if id(handler) not in self._waiting:
+            self._waiting.add(id(handler))
+            self._handlers.appendleft(handler)
 
     def unregister(self, handler: Any) -> None:
         """Let an event handler wait no more. Raises `ValueError` where it does not wait."""
-        if not any(known is handler for known in self._handlers):
+        if id(handler) not in self._waiting:
             raise ValueError(f"{told(handler)} is not registered")
-        self._handlers = [known for known in self._handlers if known is not handler]
+        self._waiting.remove(id(handler))
+        self._handlers = deque(known for known in self._handlers if known is not handler)
         found = self._run.found
         found.occasions = [occasion for occasion in found.occasions if occasion.handler is not handler]
         if self._run.occasion is not None:
@@ -191,7 +196,7 @@ class ResolvingEngine:
             run.problems.extend(found)
             return
         while len(run.found.processes) > begun and run.found.processes[-1].faulty:
-            run.found.processes.pop()
+            run.found.drop_process()
             if run.occasion is not None:
                 run.occasion.do.pop()
         raise error
