@@ -35,7 +35,6 @@ MEANT_TRUE: Final = frozenset({"1", "on", "t", "true", "y", "yes"})
 MEANT_FALSE: Final = frozenset({"0", "f", "false", "n", "no", "off"})
 _VARIABLE: Final = re.compile(r"""LaunchConfiguration\((?:variable_name=)?(["']\w+["'])\)""")
 _DECIMAL: Final = re.compile(r"-?\d+(\.\d*)?(e-?\d+)?")
-_PLAIN: Final = re.compile(r"[\w./:=@%+, -]+")
 
 
 def form_meant(source: str, value: Any, message: str) -> str | None:
@@ -111,9 +110,10 @@ def _words(source: str, value: Any) -> str | None:
     if isinstance(value, set):
         return as_list(source)
     if isinstance(value, str):
-        if source[1:-1] == value:
-            return repr(value.split()) if _PLAIN.fullmatch(value) else None
-        return f"{source}.split()" if " " in value else f"[{source}]"
+        # Here, because only mistakes need it.
+        from orchestra.compat.words_meant import words_meant  # noqa: PLC0415
+
+        return words_meant(source, value)
     return f"[{source}]" if callable(getattr(value, "perform", None)) else None
 
 

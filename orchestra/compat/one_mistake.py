@@ -1,4 +1,4 @@
-"""Problems of Python files that are one mistake: lists side by side, and what follows from an exception."""
+"""Problems of Python files that are one mistake: lists side by side, code that runs again, what an exception causes."""
 
 from __future__ import annotations
 
@@ -53,6 +53,20 @@ def behind_exceptions(problems: Iterable[Problem]) -> Callable[[Problem], Proble
         if span is None or problem.code in (Code.USER_CODE, Code.SYNTAX):
             return problem
         return None if any(_holds(outer, span) for outer in raised.get(span.file, ())) else problem
+
+    return amended
+
+
+def corrected_alike(problems: Iterable[Problem]) -> Callable[[Problem], Problem | None]:
+    """Return what leaves one problem of those that are mended alike: of code that runs again for other values."""
+    first: dict[tuple[object, ...], Problem] = {}
+    for problem in problems:
+        if problem.suggestion is not None and problem.span is not None and problem.span.file.endswith(".py"):
+            first.setdefault((problem.code, problem.span, problem.suggestion), problem)
+
+    def amended(problem: Problem) -> Problem | None:
+        known = first.get((problem.code, problem.span, problem.suggestion), problem)
+        return problem if known is problem else None
 
     return amended
 

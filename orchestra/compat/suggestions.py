@@ -11,7 +11,7 @@ from orchestra.compat.as_texts import without_echoes
 from orchestra.compat.glued_paths import without_slash
 from orchestra.compat.late_roots import without_followers
 from orchestra.compat.literals import Literal, argument
-from orchestra.compat.one_mistake import behind_exceptions, together
+from orchestra.compat.one_mistake import behind_exceptions, corrected_alike, together
 from orchestra.compat.parameter_values import value_meant
 from orchestra.compat.place import Argument
 from orchestra.compat.rewritten import Rewritten
@@ -40,6 +40,7 @@ def point_into_code(problems: Problems) -> None:
     problems.amend(without_followers(tuple(problems)))
     problems.amend(in_place)
     problems.amend(together(tuple(problems)))
+    problems.amend(corrected_alike(tuple(problems)))
     problems.amend(behind_exceptions(tuple(problems)))
 
 

@@ -120,3 +120,13 @@ def beginning_of(value: Any, head: Span) -> Span:  # noqa: ANN401 - a tree
     if span.line == span.end_line or isinstance(value, Written):
         return span
     return Span(span.file, span.line, span.column, span.line, span.column + 1)
+
+
+def place_of(value: Any, head: Span) -> Span:  # noqa: ANN401 - a tree
+    """Return the place to point at for a value of the wrong kind: its key, which is `head`, where it is a block below.
+
+    Anything else is pointed at itself.
+    """
+    begin = beginning_of(value, head)
+    below = type(value) in (Keyed, Listed) and begin.line > head.end_line
+    return head if below else begin

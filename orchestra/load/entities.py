@@ -11,7 +11,7 @@ from orchestra.description.launch import Description, Launch
 from orchestra.description.source import Keyed, Listed, Written, kind_of, texts_in
 from orchestra.errors import HERE, Code
 from orchestra.fields import field
-from orchestra.load.elements import Tagged, beginning_of, emptied
+from orchestra.load.elements import Tagged, beginning_of, emptied, place_of
 from orchestra.load.exposed import ADDED_BY, exposed_action, exposes_action
 from orchestra.load.keys import action_meant, as_written, spelled
 from orchestra.load.pairs import written_mapping
@@ -72,7 +72,7 @@ class _Builder:
     ) -> tuple[Action, ...]:
         """Return the actions of a list; `around` are the keys that may stand beside it."""
         if not isinstance(items, Listed):
-            self._wrong(f"expected a list of actions, found {kind_of(items)}", beginning_of(items, head))
+            self._wrong(f"expected a list of actions, found {kind_of(items)}", place_of(items, head))
             return ()
         built = []
         for item in self._apart(items):
@@ -224,7 +224,7 @@ class _Builder:
             instead = written_mapping(model.known_keys(), model.required_keys(), content)
         wanted = "a list of actions" if nested else "a mapping"
         told = f"expected {wanted}, found {kind_of(content)}"
-        self._wrong(told, beginning_of(content, at), instead)
+        self._wrong(told, place_of(content, at), instead)
 
     def _wrong(self, message: str, span: Span, instead: str | None = None) -> None:
         self.reader.error(Code.WRONG_TYPE, message, span, suggestion=instead)

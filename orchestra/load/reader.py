@@ -12,7 +12,7 @@ from orchestra.description.text import Template, new_template, new_words
 from orchestra.errors import Code, Problems
 from orchestra.fields import field, replace
 from orchestra.load.braces import warn_of_braces
-from orchestra.load.elements import beginning_of, noun
+from orchestra.load.elements import beginning_of, noun, place_of
 from orchestra.load.grammar import parse_template, sound_template, unescaped
 from orchestra.load.halves import Halves
 from orchestra.load.keys import known_keys
@@ -195,9 +195,9 @@ class Reader:
         if isinstance(error["input"], Listed) and (nested := nested_list(mapping, place)) is not None:
             self.error(Code.WRONG_TYPE, NESTED, nested[0], suggestion=nested[1])
             return
-        at, notes = beginning_of(value, head), list[str]()
+        at, notes = place_of(value, head), list[str]()
         if suggestion is None and type(mapping) is Keyed:
-            at, suggestion = _instead(place, value, at)
+            at, suggestion = self._instead(place, value, at)
         if (
             kind in _LISTS
             and suggestion is None
@@ -206,17 +206,29 @@ class Reader:
             notes.append(f"it is written {instead}")
         self.error(Code.WRONG_TYPE, message, at, suggestion=suggestion, notes=notes)
 
+    def _instead(
+        self,
+        place: tuple[int | str, ...],
+        value: Any,  # noqa: ANN401 - a tree
+        at: Span,
+    ) -> tuple[Span, str | None]:
+        """Return what to point at for a value that is no list or no item of one, and how it is written; of XML nothing.
 
-def _instead(place: tuple[int | str, ...], value: Any, at: Span) -> tuple[Span, str | None]:  # noqa: ANN401 - a tree
-    """Return what to point at for a value that is no list or no item of one, and how it is written; of XML nothing."""
-    if isinstance(place[-1], str):
-        instead = written_so(place[-1], value)
-    elif isinstance(value, Written) and len(place) > 1:
-        instead = written_pair(str(place[-2]), value)
-    else:
-        instead = None
-    whole = None if instead is None else extent(value)
-    return (at, None) if whole is None else (whole, instead)
+        A block that begins below its key is written anew with it.
+        """
+        if isinstance(place[-1], str):
+            instead = written_so(place[-1], value)
+        elif isinstance(value, Written) and len(place) > 1:
+            instead = written_pair(str(place[-2]), value)
+        else:
+            instead = None
+        whole = None if instead is None else extent(value)
+        if whole is None:
+            return at, None
+        if at.end_line >= whole.line:
+            return whole, instead
+        key = self.text.split("\n")[at.line - 1][at.column - 1 : at.end_column - 1]
+        return replace(at, end_line=whole.end_line, end_column=whole.end_column), f"{key}: {instead}"
 
 
 def _among_texts(mapping: Keyed, error: ErrorDetails) -> str | None:
