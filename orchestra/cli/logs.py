@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 import re
 import sys
-from collections import deque
+from itertools import islice
 from typing import TYPE_CHECKING
 
 from orchestra.cli import colour, past, runs
@@ -81,10 +81,12 @@ def run(options: Namespace) -> int:
         raise RunError(f"there are no logs in {directory}")
     wanted = _filter(options, directory)
     write = _writer(options.format, directory)
-    follower = Follower(log)
-    for number, _ in enumerate(looks(directory, log.parent, follow=options.follow)):
-        found = _wanted(follower, wanted)
-        for record in found if number or options.lines is None else deque(found, maxlen=options.lines):
+    follower = Follower(log, from_now=options.lines is not None)
+    last = islice(filter(wanted.wants, records.parsed(follower.before())), options.lines or 0)
+    for record in reversed(list(last)):
+        write(record)
+    for _ in looks(directory, log.parent, follow=options.follow):
+        for record in _wanted(follower, wanted):
             write(record)
         sys.stdout.flush()
     follower.close()

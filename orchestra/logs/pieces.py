@@ -6,10 +6,13 @@ another (logrotate(8) moves every piece each time).
 
 from __future__ import annotations
 
+import math
 import os
+from contextlib import suppress
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from pathlib import Path
 
 _READ_SIZE = 1 << 18
@@ -50,8 +53,12 @@ class Follower:
         self._descriptor: int | None = None
         self._held = b""
         self._done = max(numbers(path), default=0) if from_now else 0
+        self._begin = 0
         if from_now and self._open(path) and self._descriptor is not None:
-            os.lseek(self._descriptor, 0, os.SEEK_END)
+            end = os.fstat(self._descriptor).st_size
+            # A line that is being written is read when it is whole.
+            self._begin = end - len(next(_backwards(self._descriptor, end)))
+            os.lseek(self._descriptor, self._begin, os.SEEK_SET)
 
     def lines(self) -> list[bytes]:
         """Return the whole lines that have come since, up to some hundred kilobytes; none where there are no more now.
@@ -66,6 +73,19 @@ class Follower:
             self._held = self._held[-_LONGEST_LINE:]
             if whole:
                 return [line + b"\n" for line in whole]
+
+    def before(self) -> Iterator[bytes]:
+        """Yield the whole lines before the place from where it has been told to read, the last first.
+
+        Raises `OSError` where the log cannot be read.
+        """
+        own = next((n for n in numbers(self._path) if self._is(put_away(self._path, n))), math.inf)
+        if self._descriptor is not None:
+            yield from _lines_before(self._descriptor, self._begin)
+        for number in reversed(numbers(self._path)):
+            if number < own:
+                with suppress(FileNotFoundError), put_away(self._path, number).open("rb") as piece:
+                    yield from _lines_before(piece.fileno(), os.fstat(piece.fileno()).st_size)
 
     def close(self) -> None:
         """Give the file back."""
@@ -116,3 +136,21 @@ class Follower:
         except FileNotFoundError:
             return False
         return True
+
+
+def _lines_before(descriptor: int, end: int) -> Iterator[bytes]:
+    """Yield the whole lines of a file before a place, the last first."""
+    found = _backwards(descriptor, end)
+    next(found)
+    yield from (line + b"\n" for line in found)
+
+
+def _backwards(descriptor: int, end: int) -> Iterator[bytes]:
+    """Yield what stands before a place without newlines, the last first: that is empty behind a whole line."""
+    held = b""
+    while end > 0:
+        begin = max(0, end - _READ_SIZE)
+        held, *whole = (os.pread(descriptor, end - begin, begin) + held).split(b"\n")
+        yield from reversed(whole)
+        end = begin
+    yield held

@@ -1,7 +1,10 @@
 from __future__ import annotations
 
+import os
+from itertools import islice
 from typing import TYPE_CHECKING
 
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -11,8 +14,6 @@ from orchestra.logs.rotation import Appended, Rotation
 
 if TYPE_CHECKING:
     from pathlib import Path
-
-    import pytest
 
 
 def rotated(path: Path, size: int = 30, keep: int = 100) -> Appended:
@@ -63,6 +64,48 @@ def test_a_follower_from_now_on_leaves_out_what_was_before(tmp_path: Path) -> No
     assert seen == [b"two\n", *[b"three\n"] * 10]
     follower.close()
     file.close()
+
+
+@settings(deadline=None)
+@given(
+    st.lists(st.binary(min_size=1, max_size=50).map(lambda line: line.replace(b"\n", b" ")), max_size=40),
+    st.integers(1, 40),
+    st.booleans(),
+)
+def test_a_follower_from_now_on_tells_what_was_before_from_its_end(
+    tmp_path_factory: pytest.TempPathFactory, lines: list[bytes], block: int, begun: bool
+) -> None:
+    log = tmp_path_factory.mktemp("logs") / "a"
+    file = rotated(log, size=100)
+    file.append([line + b"\n" for line in lines])
+    if begun:
+        with log.open("ab") as more:
+            more.write(b"begun")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(pieces, "_READ_SIZE", block)
+        follower = Follower(log, from_now=True)
+        assert [*follower.before()] == [line + b"\n" for line in reversed(lines)]
+    with log.open("ab") as more:
+        more.write(b" rest\n")
+    assert follower.lines() == [b"begun rest\n" if begun else b" rest\n"]
+    follower.close()
+    file.close()
+
+
+def test_the_last_lines_are_read_from_the_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    (tmp_path / "a").write_bytes(b"line\n" * 1_000_000)
+    read: list[int] = []
+    pread = os.pread
+
+    def counted(descriptor: int, size: int, place: int) -> bytes:
+        read.append(size)
+        return pread(descriptor, size, place)
+
+    monkeypatch.setattr(os, "pread", counted)
+    follower = Follower(tmp_path / "a", from_now=True)
+    assert [*islice(follower.before(), 5)] == [b"line\n"] * 5
+    assert sum(read) <= 2 * pieces._READ_SIZE
+    follower.close()
 
 
 def test_a_follower_goes_on_where_pieces_have_been_removed(tmp_path: Path) -> None:
