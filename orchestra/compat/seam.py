@@ -125,8 +125,8 @@ class Connection(Protocol):
     def debug(self) -> bool:
         """Whether what code of launch files raises is told with all calls on the way."""
 
-    def prepare(self) -> None:
-        """Get ready for code of a launch file."""
+    def prepare(self, code: CodeType | None = None) -> None:
+        """Get ready for code of a launch file, for this one where it is known."""
 
     def code(self, path: str, source: bytes) -> CodeType:
         """Return the code of a launch file in Python with this content. Raises what `compile` does."""

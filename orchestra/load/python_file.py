@@ -112,10 +112,10 @@ def _ran(
     known: dict[str, Any] = {}
     while True:
         try:
-            connection().prepare()
-            show(path, at.file)
             with collecting(problems, included_from):
-                module = load_module(path, source, code, known)
+                code = connection().code(path, source) if code is None else code
+                _get_ready(path, at, code)
+                module = load_module(path, code, known)
                 at = _definition(module, at)
                 with _in_place(module):
                     return module, _made(module), at
@@ -125,6 +125,8 @@ def _ran(
             # Here, because only mistakes need it, and what it imports.
             from orchestra.compat.carrying_on import CarryingOn  # noqa: PLC0415
 
+            if code is None:
+                _get_ready(path, at)
             carrying = carrying or CarryingOn(path, included_from, at)
             found = carrying.problems(error)
             problems.extend(found if included_from else map(_grave, found))
@@ -134,6 +136,11 @@ def _ran(
 
                 tell_keywords(path, FUNCTION, problems, included_from)
                 return None
+
+
+def _get_ready(path: str, at: Span, code: CodeType | None = None) -> None:
+    connection().prepare(code)
+    show(path, at.file)
 
 
 def _look_for_slips(
@@ -200,18 +207,12 @@ def _grave(problem: Problem) -> Problem:
     return replace(problem, severity=Severity.ERROR)
 
 
-def load_module(
-    path: str, source: bytes, code: CodeType | None = None, known: Mapping[str, Any] | None = None
-) -> ModuleType:
-    """Run a Python file, of which this is in it, as a module of its own, which stays out of `sys.modules`.
-
-    `code` is run instead of that of the source, with what is `known` to it.
-    """
+def load_module(path: str, code: CodeType, known: Mapping[str, Any]) -> ModuleType:
+    """Run the code of a Python file as a module of its own, which stays out of `sys.modules`; some is `known` to it."""
     module = ModuleType(_MODULE)
     module.__file__ = path
     module.__spec__ = ModuleSpec(_MODULE, None, origin=path)
-    vars(module).update(known or {})
-    code = connection().code(path, source) if code is None else code
+    vars(module).update(known)
     with _in_place(module):
         exec(code, vars(module))  # noqa: S102 - a launch file is code
     return module

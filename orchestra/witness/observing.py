@@ -29,14 +29,15 @@ class Observer:
     """Records what this process looks at. There is one per process, `observer()`.
 
     `foreign` are modules in other languages, `code` is what is read of ours, `ran_code` tells whether users' has run
-    since the record was begun. Unless it `asks`, no question is recorded. No folder is searched for packages that are
-    `ours`.
+    since the record was begun, `ran_freely` whether any but what is `harmless`. Unless it `asks`, no question is
+    recorded. No folder is searched for packages that are `ours`.
     """
 
     def __init__(self) -> None:
         self.record: Record | None = None
         self.scratch: str | None = None
         self.foreign, self.code = set[str](), set[str]()
+        self.harmless: CodeType | None = None
         self.paused = self._resting = 0  # how often it is told to record nothing
         self._being_aside = _Aside(self)
         self._seen: dict[str, Signature | None] = {}
@@ -44,7 +45,7 @@ class Observer:
         self._contents = Contents()
         self._folders = looking.Folders().listing
         self._installed: Record = Record()
-        self.ran_code, self.certain = False, True
+        self.ran_code, self.ran_freely, self.certain = False, False, True
         self._environment: dict[str, str] = {}
         self._paths: set[tuple[Any, ...]] = set()
         self._harmless: set[str] = set()
@@ -71,7 +72,8 @@ class Observer:
 
     def begin(self, environment: dict[str, str]) -> None:
         """Begin a record; `environment` is the one that counts as being outside."""
-        self.record, self._seen, self.ran_code, self.certain, self._parts = Record(), {}, False, True, set()
+        self.record, self._seen, self._parts = Record(), {}, set()
+        self.ran_code, self.ran_freely, self.certain = False, False, True
         self._environment, self._paths = environment, set()
         self.paused, self._resting = self.paused - self._resting, 0
         self._contents.forget()
@@ -233,13 +235,9 @@ class Observer:
             if not writes:  # as the bytecode of a module, under another name at first
                 self.code.update(origins.own_source(path))
             return
-        if writes:
-            self.unknown(f"{whole} is written")
-            return
-        if whole.endswith(".pyc"):
-            whole = source_of(whole)
-        if whole.startswith(origins.OF_THE_KERNEL):
-            self.unknown(f"{whole} is another one each time")
+        whole = source_of(whole) if whole.endswith(".pyc") else whole
+        if writes or whole.startswith(origins.OF_THE_KERNEL):
+            self.unknown(f"{whole} is {'written' if writes else 'another one each time'}")
             return
         self.file(whole)
         if whole.startswith(INSTALLED) and whole.endswith(".py"):
@@ -272,8 +270,8 @@ class Observer:
     def _executes(self, code: Any) -> None:
         if isinstance(code, CodeType) and origins.of_users(code.co_filename) and unknowable.reaches_out(code):
             self.ran_code = True
-            sign = unknowable.sign_in(code)
-            if sign is not None:
+            self.ran_freely = self.ran_freely or code is not self.harmless
+            if code is not self.harmless and (sign := unknowable.sign_in(code)) is not None:
                 self.unknown(f"code uses {sign}")
 
 

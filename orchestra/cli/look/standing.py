@@ -45,6 +45,8 @@ class Standing:
             if isolation.remaining is not None:
                 isolation.renew(environment)
                 sys.argv = Arguments(argv)
-            elif observer().ran_code:
+            elif observer().ran_freely:
                 self._entered = None
                 context.__exit__(None, None, None)
+            elif observer().ran_code:
+                self._environment = None  # it was run in that of its scope

@@ -36,7 +36,7 @@ class LoadingConnection:
         self,
         packages: InstalledPackages,
         begin: Callable[[Problems], Resolution],
-        prepare: Callable[[], None] = lambda: None,
+        prepare: Callable[[CodeType | None], None] = lambda _: None,
         *,
         problems: Problems | None = None,
         inputs: Inputs = _INPUTS,
@@ -44,13 +44,17 @@ class LoadingConnection:
         postponed: list[Callable[[], None]] | None = None,
     ) -> None:
         self.debug = inputs.debug
-        self.prepare = prepare
+        self._prepare = prepare
         self._packages = packages
         self._begin = begin
         self._inputs = inputs
         self._place = codes
         self._postponed = postponed
         self._problems = Problems() if problems is None else problems
+
+    def prepare(self, code: CodeType | None = None) -> None:
+        """Get ready for code of a launch file, for this one where it is known."""
+        self._prepare(code)
 
     @cached_property
     def front_end(self) -> FrontEnd:

@@ -13,10 +13,12 @@ from orchestra.compat.hook import Serving, served
 from orchestra.resolve.packages.python import libraries
 from orchestra.resolve.python.environ import environment_now, put_environment
 from orchestra.resolve.python.files import Files
+from orchestra.witness.harmless import changes_nothing
 from orchestra.witness.observing import observer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
+    from types import CodeType
 
     from orchestra.resolve.python.interpreter import Interpreter
     from orchestra.resolve.python.libraries import Libraries
@@ -39,18 +41,22 @@ class Isolation:
         self._folder = os.getcwd()  # noqa: PTH109 - pathlib is slow
         self._zone = time.tzname
 
-    def prepare(self) -> None:
-        """Get ready for code of launch files, which may do anything."""
+    def prepare(self, code: CodeType | None = None) -> None:
+        """Get ready for code of launch files, which may do anything unless it can be seen to change nothing."""
         if self.remaining is not None:
             return
         # Here, because only such code needs it, and what it imports.
         from orchestra.compat.place import forget  # noqa: PLC0415
+
+        forget()
+        if code is not None and changes_nothing(code):
+            observer().harmless = code
+            return
         from orchestra.resolve.python.interpreter import Interpreter  # noqa: PLC0415
         from orchestra.resolve.python.libraries import Libraries  # noqa: PLC0415
         from orchestra.resolve.python.remaining import nothing_left, orphans_kept  # noqa: PLC0415
         from orchestra.resolve.python.temporary import temporary_files  # noqa: PLC0415
 
-        forget()
         enter = self._restoring.enter_context
         with observer().aside():
             if self._before is None:
