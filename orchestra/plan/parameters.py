@@ -62,7 +62,9 @@ def parameters_of(
     full = node_name(process)
     own = full if full is not None and process.namespace is not None else EVERY_NODE
     plain = (
-        None if sections.given or process.parameter_arguments else _plain(process, own, sections, whole=whole)
+        None
+        if sections.given or process.parameter_arguments
+        else _plain(process, own, full, sections, whole=whole)
     )
     if plain is not None:
         return plain
@@ -96,12 +98,14 @@ def _origins(process: ResolvedProcess, *, whole: bool) -> candidates.Origins:
 _Single: TypeAlias = "tuple[ParameterValue | None, Location, InlineParameter | None]"
 
 
-def _plain(process: ResolvedProcess, own: str, sections: Sections, *, whole: bool) -> Parameters | None:
+def _plain(
+    process: ResolvedProcess, own: str, full: str | None, sections: Sections, *, whole: bool
+) -> Parameters | None:
     """Return the parameters of a node where each is written once; None where it takes a closer look.
 
     Where the full name is not known, other nodes in the process may read them too.
     """
-    found = _each_once(process, own, sections)
+    found = _each_once(process, own, full, sections)
     if found is None:
         return None
     values = {
@@ -110,11 +114,11 @@ def _plain(process: ResolvedProcess, own: str, sections: Sections, *, whole: boo
         for name, single in singles.items()
         if single[0] is not None
     }
-    if own != EVERY_NODE:
-        of_files = any(kind is not InlineParameter for kind in set(map(type, process.parameters)))
-        files = sections.passed_on(process, own) if whole and of_files else ()
+    of_files = any(kind is not InlineParameter for kind in set(map(type, process.parameters)))
+    if of_files:
+        files = sections.passed_on(process, own) if whole else ()
     else:
-        files = (ParameterFile("", rendered(own, values)),) if whole and values else ()
+        files = (ParameterFile("", rendered(own, values)),) if whole and values and own == EVERY_NODE else ()
 
     def written() -> dict[str, tuple[Candidate, ...]]:
         known = _origins(process, whole=whole)
@@ -142,12 +146,12 @@ def _candidate(
 
 
 def _each_once(
-    process: ResolvedProcess, own: str, sections: Sections
+    process: ResolvedProcess, own: str, full: str | None, sections: Sections
 ) -> dict[str, dict[str, _Single]] | None:
     """Return the parameters by pattern and name, the patterns in the order in which they appear first.
 
     None where one is written twice, or may take the slot of another. What is set for all nodes is left out of it, and
-    files where they are given to a node whose full name is not known.
+    files where they are given to a node without a name.
     """
     found: dict[str, dict[str, _Single]] = {}
     taken: set[str] = set()
@@ -162,9 +166,9 @@ def _each_once(
             else:
                 found[own] = {source.name: single}
             continue
-        if own == EVERY_NODE:
+        if full is None:
             return None
-        for section in sections.of_file(source, own):  # type: ignore[arg-type]  # the other kind of source
+        for section in sections.of_file(source, full):  # type: ignore[arg-type]  # the other kind of source
             entries = alone(section)
             if entries is None or not taken.isdisjoint(entries[1]):
                 return None

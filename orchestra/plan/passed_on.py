@@ -15,12 +15,15 @@ from orchestra.plan.parameter_file import line, with_lines
 from orchestra.resolve.model import InlineParameter
 from orchestra.resolve.rcl.indexed import Indexed, absolute
 from orchestra.resolve.rcl.sections import Entry, Section, entry
-from orchestra.resolve.rcl.table import flat, tabulated
+from orchestra.resolve.rcl.table import alone, flat, tabulated
 
 if TYPE_CHECKING:
-    from collections.abc import Container, Iterable, Sequence
+    from collections.abc import Collection, Container, Iterable, Sequence
+    from typing import TypeAlias
 
     from orchestra.resolve.model import FileParameters, Resolved, ResolvedComponent, ResolvedProcess
+
+    _Block: TypeAlias = "tuple[str, Collection[str], list[str] | None]"
 
 EVERY_NODE = "/**"
 
@@ -34,9 +37,9 @@ class Sections:
         self._files: dict[int, Indexed] = {}
         self._others: dict[int, _Others] = {}
         self._passed_on: dict[tuple[object, ...], tuple[ParameterFile, ...]] = {}
-        self._lines: dict[
-            tuple[str, int], tuple[Entry, str]
-        ] = {}  # an entry is kept: no other gets its identity
+        # By identities: entries and sections are kept, so that no others get theirs.
+        self._lines: dict[tuple[str, int], tuple[Entry, str]] = {}
+        self._blocks: dict[int, tuple[Section, _Block]] = {}
 
     @cached_property
     def _nodes(self) -> set[str | None]:
@@ -69,18 +72,60 @@ class Sections:
         Of a node whose full name is not known its own sections are among them, and of one without a name all are.
         """
         known = own != EVERY_NODE
-        sources = [item for item in node.parameters if not (known and _is_own(item))]
+        sources = [item for item in node.parameters if not _is_own(item)] if known else node.parameters
         if not (sources or self.given):
             return ()
         name = None if node.name is None else node.name.text
         key = (known or name, *(id(getattr(item, "sections", item)) for item in sources))
         if key not in self._passed_on:
-            every = [section for item in sources for section in self._of(item, own, name, known=known)]
-            every += self._kept(self.given, name, known=known)
-            self._passed_on[key] = self._rendered(every)
+            content = None if self.given else self._plainly(sources, own, name, known=known)
+            if content is None:
+                every = [section for item in sources for section in self._of(item, own, name, known=known)]
+                every += self._kept(self.given, name, known=known)
+                content = self._rendered(every)
+            self._passed_on[key] = (ParameterFile("", content),) if content else ()
         return self._passed_on[key]
 
-    def _rendered(self, sections: Sequence[Section]) -> tuple[ParameterFile, ...]:
+    def _plainly(
+        self, sources: Sequence[InlineParameter | FileParameters], own: str, name: str | None, *, known: bool
+    ) -> str | None:
+        """Return the text of what is written once for each pattern; None where it takes a closer look."""
+        lines: dict[str, list[str]] = {}
+        taken: dict[str, set[str]] = {}
+        for source in sources:
+            if isinstance(source, InlineParameter):
+                if source.value is None:
+                    return None
+                text = line(source.name, source.value)
+                blocks: Iterable[_Block] = (
+                    (EVERY_NODE if source.everywhere else own, (source.name,), [text]),
+                )
+            else:
+                blocks = map(self._block, self._kept(source.sections, name, known=known))
+            for pattern, names, texts in blocks:
+                before = taken.get(pattern)
+                if texts is None or not (before is None or before.isdisjoint(names)):
+                    return None
+                if before is None:
+                    taken[pattern], lines[pattern] = set(names), [*texts]
+                else:
+                    before.update(names)
+                    lines[pattern] += texts
+        return "".join([with_lines(absolute(pattern), texts) for pattern, texts in lines.items() if texts])
+
+    def _block(self, section: Section) -> _Block:
+        """Return the pattern of a section, all names that it takes and its lines, None where some are in the way."""
+        known = self._blocks.get(id(section))
+        if known is None:
+            entries = alone(section)
+            texts = entries and [self._line(name, entry) for name, entry in entries[0].items()]
+            known = self._blocks[id(section)] = (
+                section,
+                (section.pattern, entries[1] if entries else (), texts),
+            )
+        return known[1]
+
+    def _rendered(self, sections: Sequence[Section]) -> str:
         texts = []
         for pattern, entries in _winners(sections):
             lines = [
@@ -90,7 +135,7 @@ class Sections:
             ]
             if lines:
                 texts.append(with_lines(absolute(pattern), lines))
-        return (ParameterFile("", "".join(texts)),) if texts else ()
+        return "".join(texts)
 
     def _line(self, name: str, entry: Entry) -> str:
         """Return the line of an entry; most are passed on to many nodes."""

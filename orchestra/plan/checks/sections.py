@@ -111,7 +111,9 @@ def _files(nodes: Sequence[_Node]) -> list[_File]:
         name = node_name(node)
         for source in given:
             place = source.location if source.everywhere else None
-            file = files.setdefault((source.path, place), _File(source))
+            file = files.get((source.path, place))
+            if file is None:
+                file = files[source.path, place] = _File(source)
             if name is None:
                 file.open = True
             else:

@@ -22,7 +22,7 @@ class Indexed:
     Of many only those are looked at again whose parts are those of the name.
     """
 
-    __slots__ = ("_exact", "_named", "_open", "_parted", "sections")
+    __slots__ = ("_exact", "_named", "_open", "_parted", "_wild", "sections")
 
     def __init__(self, sections: Sequence[Section]) -> None:
         self.sections = sections
@@ -38,23 +38,28 @@ class Indexed:
                 self._named.setdefault(last, []).append(place)
             else:
                 self._open.append(place)
+        self._wild = bool(self._open or self._named)
 
     def matching(self, full_name: str) -> list[Section]:
         """Return the sections that are for a node, in order."""
-        found = [*self._with_wildcards(full_name), *self._exact.get(full_name, ())]
-        return [self.sections[place] for place in sorted(found)]
+        exact = self._exact.get(full_name, ())
+        if not self._wild:
+            return [self.sections[place] for place in exact]
+        found = self._with_wildcards(full_name)
+        return [self.sections[place] for place in (sorted([*found, *exact]) if exact else sorted(found))]
 
     def has_wildcard_for(self, full_name: str) -> bool:
         """Return whether a pattern with a wildcard is for a node."""
-        return any(True for _ in self._with_wildcards(full_name))
+        return self._wild and bool(self._with_wildcards(full_name))
 
-    def _with_wildcards(self, full_name: str) -> Iterator[int]:
-        named = self._named.get(full_name.rpartition("/")[2], ())
+    def _with_wildcards(self, full_name: str) -> list[int]:
+        named = self._named.get(full_name.rpartition("/")[2], ()) if self._named else ()
         if len(named) + len(self._open) <= _FEW:
-            places: Iterable[int] = (*self._open, *named)
+            places: Iterable[int] = (*self._open, *named) if named else self._open
         else:
             places = self._by_parts().found(full_name)
-        return (place for place in places if matches(self.sections[place].pattern, full_name))
+        sections = self.sections
+        return [place for place in places if matches(sections[place].pattern, full_name)]
 
     def _by_parts(self) -> Parted:
         if self._parted is None:
