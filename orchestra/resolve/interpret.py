@@ -31,6 +31,8 @@ VISITORS: dict[str, str] = {
     "Arg": "arg",
     "EmitEvent": "emit_event",
     "Executable": "executable",
+    "ForEachLoop": "for_each",
+    "ForLoop": "for_loop",
     "Group": "group",
     "Include": "include",
     "Let": "let",

@@ -21,6 +21,7 @@ from orchestra.compat.launch.launch_context import LaunchContext
 from orchestra.compat.launch.launch_description_sources import AnyLaunchDescriptionSource
 from orchestra.compat.launch.substitutions import (
     EnvironmentVariable,
+    ForLoopIndex,
     LaunchConfiguration,
     PythonExpression,
     TextSubstitution,
@@ -327,6 +328,19 @@ def test_files_are_read_by_path_and_open(tmp_path: Path, name: str, text: str, k
 def test_a_file_that_cannot_be_read_is_refused(text: str) -> None:
     with pytest.raises(InvalidFrontendLaunchFileError):
         Parser.load(io.StringIO(text))
+
+
+@_LANGUAGES
+def test_a_loop_makes_its_actions_once_per_turn(language: str) -> None:
+    children = [{"log": {"message": "$(index i)$(for-var a b)"}}]
+    loop = _only(language, "for", len="$(var n 2)", name="i", children=children)
+    each = _only(language, "for_each", values="{a: 1}", children=children)
+    assert (_text(loop.length), loop.name, _text(each.input_values)) == ("2", "i", "{a: 1}")
+    assert [[type(made).__name__ for made in turn] for turn in (loop.function(i=0), each.function(a=1))] == [
+        ["OpaqueFunction", "LogInfo", "OpaqueFunction"]
+    ] * 2
+    with pytest.raises(TypeError, match="ForLoopIndex takes name, found 2 arguments"):
+        ForLoopIndex.parse(["i", "j"])
 
 
 @pytest.mark.parametrize("text", ["<root/>", "root: []"])

@@ -15,7 +15,7 @@ from orchestra.errors import Problems
 from orchestra.load.files import load
 from orchestra.load.grammar import parse_template
 from orchestra.location import point
-from tests.convert.turning import round_trip, same_everywhere
+from tests.convert.turning import round_trip, same_everywhere, turned
 from tests.load import test_grammar_tables as grammar
 from tests.load import test_language_tables as language_tables
 from tests.load import test_parameter_tables as parameters
@@ -71,11 +71,25 @@ def test_what_python_cannot_say_is_told(row: str, tmp_path: Path) -> None:
     assert found.text is None
 
 
+_LOOPS = ("for", "for_each")
+
+
+@pytest.mark.parametrize("name", _LOOPS)
+def test_a_loop_is_converted_where_it_is_no_function(name: str, tmp_path: Path) -> None:
+    environment = _place(tmp_path)
+    path = _write(tmp_path, WRITERS["yaml"]([{name: language_tables._NEEDED[name]}]))
+    (remark,) = convert(str(path), "python", environment).remarks
+    assert remark.message == f"in Python `{name}` takes a function"
+    back = convert(str(turned(path, "xml", environment)), "yaml", environment)
+    assert back.remarks == ()
+
+
 def test_every_action_with_a_condition_says_the_same_everywhere(tmp_path: Path) -> None:
     actions: Actions = [
         {name: {**keys, condition: "$(var x false)"}}
         for name, keys in language_tables._NEEDED.items()
         for condition in ("if", "unless")
+        if name not in _LOOPS
     ]
     same_everywhere(_write(tmp_path, WRITERS["yaml"](actions)), _place(tmp_path))
 

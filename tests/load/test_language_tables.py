@@ -390,6 +390,8 @@ _NEEDED: dict[str, dict[str, Any]] = {
     "append_env": {"name": "a", "value": "b"},
     "arg": {"name": "a", "default": "b"},
     "executable": {"cmd": "a"},
+    "for": {"len": 1, "name": "i", "children": [{"log": {"message": "a"}}]},
+    "for_each": {"values": "{a: b}", "children": [{"log": {"message": "a"}}]},
     "group": {"children": [{"log": {"message": "a"}}]},
     "include": {"file": "inner.launch.yaml"},
     "let": {"name": "a", "value": "b"},

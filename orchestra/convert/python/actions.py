@@ -218,6 +218,11 @@ def _timer(name: str) -> Write:
     return lambda writer, action: writer.called(name, action, names, writers)
 
 
+def _loop(_: Writer, action: Action) -> Code:
+    """Refuse a loop: a function makes the actions in Python, which has the value itself."""
+    raise UnsayableError(f"in Python `{name_of(action)}` takes a function", action.span)
+
+
 def _reset(writer: Writer, action: Reset) -> Code:
     return writer.called(
         "ResetLaunchConfigurations", action, {"keep": "launch_configurations"}, {"keep": _pairs}
@@ -232,6 +237,8 @@ _WRITERS: Final[dict[str, Write]] = {
     "append_env": _append_env,
     "arg": _arg,
     "executable": _running("ExecuteProcess"),
+    "for": _loop,
+    "for_each": _loop,
     "group": _group,
     "include": _include,
     "let": _simple("SetLaunchConfiguration", name="", value=""),

@@ -16,6 +16,8 @@ ACTIONS: dict[str, str] = {
     "append_env": "append_env:AppendEnv",
     "arg": "arg:Arg",
     "executable": "executable:Executable",
+    "for": "for_loop:ForLoop",
+    "for_each": "for_loop:ForEachLoop",
     "group": "group:Group",
     "include": "include:Include",
     "let": "let:Let",

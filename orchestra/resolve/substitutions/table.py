@@ -21,6 +21,7 @@ from orchestra.resolve.substitutions import (
     log_folder,
     logic,
     param,
+    turn,
     var,
     yaml_value,
 )
@@ -46,7 +47,9 @@ SUBSTITUTIONS: Final[Mapping[str, Substitution]] = MappingProxyType({
     "find-exec": find_exec.perform,
     "find-pkg-prefix": find_package.prefix,
     "find-pkg-share": find_package.share,
+    "for-var": turn.perform,
     "if": choice.perform,
+    "index": turn.perform,
     "launch_log_dir": log_folder.perform,
     "log_dir": log_folder.perform,
     "not": logic.negation,

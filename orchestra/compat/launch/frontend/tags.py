@@ -11,6 +11,8 @@ TAGS: Final = MappingProxyType({
     "append_env": "launch:AppendEnvironmentVariable",
     "arg": "launch:DeclareLaunchArgument",
     "executable": "launch:ExecuteProcess",
+    "for": "launch:ForLoop",
+    "for_each": "launch:ForEach",
     "group": "launch:GroupAction",
     "include": "launch:IncludeLaunchDescription",
     "let": "launch:SetLaunchConfiguration",

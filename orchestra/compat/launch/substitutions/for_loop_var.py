@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, ClassVar
 
 from orchestra.compat.described import described
 from orchestra.compat.launch.utilities.perform_substitutions_impl import perform_substitutions
@@ -11,6 +11,7 @@ from orchestra.compat.text import normalized
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
+    from typing import Self
 
     from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.launch.substitution import Substitution
@@ -20,10 +21,21 @@ if TYPE_CHECKING:
 class ForEachVar(PerformedSubstitution):
     """The value of a variable in the turn that is going on, else the default. `ForEach` puts it among the locals."""
 
+    _parameters: ClassVar[tuple[str, ...]] = ("name", "default_value")
+
     def __init__(self, name: Sub, *, default_value: Sub | None = None) -> None:
         super().__init__()
         self.__name = normalized(name)
         self.__default_value = None if default_value is None else normalized(default_value)
+
+    @classmethod
+    def parse(cls, data: Sequence[Sub]) -> tuple[type[Self], dict[str, Any]]:
+        """Return the class and the keywords of its constructor. Raises `TypeError` for too few or too many."""
+        if not 0 < len(data) <= len(cls._parameters):
+            raise TypeError(
+                f"{cls.__name__} takes {' and '.join(cls._parameters)}, found {len(data)} arguments"
+            )
+        return cls, dict(zip(cls._parameters, data, strict=False))
 
     @staticmethod
     def get_local_arg_name(name: str) -> str:
@@ -62,6 +74,8 @@ class ForEachVar(PerformedSubstitution):
 
 class ForLoopIndex(ForEachVar):
     """The index of the turn of a `ForLoop`."""
+
+    _parameters = ("name",)
 
     def __init__(self, name: Sub) -> None:
         super().__init__(name)

@@ -22,6 +22,8 @@ _READERS: Final = MappingProxyType({
     "DeclareLaunchArgument": "variables:declaration",
     "ExecuteLocal": "processes:execute_local",
     "ExecuteProcess": "processes:execute_process",
+    "ForEach": "loops:for_each",
+    "ForLoop": "loops:for_loop",
     "GroupAction": "structure:group",
     "IncludeLaunchDescription": "structure:include",
     "LifecycleNode": "nodes:lifecycle_node",
