@@ -32,8 +32,8 @@ def model_of(entity: LaunchDescriptionEntity) -> Model:
     if isinstance(entity, Action) and type(entity).visit is Action.visit:
         if place is None:
             raise TypeError(f"{type(entity).__name__}.__init__ does not call super().__init__()")
-        return OpaqueAction.at(place.span, target=entity, **conditioned(entity))
-    return OpaqueAction.at((place or here()).span, target=entity, origin=entity)
+        return made_of(OpaqueAction, place, {"target": entity}, conditioned(entity))
+    return OpaqueAction.made((place or here()).span, {"target": entity}, entity)
 
 
 class Described(ModelledAction):
@@ -67,12 +67,12 @@ def _model_or_opaque(entities: list[Any], index: int, place: Place) -> Model:
         # Here, because only mistakes need it, and what it imports.
         from orchestra.compat.literals import item_span  # noqa: PLC0415
 
-        return OpaqueAction.at(item_span(place, index, len(entities)), target=entity, origin=entity)
+        return OpaqueAction.made(item_span(place, index, len(entities)), {"target": entity}, entity)
     try:
         return model_of(entity)
     except Exception:  # noqa: BLE001 - the visit of the entity alone comes upon the same
         at: Place = getattr(entity, "_place", None) or place
-        return OpaqueAction.at(at.span, target=entity, origin=entity)
+        return OpaqueAction.made(at.span, {"target": entity}, entity)
 
 
 def conditioned(action: Action) -> dict[str, Any]:
@@ -80,6 +80,17 @@ def conditioned(action: Action) -> dict[str, Any]:
     if action.condition is None:
         return {"origin": action}
     return {"origin": action, **condition_fields(action.condition, action._place.at("condition"))}
+
+
+def made_of(kind: type[Model], place: Place, fields: dict[str, Any], common: Mapping[str, Any]) -> Model:
+    """Return the model of an action at a place, whose own fields nothing can be wrong with, by their names in models.
+
+    `common` are the fields that every action has. Raises `ValidationError` for a condition of other words.
+    """
+    condition = unchecked(common)
+    if condition is None:
+        return kind.at(place.span, **fields, **common)
+    return kind.made(place.span, {**fields, **condition}, common["origin"])
 
 
 def unchecked(common: Mapping[str, Any]) -> dict[str, Any] | None:

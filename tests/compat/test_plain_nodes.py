@@ -21,7 +21,7 @@ from orchestra.compat.launch.substitutions import (
     ThisLaunchFileDir,
 )
 from orchestra.compat.launch_ros.actions import Node
-from orchestra.compat.launch_ros.descriptions import ParameterFile, ParameterValue
+from orchestra.compat.launch_ros.descriptions import ComposableNode, ParameterFile, ParameterValue
 from orchestra.compat.launch_ros.substitutions import FindPackageShare
 from orchestra.compat.refusing import collecting
 from orchestra.description.entity import Entity
@@ -47,25 +47,25 @@ def _loading() -> Iterator[None]:
         yield
 
 
-def _made(keywords: dict[str, Any], *, plainly: bool = True) -> Node:
-    """Return a node that code of a launch file makes, at the same place each time."""
+def _made(keywords: dict[str, Any], kind: type[Any] = Node, *, plainly: bool = True) -> Any:
+    """Return a node or a component that code of a launch file makes, at the same place each time."""
     with pytest.MonkeyPatch.context() as patch, collecting(Problems(), ()):
         if not plainly:
-            patch.setattr(Node, "_taken", lambda *_: False)
-        return Node(**keywords)
+            patch.setattr(kind, "_taken", lambda *_: False)
+        return kind(**keywords)
 
 
-def _model(node: Node) -> Any:
-    return model_of(node)
+def _model(made: Any) -> Any:
+    return made._to_model() if isinstance(made, ComposableNode) else model_of(made)
 
 
-def _is_plain(node: Node) -> bool:
-    return "_plain" in vars(node)
+def _is_plain(made: Any) -> bool:
+    return "_plain" in vars(made)
 
 
-def _told(node: Node) -> tuple[str, dict[str, Span]]:
+def _told(made: Any) -> tuple[str, dict[str, Span]]:
     """Return all that is said of the model of a node, and where each part of it stands."""
-    model = model_of(node)
+    model = _model(made)
     spans: dict[str, Span] = {}
 
     def walk(value: Any, way: str) -> None:
@@ -84,7 +84,7 @@ def _told(node: Node) -> tuple[str, dict[str, Span]]:
 
     walk(model, "")
     fields = sorted((name, repr(value)) for name, value in vars(model).items())
-    return repr((type(model), fields, model.faults, model.faulty)), spans
+    return repr((type(model), fields, model.faults, model.faulty, model.origin is made)), spans
 
 
 _BY_NAME: dict[str, Callable[[], Any]] = {
@@ -111,13 +111,17 @@ _DICTIONARIES = st.recursive(
     lambda inner: st.dictionaries(_NAMES, _VALUES | inner, max_size=2),
     max_leaves=3,
 )
+_PARAMETERS = st.none() | st.lists(_DICTIONARIES | _TEXTS | st.just("p.yaml").map(ParameterFile), max_size=3)
+_REMAPPINGS = st.none() | st.lists(st.tuples(_TEXTS, _TEXTS), max_size=3)
+_CONDITIONS = st.sampled_from(
+    [None, IfCondition(LaunchConfiguration("c")), UnlessCondition("false"), IfCondition("perhaps"), "x"]
+)
 _ARGUMENTS = st.fixed_dictionaries(
     {"executable": _TEXTS},
     optional={
         **dict.fromkeys(("package", "name", "namespace", "exec_name", "prefix", "cwd"), st.none() | _TEXTS),
-        "parameters": st.none()
-        | st.lists(_DICTIONARIES | _TEXTS | st.just("p.yaml").map(ParameterFile), max_size=3),
-        "remappings": st.none() | st.lists(st.tuples(_TEXTS, _TEXTS), max_size=3),
+        "parameters": _PARAMETERS,
+        "remappings": _REMAPPINGS,
         "arguments": st.none() | st.lists(_TEXTS, max_size=3),
         "ros_arguments": st.none() | st.lists(_TEXTS, max_size=3),
         "output": st.sampled_from(
@@ -127,24 +131,37 @@ _ARGUMENTS = st.fixed_dictionaries(
         "respawn": st.sampled_from([True, False, "true"]),
         "respawn_delay": st.sampled_from([None, 0, 2, 1.5, -1.0, float("inf"), "2"]),
         "additional_env": st.none() | st.dictionaries(_WORDS, _TEXTS, max_size=2),
-        "condition": st.sampled_from(
-            [None, IfCondition(LaunchConfiguration("c")), UnlessCondition("false"), IfCondition("perhaps")]
-        ),
+        "condition": _CONDITIONS,
         "shell": st.booleans(),
     },
 )
 
 
-@given(_ARGUMENTS)
-@settings(max_examples=300, deadline=None)
-def test_the_model_is_the_one_of_the_constructor(keywords: dict[str, Any]) -> None:
+_OF_COMPONENTS = st.fixed_dictionaries(
+    {"package": _TEXTS, "plugin": _TEXTS},
+    optional={
+        **dict.fromkeys(("name", "namespace", "params_schema"), st.none() | _TEXTS),
+        "parameters": _PARAMETERS,
+        "remappings": _REMAPPINGS,
+        "extra_arguments": _PARAMETERS,
+        "condition": _CONDITIONS,
+    },
+)
+
+
+@given(
+    _ARGUMENTS.map(lambda words: (Node, words)) | _OF_COMPONENTS.map(lambda words: (ComposableNode, words))
+)
+@settings(max_examples=400, deadline=None)
+def test_the_model_is_the_one_of_the_constructor(made: tuple[type[Any], dict[str, Any]]) -> None:
+    kind, keywords = made
     try:
-        ordinary = _made(keywords, plainly=False)
+        ordinary = _made(keywords, kind, plainly=False)
     except TypeError as error:
         with pytest.raises(type(error), match=re.escape(str(error))):
-            _made(keywords)
+            _made(keywords, kind)
         return
-    plain = _made(keywords)
+    plain = _made(keywords, kind)
     assert not _is_plain(ordinary)
     if not _is_plain(plain):
         return
@@ -157,7 +174,10 @@ def test_the_model_is_the_one_of_the_constructor(keywords: dict[str, Any]) -> No
     assert _told(plain) == expected
     assert _is_plain(plain)
     # When somebody has looked at it, it still is.
-    assert [*map(str, plain.cmd[0])] == [*map(str, ordinary.cmd[0])]
+    if kind is Node:
+        assert [*map(str, plain.cmd[0])] == [*map(str, ordinary.cmd[0])]
+    else:
+        assert [*map(str, plain.package)] == [*map(str, ordinary.package)]
     assert not _is_plain(plain)
     assert _told(plain) == expected
 
@@ -182,6 +202,29 @@ def test_usual_nodes_are_made_so() -> None:
     assert _is_plain(node)
     assert _model(node).if_ is not None
     assert _is_plain(node)
+
+
+_COMPONENT: dict[str, Any] = {
+    "package": "demo",
+    "plugin": "demo::Talker",
+    "extra_arguments": [{"use_intra_process_comms": True}],
+    **{name: _USUAL[name] for name in ("name", "namespace", "parameters", "remappings", "condition")},
+}
+
+
+def test_usual_components_are_made_so_until_somebody_asks_or_changes_something() -> None:
+    component = _made(_COMPONENT, ComposableNode)
+    assert _model(component).if_ is not None
+    assert _is_plain(component)
+    copied = copy.copy(component)
+    copied._ComposableNode__package = [TextSubstitution(text="other")]  # what some files do
+    assert [_model(item).pkg.raw for item in (component, copied)] == ["demo", "other"]
+    assert (_is_plain(component), _is_plain(copied)) == (True, False)
+
+    class Mine(ComposableNode):
+        pass
+
+    assert not _is_plain(_made(_COMPONENT, Mine))
 
 
 @pytest.mark.parametrize("name", ["parameters", "remappings", "arguments", "additional_env"])

@@ -14,12 +14,21 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.compat.building import unchecked
 from orchestra.compat.launch.actions.execute_local import OVERRIDE
 from orchestra.compat.launch.actions.execute_process import ExecuteProcess
-from orchestra.compat.launch_ros.plain_parameters import parameters
-from orchestra.compat.launch_ros.plain_texts import UnusualError, copied, divisible, entity, plain_text
+from orchestra.compat.launch_ros.plain_parameters import parameters, remaps
+from orchestra.compat.launch_ros.plain_texts import (
+    UnusualError,
+    copied,
+    divisible,
+    entity,
+    left,
+    plain_text,
+    read,
+    word,
+)
 from orchestra.compat.place import Arguments, Key, Place, ValueOf, standing
 from orchestra.description.actions.node import Node as NodeModel
 from orchestra.description.outputs import OUTPUTS
-from orchestra.description.parts import Pair, Remap
+from orchestra.description.parts import Pair
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -141,28 +150,9 @@ def _says_output(environ: Any) -> bool:
 
 def plain(given: dict[str, Any], place: Place) -> Plain | None:
     """Return what a node is made of that is constructed from keywords at a place; None where one is not usual."""
-    fields, call = _NOTHING.copy(), Arguments(place)
-    kept = given.copy()
-    try:
-        for name, value in given.items():
-            if value is not None:
-                _READ[name](name, value, call, fields, kept)
-            elif name not in _OPTIONAL:
-                return None
-    except (KeyError, UnusualError):
-        return None
-    return None if fields["exec"] is None else Plain(fields, kept)
-
-
-def _word(field: str) -> Callable[..., None]:
-    """Return what reads a text."""
-
-    def read(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
-        fields[field] = plain_text(value, call, (name,))
-        if type(value) is list:
-            kept[name] = list(value)
-
-    return read
+    fields = _NOTHING.copy()
+    kept = read(given, place, _READ, fields)
+    return None if kept is None or fields["exec"] is None else Plain(fields, kept)
 
 
 def _prefix(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
@@ -213,10 +203,6 @@ def _output(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept
         raise UnusualError
 
 
-def _condition(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
-    """Leave a condition to the visit."""
-
-
 def _environment(
     name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]
 ) -> None:
@@ -239,50 +225,22 @@ def _environment(
     kept[name] = {key: copied(text) for key, text in value.items()}
 
 
-def _read_parameters(
-    name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]
-) -> None:
-    fields["param"], kept[name] = parameters(name, value, call)
-
-
-def _remaps(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
-    if type(value) is not list:
-        raise UnusualError
-    span = call.span((name,))
-    made, own = [], []
-    for index, rule in enumerate(value):
-        if type(rule) is not tuple or len(rule) != _SIDES:
-            raise UnusualError
-        source, target = rule
-        from_ = plain_text(source, call, (name, index, 0))
-        to = plain_text(target, call, (name, index, 1))
-        made.append(entity(Remap, {"from_": from_, "to": to}, span))
-        own.append(rule if type(source) is type(target) is str else copied(rule))
-    fields["remap"] = tuple(made)
-    kept[name] = own
-
-
-_SIDES: Final = 2
-_read_prefix: Final = _word("launch_prefix")
+_read_prefix: Final = word("launch_prefix")
 _OVERRIDE: Final = OVERRIDE.encode()
 # What a node has as long as it is plain: its place, its condition, and what it is made of.
 _OF_PLAIN: Final = 3
 _NUMBERS: Final = (int, float)
 _NOTHING: Final = NodeModel._unwritten()
-_OPTIONAL: Final = frozenset(
-    {"package", "name", "namespace", "exec_name", "parameters", "remappings", "arguments", "ros_arguments"}
-    | {"output", "prefix", "cwd", "additional_env", "condition", "emulate_tty", "respawn_delay", "on_exit"}
-)
 _READ: Final[dict[str, Callable[..., None]]] = {
-    "package": _word("pkg"),
-    "executable": _word("exec"),
-    "name": _word("name"),
-    "namespace": _word("namespace"),
-    "exec_name": _word("exec_name"),
+    "package": word("pkg"),
+    "executable": word("exec"),
+    "name": word("name"),
+    "namespace": word("namespace"),
+    "exec_name": word("exec_name"),
     "prefix": _prefix,
-    "cwd": _word("cwd"),
-    "parameters": _read_parameters,
-    "remappings": _remaps,
+    "cwd": word("cwd"),
+    "parameters": parameters("param"),
+    "remappings": remaps,
     "arguments": _words("args", empty=None),
     "ros_arguments": _words("ros_args", empty=()),
     "output": _output,
@@ -290,5 +248,5 @@ _READ: Final[dict[str, Callable[..., None]]] = {
     "respawn": _flag,
     "respawn_delay": _delay,
     "additional_env": _environment,
-    "condition": _condition,
+    "condition": left,
 }

@@ -1,4 +1,4 @@
-"""Parameters of the usual kinds: dictionaries of values and of dictionaries, and files."""
+"""Parameters of the usual kinds: dictionaries of values and of dictionaries, and files; and remappings."""
 
 from __future__ import annotations
 
@@ -13,31 +13,55 @@ from orchestra.compat.launch_ros.plain_texts import (
     whole_text,
 )
 from orchestra.compat.place import argument
-from orchestra.description.parts import Param
+from orchestra.description.parts import Param, Remap
 from orchestra.description.text import matched_words, new_constant, new_template, new_words
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
+    from orchestra.compat.launch_ros.plain_texts import Reader
     from orchestra.compat.place import Arguments, Way
     from orchestra.description.text import Part
     from orchestra.location import Span
 
 
-def parameters(name: str, value: Any, call: Arguments) -> tuple[tuple[Param, ...], list[Any]]:
-    """Return the parts of the model for a list of parameters, and a copy of the list."""
+def parameters(field: str) -> Reader:
+    """Return what reads a list of parameters."""
+
+    def reader(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+        if type(value) is not list:
+            raise UnusualError
+        made: list[Param] = []
+        own: list[Any] = []
+        for index, item in enumerate(value):
+            path = (name, index)
+            if type(item) is dict:
+                own.append(_entries(item, ((), "", ""), call, path, made))
+            else:
+                file = plain_text(item, call, path)
+                made.append(_param({"from_": file}, call.span(path)))
+                own.append(copied(item))
+        fields[field] = tuple(made)
+        kept[name] = own
+
+    return reader
+
+
+def remaps(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    """Read a list of rules, of which each has two sides."""
     if type(value) is not list:
         raise UnusualError
-    made: list[Param] = []
-    own: list[Any] = []
-    for index, item in enumerate(value):
-        path = (name, index)
-        if type(item) is dict:
-            own.append(_entries(item, ((), "", ""), call, path, made))
-        else:
-            file = plain_text(item, call, path)
-            made.append(_param({"from_": file}, call.span(path)))
-            own.append(copied(item))
-    return tuple(made), own
+    span = call.span((name,))
+    made, own = [], []
+    for index, rule in enumerate(value):
+        if type(rule) is not tuple or len(rule) != _SIDES:
+            raise UnusualError
+        source, target = rule
+        from_ = plain_text(source, call, (name, index, 0))
+        to = plain_text(target, call, (name, index, 1))
+        made.append(entity(Remap, {"from_": from_, "to": to}, span))
+        own.append(rule if type(source) is type(target) is str else copied(rule))
+    fields["remap"] = tuple(made)
+    kept[name] = own
 
 
 def _entries(
@@ -92,5 +116,6 @@ def _value(value: Any, call: Arguments, path: tuple[Way, ...]) -> tuple[Any, Any
     return composed(value, call, path), kind(value)
 
 
+_SIDES: Final = 2
 _SCALARS: Final = frozenset({str, bool, int, float})
 _NO_PARAMETER: Final = Param._unwritten()

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from orchestra.compat.calls import CallSubstitution, Composed, new_composed
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
+from orchestra.compat.place import Arguments
 from orchestra.description.model import Model
 from orchestra.description.text import (
     MatchedTemplate,
@@ -18,15 +19,52 @@ from orchestra.description.text import (
 from orchestra.description.written import escaped
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
 
-    from orchestra.compat.place import Arguments, Way
+    from orchestra.compat.place import Place, Way
     from orchestra.description.text import Part
     from orchestra.location import Span
 
 
 class UnusualError(Exception):
     """An argument is none of the usual ones."""
+
+
+Reader: TypeAlias = "Callable[[str, Any, Arguments, dict[str, Any], dict[str, Any]], None]"
+
+
+def read(
+    given: dict[str, Any], place: Place, readers: Mapping[str, Reader], fields: dict[str, Any]
+) -> dict[str, Any] | None:
+    """Read the keywords of a call at a place into the fields of a model, which are all there, each as it is unwritten.
+
+    Return the keywords with lists and dictionaries of their own; None where one is not usual.
+    """
+    call, kept = Arguments(place), given.copy()
+    try:
+        for name, value in given.items():
+            if value is not None:
+                readers[name](name, value, call, fields, kept)
+            elif name not in _OPTIONAL:
+                return None
+    except (KeyError, UnusualError):
+        return None
+    return kept
+
+
+def word(field: str) -> Reader:
+    """Return what reads a text."""
+
+    def reader(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+        fields[field] = plain_text(value, call, (name,))
+        if type(value) is list:
+            kept[name] = list(value)
+
+    return reader
+
+
+def left(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+    """Leave an argument to the visit, as a condition is."""
 
 
 def whole_text(value: Any) -> Template:
@@ -112,6 +150,12 @@ def entity(kind: type[Any], values: dict[str, Any], span: Span, origin: Any = No
     return made
 
 
+# Keywords that say nothing by None.
+_OPTIONAL: Final = frozenset(
+    {"package", "name", "namespace", "exec_name", "parameters", "remappings", "arguments", "ros_arguments"}
+    | {"output", "prefix", "cwd", "additional_env", "condition", "emulate_tty", "respawn_delay", "on_exit"}
+    | {"extra_arguments"}
+)
 _SEVERAL: Final = 2
 _SERIES: Final = frozenset({list, tuple})
 _new = object.__new__

@@ -11,8 +11,11 @@ from orchestra.compat.values import scalar
 from orchestra.description.actions.append_env import AppendEnv
 
 if TYPE_CHECKING:
+    from collections.abc import Mapping
+
     from orchestra.compat.launch.substitution import Substitution
     from orchestra.compat.text import Sub
+    from orchestra.description.entity import Action as Model
 
 
 class AppendEnvironmentVariable(SettingAction):
@@ -45,6 +48,11 @@ class AppendEnvironmentVariable(SettingAction):
     def separator(self) -> list[Substitution]:
         """What stands between the old and the new."""
         return self.__separator
+
+    def _to_model(self, common: Mapping[str, Any]) -> Model:
+        return self._model.at(
+            self._place.span, **self._fields(), **common
+        )  # it may say other than true or false
 
     def _fields(self) -> dict[str, Any]:
         place = self._place

@@ -5,16 +5,9 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING, Any
 
-from orchestra.compat.building import models_of
+from orchestra.compat.building import made_of, models_of
 from orchestra.compat.extensions import extension_fields, taken
 from orchestra.compat.launch.action import ModelledAction
-from orchestra.compat.launch.actions.pop_environment import PopEnvironment
-from orchestra.compat.launch.actions.pop_launch_configurations import PopLaunchConfigurations
-from orchestra.compat.launch.actions.push_environment import PushEnvironment
-from orchestra.compat.launch.actions.push_launch_configurations import PushLaunchConfigurations
-from orchestra.compat.launch.actions.reset_environment import ResetEnvironment
-from orchestra.compat.launch.actions.reset_launch_configurations import ResetLaunchConfigurations
-from orchestra.compat.launch.actions.set_launch_configuration import SetLaunchConfiguration
 from orchestra.compat.launch.event_handler import is_of_ours
 from orchestra.compat.values import pairs, scalar
 from orchestra.description.actions.group import Group
@@ -65,28 +58,16 @@ class GroupAction(ModelledAction):
     def get_sub_entities(self) -> list[LaunchDescriptionEntity]:
         """Return the actions, with those that make the scope around them."""
         if self.__all is None:
+            from orchestra.compat.around_groups import after, before  # noqa: PLC0415 - few ask for what it imports
+
             self.__actions = list(self.__actions)
-            self.__all = [*self.__before(), *self.__actions, *self.__after()]
+            begin = before(self.__launch_configurations, scoped=self.__scoped, forwarding=self.__forwarding)
+            self.__all = [*begin, *self.__actions, *after(scoped=self.__scoped)]
         return self.__all
 
     def execute(self, context: LaunchContext) -> list[LaunchDescriptionEntity] | None:
         """Return the actions, with those that make the scope around them; repeated ones are visited at once."""
         return super().execute(context) if self.__extensions else self.get_sub_entities()
-
-    def __before(self) -> list[LaunchDescriptionEntity]:
-        settings = self.__launch_configurations
-        if self.__scoped and not self.__forwarding:
-            return [
-                PushLaunchConfigurations(),
-                PushEnvironment(),
-                ResetEnvironment(),
-                ResetLaunchConfigurations(settings),
-            ]
-        scope = [PushLaunchConfigurations(), PushEnvironment()] if self.__scoped else []
-        return [*scope, *(SetLaunchConfiguration(name, value) for name, value in settings.items())]
-
-    def __after(self) -> list[LaunchDescriptionEntity]:
-        return [PopEnvironment(), PopLaunchConfigurations()] if self.__scoped else []
 
     def _is_as_described(self) -> bool:
         return super()._is_as_described() and is_of_ours(self, "get_sub_entities")
@@ -95,12 +76,13 @@ class GroupAction(ModelledAction):
         span = self._place.span
         if isinstance(self.__actions, Iterator):
             self.__actions = list(self.__actions)
-        return Group.at(
-            span,
-            scoped=None if self.__scoped else scalar(value=False, span=span),
-            forwarding=None if self.__forwarding else scalar(value=False, span=span),
-            keep=pairs(self.__launch_configurations.items(), self._place.at("launch_configurations")),
-            children=models_of(self.__actions, self._place),
-            **extension_fields(Group, self.__extensions, self._place, children=()),
-            **common,
-        )
+        fields: dict[str, Any] = {
+            "scoped": None if self.__scoped else scalar(value=False, span=span),
+            "forwarding": None if self.__forwarding else scalar(value=False, span=span),
+            "keep": pairs(self.__launch_configurations.items(), self._place.at("launch_configurations")),
+            "children": models_of(self.__actions, self._place),
+        }
+        if not self.__extensions:
+            return made_of(Group, self._place, fields, common)
+        more = extension_fields(Group, self.__extensions, self._place, children=())
+        return Group.at(span, **fields, **more, **common)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, ClassVar
 
+from orchestra.compat.building import made_of
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.text import normalized, template
 
@@ -30,7 +31,7 @@ class NamedAction(ModelledAction):
         return self.__name
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        return self._model.at(self._place.span, **self._fields(), **common)
+        return made_of(self._model, self._place, self._fields(), common)
 
     def _fields(self) -> dict[str, Any]:
         """Return the fields of the model that it alone has."""

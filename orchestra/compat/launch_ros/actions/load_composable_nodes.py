@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.building import made_of
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch_ros.actions.composable_node_container import ComposableNodeContainer
@@ -47,13 +48,13 @@ class LoadComposableNodes(ModelledAction):
         self.__target_container = target_container
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        span = self._place.span
         components = component_models(
             self.__composable_node_descriptions, self._place.at("composable_node_descriptions")
         )
         if not components:
-            return Group.at(span, children=(), **common)
-        return LoadComposableNode.at(span, target=self.__target(), composable_node=components, **common)
+            return made_of(Group, self._place, {"children": ()}, common)
+        fields = {"target": self.__target(), "composable_node": components}
+        return made_of(LoadComposableNode, self._place, fields, common)
 
     def __target(self) -> Template:
         span = self._place.at("target_container")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.building import made_of
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.text import normalized, template
 from orchestra.description.actions.push_ros_namespace import PushRosNamespace as PushRosNamespaceModel
@@ -30,7 +31,7 @@ class PushROSNamespace(ModelledAction):
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         namespace = template(self.namespace, self._place.at("namespace"))
-        return PushRosNamespaceModel.at(self._place.span, namespace=namespace, **common)
+        return made_of(PushRosNamespaceModel, self._place, {"namespace": namespace}, common)
 
 
 PushRosNamespace = PushROSNamespace

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.building import made_of
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.launch_ros.models import params_of, value_fields
 from orchestra.compat.launch_ros.utilities.normalize_parameters import normalize_parameter_dict
@@ -40,10 +41,13 @@ class SetParameter(ModelledAction):
         return self.__value
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
-        span = self._place.span
-        name, at = template(self.name, self._place.at("name")), self._place.at("value")
+        place = self._place
+        name, at = template(self.name, place.at("name")), place.at("value")
         if isinstance(self.__value, Mapping):
             nested = params_of(normalize_parameter_dict(self.__value), at)
-            return SetParameterModel.at(span, name=name, param=nested, **common)
+            return SetParameterModel.at(place.span, name=name, param=nested, **common)
         (value,) = self.__param_dict.values()
-        return SetParameterModel.at(span, name=name, **value_fields(value, at), **common)
+        fields = {"name": name, **value_fields(value, at)}
+        if "type" in fields:  # which may be one that there is not
+            return SetParameterModel.at(place.span, **fields, **common)
+        return made_of(SetParameterModel, place, fields, common)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from orchestra.compat.building import made_of
 from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.text import normalized, template
 from orchestra.description.actions.set_remap import SetRemap as SetRemapModel
@@ -37,4 +38,4 @@ class SetRemap(ModelledAction):
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         source, target = self._place.at("src"), self._place.at("dst")
         names = template(self.src, source), template(self.dst, target)
-        return SetRemapModel.at(self._place.span, from_=names[0], to=names[1], **common)
+        return made_of(SetRemapModel, self._place, {"from_": names[0], "to": names[1]}, common)

@@ -9,10 +9,10 @@ from typing import TYPE_CHECKING, Any, Final, Self
 from orchestra.compat.building import condition_fields
 from orchestra.compat.explanation import told
 from orchestra.compat.launch_ros.models import params, remaps
+from orchestra.compat.launch_ros.plain_components import PlainComponent
 from orchestra.compat.launch_ros.utilities.normalize_parameters import normalize_parameters
 from orchestra.compat.launch_ros.utilities.normalize_remap_rule import normalize_remap_rules
 from orchestra.compat.place import here, within
-from orchestra.compat.refusing import Refusing
 from orchestra.compat.text import normalized, template
 from orchestra.compat.values import optional
 from orchestra.compat.wrong import WrongType
@@ -27,8 +27,10 @@ if TYPE_CHECKING:
 _COMPONENTS: Final = "composable_node_descriptions"
 
 
-class ComposableNode(Refusing):
+class ComposableNode(PlainComponent):
     """A class of a package, loaded into a container as a node. Raises `TypeError` as `Node` does."""
+
+    _may_be_plain = True
 
     def __init__(  # noqa: PLR0913 - upstream's signature, and a key of ours
         self,
@@ -100,6 +102,9 @@ class ComposableNode(Refusing):
         return self.__condition
 
     def _to_model(self) -> ComposableNodeModel:
+        plain = self._plain_model()
+        if plain is not None:
+            return plain
         at, condition = self._place.at, self.condition()
         model = ComposableNodeModel.at(
             self._place.span,

@@ -1,0 +1,89 @@
+"""Components whose arguments are of the usual kinds: as nodes are (`plain_nodes.py`), by the same walk through them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any, Final
+
+from orchestra.compat.building import condition_fields
+from orchestra.compat.launch_ros.plain_parameters import parameters, remaps
+from orchestra.compat.launch_ros.plain_texts import entity, left, read, word
+from orchestra.compat.place import Place, standing
+from orchestra.compat.refusing import Refusing
+from orchestra.description.components import ComposableNode
+
+if TYPE_CHECKING:
+    from types import FrameType
+
+    from orchestra.compat.launch_ros.plain_texts import Reader
+
+
+class PlainComponent(Refusing):
+    """What a component is before somebody asks for more than its model: then it is constructed from its arguments.
+
+    That is for the very class that says `_may_be_plain`, which has all of its own in `_place` and `_plain` until then.
+    """
+
+    _may_be_plain = False
+    _place: Place
+
+    def _taken(self, keywords: dict[str, Any], caller: FrameType) -> bool:
+        kind = type(self)
+        if "_may_be_plain" not in vars(kind):
+            return False
+        place, fields = Place(caller.f_code, caller.f_lasti, kind), _NOTHING.copy()
+        kept = read(keywords, place, _READ, fields)
+        if kept is None or fields["pkg"] is None or fields["plugin"] is None:
+            return False
+        self.__dict__ = {"_place": place, "_plain": (fields, kept)}
+        return True
+
+    if not TYPE_CHECKING:  # else any attribute would be one
+
+        def __getattr__(self, name: str) -> Any:
+            """Return what the constructor makes."""
+            if "_plain" not in vars(self):
+                return super().__getattr__(name)
+            self._construct()
+            return getattr(self, name)
+
+    def _construct(self) -> None:
+        """Do what the constructor does; what users have set since stays."""
+        own = vars(self)
+        _, given = own.pop("_plain")
+        self.__dict__ = {}
+        with standing(own["_place"]):
+            self.__init__(**given)  # type: ignore[misc] # with the keywords of the subclass
+        vars(self).update(own)
+
+    def _plain_model(self) -> ComposableNode | None:
+        """Return the model as long as nobody has asked for more, or set something; None where it takes another look."""
+        own = vars(self)
+        if "_plain" not in own:
+            return None
+        if len(own) > _OF_PLAIN:
+            self._construct()
+            return None
+        fields, given = own["_plain"]
+        condition = given.get("condition")
+        said = {} if condition is None else condition_fields(condition, self._place.at("condition"))
+        if any(text.constant is not None for text in said.values()):  # the validator looks at its words
+            return None
+        values = fields | {_CONDITIONS[word]: text for word, text in said.items()}
+        model: ComposableNode = entity(ComposableNode, values, self._place.span, self)
+        return model
+
+
+# What a component has as long as it is plain: its place, and what it is made of.
+_OF_PLAIN: Final = 2
+_CONDITIONS: Final = {"if": "if_", "unless": "unless"}
+_NOTHING: Final = ComposableNode._unwritten()
+_READ: Final[dict[str, Reader]] = {
+    "package": word("pkg"),
+    "plugin": word("plugin"),
+    "name": word("name"),
+    "namespace": word("namespace"),
+    "parameters": parameters("param"),
+    "remappings": remaps,
+    "extra_arguments": parameters("extra_arg"),
+    "condition": left,
+}
