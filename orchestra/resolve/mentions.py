@@ -80,7 +80,7 @@ def names_in(actions: Iterable[Conditional]) -> set[str]:
 
 def variables_in(template: Template) -> set[str] | None:
     """Return the variables that a text reads; None where one has no fixed name, or code may read others."""
-    parts = list(performed_in(template))
+    parts = performed_in(template)
     if any(isinstance(part, Opaque) or part.name == "command" for part in parts):
         return None
     names = [part.arguments[0].constant for part in parts if isinstance(part, Call) and part.name == "var"]
@@ -210,23 +210,31 @@ def _collect(value: object, found: list[Entity]) -> None:
                 _collect(inner, found)
 
 
-def templates_of(entity: Entity) -> Iterator[Template]:
-    """Yield the texts of an entity, those of the entities in it left out."""
-    for name in type(entity).model_fields:
-        value = getattr(entity, name)
-        for item in value.values() if isinstance(value, dict) else (value,):
-            for template in item if isinstance(item, tuple) else (item,):
-                if isinstance(template, Template):
-                    yield template
+def templates_of(entity: Entity) -> list[Template]:
+    """Return the texts of an entity, those of the entities in it left out."""
+    found: list[Template] = []
+    for value in vars(entity).values():
+        if isinstance(value, Template):
+            found.append(value)
+        elif type(value) not in _PLAIN:
+            for item in value.values() if isinstance(value, dict) else (value,):
+                found += (
+                    text
+                    for text in (item if isinstance(item, tuple) else (item,))
+                    if isinstance(text, Template)
+                )
+    return found
 
 
-def performed_in(template: Template) -> Iterator[Call | Opaque]:
-    """Yield every substitution of a text, those in the arguments of others included."""
+def performed_in(template: Template) -> list[Call | Opaque]:
+    """Return every substitution of a text, those in the arguments of others included."""
+    found: list[Call | Opaque] = []
     for part in template.parts:
         if not isinstance(part, Words):
-            yield part
+            found.append(part)
             for inner in part.arguments if isinstance(part, Call) else part.inside:
-                yield from performed_in(inner)
+                found += performed_in(inner)
+    return found
 
 
 def _variables(template: Template) -> Iterator[str]:

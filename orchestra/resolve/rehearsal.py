@@ -17,14 +17,14 @@ from orchestra.resolve.actions import executable, node, set_remap
 from orchestra.resolve.context import CommandResult
 from orchestra.resolve.found import Found
 from orchestra.resolve.ledger import Ledger
-from orchestra.resolve.mentions import entities_in
 from orchestra.resolve.resolution import Resolution
 from orchestra.resolve.scope import Scope
+from orchestra.witness.variables import copied
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping
 
-    from orchestra.description.entity import Action, Conditional
+    from orchestra.description.entity import Action, Entity
     from orchestra.errors import Problem
     from orchestra.resolve.context import Variable
 
@@ -41,11 +41,13 @@ _TOLD: Final = frozenset(
 )
 
 
-def rehearsed(action: Conditional, run: Resolution, variables: Mapping[str, Variable]) -> Iterator[Problem]:
-    """Yield what is wrong with an action and those in it; `variables` are what they are whatever the condition says."""
+def rehearsed(
+    entities: Iterable[Entity], run: Resolution, variables: Mapping[str, Variable]
+) -> Iterator[Problem]:
+    """Yield what is wrong with actions; `variables` are what they are whatever the condition says."""
     found = Problems()
     aside = _aside(run, variables, found)
-    for entity in entities_in(action):
+    for entity in entities:
         if type(entity) is Node:
             node.visit(entity, aside)
         elif type(entity) is Executable:
@@ -57,7 +59,7 @@ def rehearsed(action: Conditional, run: Resolution, variables: Mapping[str, Vari
 
 def _aside(run: Resolution, variables: Mapping[str, Variable], found: Problems) -> Resolution:
     """Return a resolution at the same place of which nothing is left."""
-    scope = Scope(found, Ledger(), dict(run.scope.environment), dict(variables))
+    scope = Scope(found, Ledger(), copied(run.scope.environment), dict(variables))
     context = replace(
         run.context,
         problems=found,

@@ -39,7 +39,7 @@ from orchestra.resolve.refusals import missing_package
 from orchestra.resolve.rehearsal import rehearsed
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Mapping, Sequence
+    from collections.abc import Collection, Iterable, Mapping, Sequence
 
     from orchestra.description.entity import Entity
     from orchestra.description.launch import Description
@@ -61,16 +61,15 @@ def doubts(action: Conditional, run: Resolution, *, known: bool = True) -> Probl
     """
     found = Problems()
     look = _Look(action, run, found, known=known)
-    for entity in entities_in(action):
-        look.at_packages(entity)
-        look.at_variables(entity)
+    for entity in look.entities:
+        look.at_calls(entity)
         if isinstance(entity, Node):
             look.at_program(entity)
         elif isinstance(entity, Include):
             look.at_include(entity)
         elif isinstance(entity, Param) and entity.from_ is not None:
             look.at_file(entity.from_, "parameter file")
-    look.aside(action)
+    look.aside()
     return found
 
 
@@ -82,13 +81,14 @@ class _Look:
         self.run = run
         self.found = found
         self.known = known
-        conditions = [item for item in map(_condition, entities_in(action)) if item is not None]
-        self.variables = _independent(action, conditions, run.scope.variables)
+        self.entities = entities_in(action)
+        conditions = [item for item in map(_condition, self.entities) if item is not None]
+        self.variables = _independent(self.entities, conditions, run.scope.variables)
         self.asked = any(_ASKS.search(item.raw) for item in conditions)
 
-    def aside(self, action: Conditional) -> None:
+    def aside(self) -> None:
         """Report what is wrong with names and values that nothing else can make right."""
-        for problem in rehearsed(action, self.run, self._lasting()):
+        for problem in rehearsed(self.entities, self.run, self._lasting()):
             if self.known:
                 notes = (*problem.notes, _LEFT_OUT)
                 problem = replace(problem, severity=Severity.WARNING, notes=notes)  # noqa: PLW2901 - the same one
@@ -96,7 +96,7 @@ class _Look:
 
     def _lasting(self) -> dict[str, Variable]:
         """Return the variables that nobody can give another value, as whoever launches the file does to arguments."""
-        if any(isinstance(item, Include) for item in entities_in(self.action)):
+        if any(isinstance(item, Include) for item in self.entities):
             return {}  # what it includes may set any
         open_to_all = self.run.found.arguments.keys() | {given.name for given in self.run.inputs.arguments}
         return {
@@ -105,18 +105,18 @@ class _Look:
             if name not in open_to_all and open_to_all.isdisjoint(_behind(variable))
         }
 
-    def at_packages(self, entity: Entity) -> None:
-        """Report packages whose names are slips for others, in whatever names them."""
-        named = [part for template in templates_of(entity) for part in performed_in(template)]
-        for part in named:
-            if isinstance(part, Call) and part.name in _FINDS and part.arguments:
+    def at_calls(self, entity: Entity) -> None:
+        """Report packages and variables whose names are slips for others, in whatever names them."""
+        performed = (part for template in templates_of(entity) for part in performed_in(template))
+        calls = [part for part in performed if isinstance(part, Call) and part.arguments]
+        for part in calls:
+            if part.name in _FINDS:
                 self._package(part.arguments[-1 if part.name == "exec-in-pkg" else 0])
+        self._variables(part for part in calls if part.name == "var" and len(part.arguments) == 1)
 
-    def at_variables(self, entity: Entity) -> None:
+    def _variables(self, calls: Iterable[Call]) -> None:
         """Report names of variables that are slips for others, and that nothing which is left out sets."""
-        for part in (part for template in templates_of(entity) for part in performed_in(template)):
-            if not isinstance(part, Call) or part.name != "var" or len(part.arguments) != 1:
-                continue
+        for part in calls:
             name, known = part.arguments[0].constant, self.run.scope.variables
             near = nearest(name, known) if name is not None and name not in known else None
             if name is None or near is None or not is_slip(name, near) or name in self._set():
@@ -228,10 +228,10 @@ def _condition(entity: Entity) -> Template | None:
 
 
 def _independent(
-    action: Conditional, conditions: Sequence[Template], variables: Mapping[str, Variable]
+    entities: Iterable[Entity], conditions: Sequence[Template], variables: Mapping[str, Variable]
 ) -> dict[str, Variable]:
-    """Return the variables that neither a condition of an action depends on nor anything in it sets."""
-    changing = {item.name.constant for item in entities_in(action) if isinstance(item, Arg | Let | Pair)}
+    """Return the variables that neither a condition of some entities depends on nor any of them sets."""
+    changing = {item.name.constant for item in entities if isinstance(item, Arg | Let | Pair)}
     for condition in conditions:
         read = variables_in(condition)
         if read is None:

@@ -23,6 +23,8 @@ launch:
   - include: {file: part.launch.xml, arg: [{name: name, value: $(var robot)}]}
   - include: {file: part.launch.py, if: $(env WITH_PYTHON 'true')}
   - node: {pkg: demo, exec: talker, name: talker, param: [{from: params.yaml}]}
+  - node: {pkg: demo, exec: talker, name: other, if: "false"}
+  - group: {forwarding: false, children: [node: {pkg: demo, exec: talker, name: alone}]}
 """
 _XML = '<launch><arg name="name"/><log message="$(var name)"/></launch>\n'
 _PYTHON = """\

@@ -9,6 +9,7 @@ from orchestra.resolve.impossible.late_settings import check_late
 from orchestra.resolve.kept import kept
 from orchestra.resolve.repetition import repeated
 from orchestra.resolve.scope import Scope
+from orchestra.witness.variables import copied
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
@@ -32,5 +33,5 @@ def _scope(action: Group, run: Resolution) -> AbstractContextManager[None]:
         return nullcontext()
     check_late(action.children, run)
     if run.flag(action.forwarding, default=True) is False:
-        return run.scoped(Scope(run.problems, run.scope.ledger, dict(run.inputs.environment)))
+        return run.scoped(Scope(run.problems, run.scope.ledger, copied(run.inputs.environment)))
     return run.scope.nested()
