@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import ast
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.joined_texts import joined
-from orchestra.compat.place import Place
+from orchestra.compat.literals import argument
+from orchestra.compat.logic_of_substitutions import is_substitution, logic_around
+from orchestra.compat.place import Argument, Place
 from orchestra.compat.refusing import collector
 from orchestra.compat.remarks import remark
 from orchestra.compat.rewritten import Rewritten
@@ -18,10 +21,11 @@ from orchestra.location import is_python
 from orchestra.witness.origins import INSTALLED, PYTHON
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterable, Iterator
+    from collections.abc import Callable, Iterable, Iterator, Mapping
     from types import FrameType
 
     from orchestra.compat.syntax_trees import Tree
+    from orchestra.location import Span
 
 _EARLY: Final = "is no text before the launch file is visited"
 AS_WRITTEN: Final = "what is written here is '"
@@ -42,7 +46,8 @@ def tell_unequal(compared: object, text: str, frame: FrameType) -> None:
     )
     message = f"{name} {_EARLY}: it is never equal to {text!r}, an IfCondition can tell"
     place = Place(frame.f_code, frame.f_lasti)
-    _tell(Code.IMPOSSIBLE_CONDITION, message, place, notes, meant=_judged(place))
+    node, meant = _logic(place) or (None, _judged(place))
+    _tell(Code.IMPOSSIBLE_CONDITION, message, place, notes, node, meant)
 
 
 def tell_true(tested: object, frame: FrameType) -> None:
@@ -57,7 +62,8 @@ def tell_true(tested: object, frame: FrameType) -> None:
         if tree is not None and called_by(tree.meaning(node)) == name:
             notes = ("a condition is judged when it is visited: IfCondition(a)", _HAS_TEXT.format(name))
             message = f"{name} {_EARLY}: it always counts as true, an IfCondition can tell"
-            _tell(Code.IMPOSSIBLE_CONDITION, message, place, notes, node)
+            whole, meant = _logic(place) or (node, None)
+            _tell(Code.IMPOSSIBLE_CONDITION, message, place, notes, whole, meant)
             return
 
 
@@ -87,13 +93,33 @@ def without_echoes(problems: Iterable[Problem]) -> Callable[[Problem], Problem |
     stops = {echoes.get(id(problem)) for problem in problems if problem.severity is Severity.ERROR} - {None}
 
     def kept(problem: Problem) -> Problem | None:
-        early = places.get(problem.span)
+        early = places.get(problem.span) or _meant_by(problem, places)
         if echoes.get(id(problem)) is not None or (early is not None and early is not problem):
             return None
         is_grave = _mark(problem) in stops or (early is not None and problem.span in grave)
         return replace(problem, severity=Severity.ERROR) if is_grave else problem
 
     return kept
+
+
+def _meant_by(problem: Problem, places: Mapping[Span | None, Problem]) -> Problem | None:
+    """Return what is told of the logic that was taken for a text, where it stands or where a name was set to it."""
+    span = problem.span
+    if not places or span is None or not is_python(span) or "found bool: " not in problem.message:
+        return None
+    span = argument(span.place, span.path).whole if isinstance(span, Argument) else span
+    file = str(Path(span.file).absolute())
+    tree = tree_of(file)
+    node = None if tree is None else tree.expression(file, span)
+    if tree is not None and isinstance(node, ast.Name):
+        span = node_span(file, tree.meaning(node), quotes=True)
+    return next((early for at, early in places.items() if at is not None and _is_same(at, span)), None)
+
+
+def _is_same(one: Span, other: Span) -> bool:
+    begins, ends = (one.line, one.column), (one.end_line, one.end_column)
+    is_there = begins == (other.line, other.column) and ends == (other.end_line, other.end_column)
+    return is_there and Path(one.file).name == Path(other.file).name
 
 
 def _mark(problem: Problem) -> str | None:
@@ -124,6 +150,13 @@ def _judged(place: Place) -> Rewritten | None:
     return None
 
 
+def _logic(place: Place) -> tuple[ast.expr, Rewritten] | None:
+    """Return the whole of the logic around a place, and the substitution that was meant by it."""
+    tree = _tree(place)
+    found = None if tree is None else logic_around(_around(place, tree), tree, place.file)
+    return None if found is None else (found[0], Rewritten(found[1]))
+
+
 def _performed(node: ast.expr, tree: Tree | None, file: str) -> Rewritten | None:
     """Return a comparison with the text of the substitution in it, in a function that has the context."""
     if tree is None or not isinstance(node, ast.Compare):
@@ -131,15 +164,11 @@ def _performed(node: ast.expr, tree: Tree | None, file: str) -> Rewritten | None
     context = tree.context_around(node)
     sides = [node.left, *node.comparators]
     texts = [text_at(file, node_span(file, side, quotes=True)) for side in sides]
-    early = [index for index, side in enumerate(sides) if _is_substitution(tree.meaning(side))]
+    early = [index for index, side in enumerate(sides) if is_substitution(tree.meaning(side))]
     if context is None or len(early) != 1:
         return None
     texts[early[0]] += f".perform({context})"
     return Rewritten(f"{texts[0]} {'==' if isinstance(node.ops[0], ast.Eq) else '!='} {texts[1]}")
-
-
-def _is_substitution(node: ast.expr) -> bool:
-    return isinstance(node, ast.Call) and (called_by(node) or "")[:1].isupper()
 
 
 def _is_given(call: ast.AST, node: ast.expr) -> bool:

@@ -44,6 +44,11 @@ def one(source: str, value: Any) -> str | None:
     return f"[{source}]" if not isinstance(value, dict | list | set | str | tuple) else None
 
 
+def one_argument(source: str, value: Any) -> str:  # noqa: ARG001 - as the others
+    """Return a list of what is handed over alone."""
+    return f"[{source}]"
+
+
 def emitted(source: str, value: Any) -> str | None:
     """Return the action that lets an event happen which stands in place of one."""
     is_event = any(kind.__name__ == "Event" for kind in type(value).__mro__)

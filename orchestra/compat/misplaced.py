@@ -29,6 +29,7 @@ _HELP: Final = {
     "tuple": "a * before it makes its items part of the list around it",
     "type": "brackets after the class make an object of it",
 }
+_EACH: Final = "they are added one by one: for action in actions: ld.add_action(action)"
 
 
 def refuse_entity(value: Any, place: Place) -> None:
@@ -44,8 +45,11 @@ def refuse_entity(value: Any, place: Place) -> None:
     if fault is not None:
         report(Problem(Code.WRONG_TYPE, Severity.ERROR, fault.message, fault.span, (), fault.suggestion))
         return
-    is_one = isinstance(value, list | tuple) or written.node is None
-    meant = None if is_one else rewritten(place.file, written.whole, value, message)
+    if isinstance(value, list | tuple):
+        notes = (_EACH,)
+    is_one = not isinstance(value, list | tuple) or len(value) == 1
+    meant = rewritten(place.file, written.whole, value, message) if is_one and written.node else None
+    meant = None if meant is not None and meant.startswith("*") else meant
     report(Problem(Code.WRONG_TYPE, Severity.ERROR, message, written.whole, (), meant, notes))
 
 

@@ -43,15 +43,20 @@ def together(problems: Iterable[Problem]) -> Callable[[Problem], Problem | None]
 def behind_exceptions(problems: Iterable[Problem]) -> Callable[[Problem], Problem | None]:
     """Return what leaves out the problems of a text that has raised an exception: they are those of what was meant."""
     raised: dict[str, list[Span]] = {}
+    adding: set[tuple[str, int, int]] = set()
     for problem in problems:
         is_of_code = problem.code in (Code.USER_CODE, Code.SYNTAX) and problem.severity is Severity.ERROR
         if is_of_code and problem.span is not None and problem.span.file.endswith(".py"):
             raised.setdefault(problem.span.file, []).append(problem.span)
+            if problem.suggestion == "add_action":
+                adding.add((problem.span.file, problem.span.end_line, problem.span.end_column + 1))
 
     def amended(problem: Problem) -> Problem | None:
         span = problem.span
         if span is None or problem.code in (Code.USER_CODE, Code.SYNTAX):
             return problem
+        if _LISTS.match(problem.message) and (span.file, span.line, span.column) in adding:
+            return None  # `extend`, which was written, takes a list
         return None if any(_holds(outer, span) for outer in raised.get(span.file, ())) else problem
 
     return amended

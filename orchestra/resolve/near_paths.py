@@ -81,7 +81,8 @@ def near_names(path: Path) -> tuple[tuple[str, str], ...]:
         there = there.parent
     changes = list[tuple[str, str]]()
     for index, name in enumerate(names, start=1):
-        near = name if exists(there / name) else _near(there, name, is_last=index == len(names))
+        near = name if exists(there / name) else _apart(there, name, names[index:])
+        near = near or _near(there, name, is_last=index == len(names))
         if near is None and len(names) == 1:
             near = _one_folder_below(there, name)
         if near is None:
@@ -117,6 +118,15 @@ def rewritten(written: str, changes: Iterable[tuple[str, str]]) -> str:
         else:
             written = _replaced(written, name, near)
     return written
+
+
+def _apart(folder: Path, name: str, below: Sequence[str]) -> str | None:
+    """Return a name with the slash that it lacks, as `demo/launch`, where all of the path is there then."""
+    listed = _listed(folder)
+    if listed is None or not may_look(len(listed.folders)):
+        return None
+    made = (f"{other}/{name[len(other) :]}" for other in listed.folders if name.startswith(other))
+    return next((path for path in made if exists(folder.joinpath(path, *below))), None)
 
 
 def _elsewhere(there: Path, names: Sequence[str]) -> tuple[tuple[str, str], ...]:

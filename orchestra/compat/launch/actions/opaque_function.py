@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.explanation import told
@@ -10,7 +10,7 @@ from orchestra.compat.launch.action import Action
 from orchestra.compat.wrong import WrongType
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Callable
 
     from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
@@ -35,8 +35,12 @@ class OpaqueFunction(Action):
             raise WrongType(
                 f"the function of an OpaqueFunction cannot be called: {function!r}", path=("function",)
             )
-        if args is not None and not isinstance(args, Iterable):
+        if args is not None and (not isinstance(args, Iterable) or (isinstance(args, str) and len(args) > 1)):
             raise WrongType(f"the args of an OpaqueFunction are a list, this is {told(args)}", path=("args",))
+        if kwargs is not None and not isinstance(kwargs, Mapping):
+            raise WrongType(
+                f"the kwargs of an OpaqueFunction are a dict, this is {told(kwargs)}", path=("kwargs",)
+            )
         self.__function = function
         self.__args = () if args is None else tuple(args)
         self.__kwargs = {} if kwargs is None else dict(kwargs)
