@@ -7,7 +7,6 @@ evaluating (a constant) is checked when the file is read.
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Callable, Iterable, Mapping
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Protocol, TypeAlias
@@ -17,7 +16,6 @@ from orchestra.description.marks import Plain, Told
 from orchestra.description.source import Listed, Written, kind_of
 from orchestra.description.text import Constant, Items, Template, Words
 from orchestra.nearest import nearest
-from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from pydantic_core.core_schema import ValidationInfo
@@ -30,9 +28,6 @@ _FLAGS_ELSEWHERE = {
     **dict.fromkeys(("always", "enable", "enabled", "on-failure", "t", "unless-stopped", "y"), "true"),
     **dict.fromkeys(("disable", "disabled", "f", "n", "never", "none"), "false"),
 }
-
-_WITH_UNIT = pattern(r"([0-9]+(?:\.[0-9]+)?)\s*(ms|msec|s|sec|secs|seconds?|min|minutes?)", re.IGNORECASE)
-_UNITS = {"ms": 0.001, "s": 1.0, "se": 1.0, "mi": 60.0}
 
 # The kind of a fault that is one of a key, not of what stands behind it.
 STRAY_KEY = "stray_key"
@@ -142,24 +137,28 @@ def _is_duration(text: str) -> bool:
     return math.isfinite(number) and number >= 0
 
 
-def _seconds_of(text: str) -> str | None:
-    """Return the number of seconds that a text with a unit, or with a comma for a point, stands for."""
-    pointed = text.strip().replace(",", ".", 1)
-    if _is_duration(pointed):
-        return pointed
-    found = _WITH_UNIT.fullmatch(pointed)
-    if found is None:
-        return None
-    seconds = f"{float(found[1]) * _UNITS[found[2][:2].lower()]:g}"
-    return f"{seconds}.0" if seconds.isdigit() else seconds
-
-
 def _is_integer(text: str) -> bool:
     try:
         int(text)
     except ValueError:
         return False
     return True
+
+
+def meant_seconds(text: str) -> str | None:
+    """Return the number of seconds that is meant by a text that is none."""
+    # Here, because most numbers are some.
+    from orchestra.description.numbers_meant import seconds_meant  # noqa: PLC0415
+
+    return seconds_meant(text)
+
+
+def meant_whole(text: str) -> str | None:
+    """Return the whole number that is meant by a text that is none."""
+    # Here, because most numbers are some.
+    from orchestra.description.numbers_meant import whole_meant  # noqa: PLC0415
+
+    return whole_meant(text)
 
 
 def _any_value(value: object, info: ValidationInfo) -> Value | tuple[Value, ...]:
@@ -216,12 +215,12 @@ Flag: TypeAlias = Annotated[
 ]
 Seconds: TypeAlias = Annotated[
     Template,
-    Plain(constant_of("a number of seconds", _is_duration, meant=_seconds_of)),
+    Plain(constant_of("a number of seconds", _is_duration, meant=meant_seconds)),
     Told({"anyOf": [{"type": "number", "minimum": 0}, {"type": "string", "pattern": r"\$\(|^[0-9.eE+-]+$"}]}),
 ]
 Integer: TypeAlias = Annotated[
     Template,
-    Plain(constant_of("a whole number", _is_integer)),
+    Plain(constant_of("a whole number", _is_integer, meant=meant_whole)),
     Told({"anyOf": [{"type": "integer"}, {"type": "string", "pattern": r"\$\(|^[+-]?[0-9]+$"}]}),
 ]
 AnyValue: TypeAlias = Annotated[Value | tuple[Value, ...], Plain(_any_value), Told(_TEXT_OR_LIST)]

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from orchestra.dataclass import dataclass
-from orchestra.description.fields import constant_of
+from orchestra.description.fields import constant_of, meant_seconds, meant_whole
 from orchestra.description.marks import read_with
 
 if TYPE_CHECKING:
@@ -37,10 +37,16 @@ class Range:
             return None
         return None if self.above and number == self.least else number
 
+    def _meant(self, text: str) -> str | None:
+        meant = (meant_whole if self.whole else meant_seconds)(text)
+        return meant if meant is not None and self.read(meant) is not None else None
+
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:  # noqa: ANN401 - pydantic's own signature
         """Return how the core reads it."""
         del source, handler
-        return read_with(constant_of(self.wanted, lambda text: self.read(text) is not None))
+        return read_with(
+            constant_of(self.wanted, lambda text: self.read(text) is not None, meant=self._meant)
+        )
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler

@@ -39,6 +39,7 @@ _NAME = pattern(r"[A-Za-z][A-Za-z0-9_-]*")
 _KEPT_QUOTES = pattern(r"""(['"])([^'" ()$\\]*)\1(?=[ )])""")
 _ESCAPE = pattern(r"\\(.)", re.DOTALL)
 _QUOTES = ("'", '"')
+_XML = (".xml", ".launch")
 # Characters without a meaning anywhere, and those without one outside an argument or in a quoted one.
 _PLAIN = pattern(r"""[^$\\'" ()]+""")
 _QUOTED_PLAIN = pattern(r"""[^$\\'"]+""")
@@ -259,7 +260,10 @@ class _Reader:
     def in_quotes(self, start: int, end: int) -> str | None:
         """Return the stretch in quotes that it does not hold itself, None where it holds both."""
         raw = self.text[start:end]
-        return next((f"{quote}{raw}{quote}" for quote in _QUOTES if quote not in raw), None)
+        quote = next((quote for quote in _QUOTES if quote not in raw), None)
+        if quote == '"' and self.spans(start, end).file.endswith(_XML):  # where it would end the attribute
+            raw, quote = raw.replace("&", "&amp;").replace("<", "&lt;"), "&quot;"
+        return None if quote is None else f"{quote}{raw}{quote}"
 
     def warn_about_kept_quotes(self, start: int) -> None:
         """Say that quotes do not quote here; with backslashes the text says so itself."""

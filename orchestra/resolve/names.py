@@ -25,6 +25,8 @@ _PATHS = "only letters, digits, '_' and '/' are allowed"
 _DIGITS = frozenset("0123456789")
 _OF_A_SHELL = pattern(r"\$(?:\{([A-Za-z_][A-Za-z0-9_]*)\}|([A-Za-z_][A-Za-z0-9_]*))")
 _SUBSTITUTION = pattern(r"\{([^{}]*)\}")
+_NUMBERED = pattern(r"(?:(?<=/)|\A)([0-9]+)([A-Za-z0-9_]+)")  # a part that begins with a number
+_SHORTEST = 3  # of a word: `1st` and `3d` are left alone
 # What nothing can be wrong with but its length and `__`; anything else is looked at closely.
 _PLAIN_WORD = pattern(r"[A-Za-z_][A-Za-z0-9_]*")
 _PLAIN_PATH = pattern(r"(?:/[A-Za-z_][A-Za-z0-9_]*)+")
@@ -162,8 +164,8 @@ def expanded(name: str, namespace: str, node: str) -> str:
 def mended(name: str, fault: Callable[[str], Fault | None]) -> str | None:
     """Return a name without what ROS does not allow in it, None where that alone does not help.
 
-    Other characters become `_`, slashes that are too many and quotes go away, `${name}` is what it is in a launch
-    file.
+    Other characters become `_`, slashes that are too many and quotes go away, a number in front goes to the end,
+    `${name}` is what it is in a launch file.
     """
     if not name.isascii() or not re.search("[A-Za-z]", name):
         return None
@@ -171,8 +173,16 @@ def mended(name: str, fault: Callable[[str], Fault | None]) -> str | None:
         return _OF_A_SHELL.sub(_substitution, name)
     words = re.sub(r"[^A-Za-z0-9_/~{}]+", "_", name.strip(" '\""))
     found = re.sub("//+", "/", re.sub("^~(?=[A-Za-z0-9_])", "~/", words))
-    found = found.rstrip("/") or found
+    found = _NUMBERED.sub(_number_last, found.rstrip("/") or found)
     return None if found == name or fault(found) is not None else found
+
+
+def _number_last(found: re.Match[str]) -> str:
+    """Return a part of a name with the number in front at its end: `uav_2` for `2_uav`, `uav2` for `2uav`."""
+    first, _, rest = found[0].partition("_")
+    if rest:
+        return f"{rest}_{first}"
+    return found[0] if len(found[2]) < _SHORTEST else f"{found[2]}{found[1]}"
 
 
 def _substitution(found: re.Match[str]) -> str:

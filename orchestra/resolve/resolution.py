@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any, TypeAlias
 
 from orchestra.dataclass import dataclass
 from orchestra.description.entity import Action, Entity
-from orchestra.description.fields import FLAG_WORDS
+from orchestra.description.fields import FLAG_WORDS, meant_seconds, meant_whole
 from orchestra.description.launch import Description
 from orchestra.description.text import MatchedTemplate, Words
 from orchestra.errors import Code, Problems
@@ -221,7 +221,7 @@ class Resolution:
         if 0 <= number < float("inf"):
             return number
         message = f"expected a number of seconds, found '{value.text}'"
-        return refuse_value(value, self.problems, Code.BAD_VALUE, message)
+        return refuse_value(value, self.problems, Code.BAD_VALUE, message, meant=meant_seconds(value.text))
 
     def integer(self, template: Template | None) -> int | Poison | None:
         """Return what a text comes to as a whole number; anything else is reported."""
@@ -234,7 +234,7 @@ class Resolution:
             return int(value.text)
         except ValueError:
             message = f"expected a whole number, found '{value.text}'"
-            return refuse_value(value, self.problems, Code.BAD_VALUE, message)
+            return refuse_value(value, self.problems, Code.BAD_VALUE, message, meant=meant_whole(value.text))
 
     def word(self, template: Template | None, words: Sequence[str]) -> str | Poison | None:
         """Return what a text comes to, which is one of a few words; anything else is reported."""

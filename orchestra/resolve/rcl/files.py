@@ -25,9 +25,10 @@ from orchestra.resolve.rcl.surprises import BREAK, report_surprises
 from orchestra.resolve.rcl.values import LOADER
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator, Sequence
+    from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from orchestra.errors import Problem
+    from orchestra.resolve.rcl.opened import OpenSection
     from orchestra.resolve.rcl.sections import Section
 
     _Change: TypeAlias = Callable[[Iterator[yaml.Event]], Iterator[yaml.Event]]
@@ -91,6 +92,7 @@ def _read(
         problems.extend(_before(fault.span, [*found][:sound], reader.sections(), text))
         at = Location(fault.span, included_from)
         problems.error(Code.PARAMETER_SYNTAX, fault.message, at, suggestion=fault.suggestion)
+        _report_empty(reader.found, problems)
         return reader.sections(), False
     except UnicodeEncodeError:
         at = Location(Span(file, 1, 1, 1, 1), included_from)
@@ -113,7 +115,18 @@ def _read(
     problems.extend(found)
     report_duplicates(sections, problems)
     report_surprises(sections, text, problems)
+    _report_empty((*reader.found, *further) if reader.lost else (), problems)
     return sections, not reader.lost
+
+
+def _report_empty(sections: Iterable[OpenSection | Section], problems: Problems) -> None:
+    """Report the empty lists of a file that no node gets; of others those are told that count in a node."""
+    for section in sections:
+        for entry in section.entries:
+            span = entry.location.span
+            if entry.value is None and not entry.opens and span.end_column > span.column + 1:  # no bare '{'
+                told = f"'{entry.name}' has no type here: an empty list or mapping"
+                problems.error(Code.PARAMETER_TYPE, told, entry.location)
 
 
 def _amend(found: Problems, text: str) -> None:
@@ -122,7 +135,11 @@ def _amend(found: Problems, text: str) -> None:
         lines = BREAK.split(text)
         found.amend(lambda problem: as_text(problem, lines))
     if any(problem.message.startswith(ALIAS) for problem in found):
+        # Here, because hardly any file has one.
+        from orchestra.resolve.rcl.anchors import repeated  # noqa: PLC0415
+
         anchored = BREAK.split(text)
+        found.amend(lambda problem: repeated(problem, anchored))
         found.amend(lambda problem: None if _is_anchored(problem, anchored) else problem)
 
 

@@ -27,16 +27,12 @@ _TYPES: Final = (bool, int, float)
 def odd_item(values: Sequence[Scalar]) -> int | None:
     """Return the position of the item that is of another type than the others, None where all are of one.
 
-    It is the only one of its type, else the first that is of another type than the first of all. A float is never the
-    odd one for being the first, nor beside a single integer if it has a fraction.
+    It is the only one of its type, else the first that is of another type than the first of all. Among integers and
+    floats it is an integer where a float has a fraction, and a float is never the odd one for being the first.
     """
     kinds = [type(value) for value in values]
     counts = Counter(kinds)
-    if (
-        set(counts) == {int, float}
-        and counts[int] == 1
-        and any(value % 1 for value in values if isinstance(value, float))
-    ):
+    if set(counts) == {int, float} and any(value % 1 for value in values if isinstance(value, float)):
         return kinds.index(int)
     differing = next((index for index, kind in enumerate(kinds) if kind is not kinds[0]), None)
     if differing is None or len(kinds) < _FEWEST or len(counts) > 2:  # noqa: PLR2004 - two types

@@ -34,8 +34,9 @@ _KINDS: Final = {"!!str": str, "!!int": int, "!!float": float, "!!bool": bool, "
 # What a float does not keep: digits around an `e`, a zero behind all others; and names of what is no quantity.
 _IN_DIGITS: Final = pattern(r"[0-9]+[eE][0-9]+|[0-9]+\.[0-9]*[1-9]0+")
 _NAMING: Final = pattern(
-    r"(?:^|[_.])(?:checksum|commit|digest|guid|hash|mac|password|revision|serial|sha|token|uuid|version)(?:$|_)"
-    r"|(?:^|[_.])(?:code|id|label|model|tag)$"
+    r"(?:^|[_.])"
+    r"(?:batch|checksum|commit|digest|guid|hash|lot|mac|password|release|revision|serial|sha|token|uid|uuid|version)"
+    r"(?:$|_)|(?:^|[_.])(?:code|id|label|model|name|sn|tag)$"
 )
 _DASHED: Final = pattern(r"-[A-Za-z_/]")
 _ITEM: Final = pattern(r"\s*(-\s\S*(?:\s+\S+)*)\s*")
