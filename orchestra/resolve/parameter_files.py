@@ -7,6 +7,7 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from orchestra.dataclass import maker
 from orchestra.description.source import shortened
 from orchestra.description.substitutions import SIGNATURES
 from orchestra.errors import Code, Problems, Severity
@@ -20,6 +21,7 @@ from orchestra.resolve.near_paths import near_path
 from orchestra.resolve.paths import beside, existing_file, folder_of
 from orchestra.resolve.rcl.files import read_kept, read_plain_file
 from orchestra.resolve.rcl.sections import included
+from orchestra.resolve.rcl.straight import sections_of
 from orchestra.resolve.rcl.strays import SECTION_KEY
 from orchestra.resolve.substituted import Back, Reads, placed_back, substituted
 from orchestra.witness.once import once, real
@@ -50,6 +52,10 @@ def file_parameters(
     value = run.evaluate(written)
     if not isinstance(value, Value):
         return None
+    asked = "\0".join((run.context.file or "", value.text, os.getcwd())), plain  # noqa: PTH109 - pathlib is slow
+    known = None if substitute else run.parameter_files.get(asked)
+    if known is not None:  # many nodes are given the same file
+        return _given(known, value, everywhere=everywhere)
     path = beside(run.context.file, value.text) if value.text else None
     if path is None:
         needed = substitute or everywhere or plain
@@ -65,10 +71,25 @@ def file_parameters(
     else:
         if (path, plain) not in run.parameter_files:
             run.parameter_files[path, plain] = read_file(path, value.location, run, plain=plain)
-        file = run.parameter_files[path, plain]
-    if file is None:
-        return None
-    return replace(file, location=value.location, everywhere=everywhere, through=value.through)
+        file = run.parameter_files[asked] = run.parameter_files[path, plain]
+    return None if file is None else _given(file, value, everywhere=everywhere)
+
+
+def _given(file: FileParameters, value: Value, *, everywhere: bool) -> FileParameters:
+    """Return a file as it is given by a value that is its path."""
+    return _new_file(
+        file.path,
+        file.sections,
+        value.location,
+        everywhere,
+        file.plain,
+        value.through,
+        file.within,
+        file.sound,
+    )
+
+
+_new_file: Final = maker(FileParameters)
 
 
 def _warn_of_lacking(told: str, value: Value, written: Template, run: Resolution) -> None:
@@ -164,6 +185,9 @@ def _read(text: str, file: str, *, bare: bool) -> tuple[tuple[Section, ...], boo
     found = Problems()
     if bare:
         return read_plain_file(text, file, found), not len(found), tuple(found)
+    plain = sections_of(text, file)
+    if plain is not None:
+        return plain, True, ()
     return *read_kept(text, file, found), tuple(found)
 
 
