@@ -25,7 +25,7 @@ _names: dict[str, str] = {}
 # Where everything stands that is made now, whoever makes it.
 _standing: list[Place] = []
 _OWN = os.path.join(os.path.dirname(os.path.dirname(__file__)), "")  # noqa: PTH118, PTH120 - compared with file names of code
-_OURS: Final = f"{__name__.partition('.')[0]}."
+OURS: Final = f"{__name__.partition('.')[0]}."
 _Positions: TypeAlias = tuple[int | None, int | None, int | None, int | None]
 
 
@@ -187,7 +187,7 @@ def here(made: object = None) -> Place:
     while frame is not None:
         found = frame
         name = frame.f_globals.get("__name__")  # as `is_ours` does, without a call for each frame
-        if type(name) is not str or not name.startswith(_OURS):
+        if type(name) is not str or not name.startswith(OURS):
             code = frame.f_code
             if not code.co_filename.startswith(_OWN) and not _is_constructor(frame, code, made):
                 break
@@ -208,7 +208,7 @@ def is_ours(frame: FrameType) -> bool:
     Its code is asked for only where its module does not tell: a process that is watched is told of that each time.
     """
     name = frame.f_globals.get("__name__")
-    return name.startswith(_OURS) if type(name) is str else is_own(frame.f_code.co_filename)
+    return name.startswith(OURS) if type(name) is str else is_own(frame.f_code.co_filename)
 
 
 def is_own(file: str) -> bool:

@@ -65,7 +65,7 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
         return None
     if isinstance(made, LaunchDescription):
         _look_for_slips(module, source, path, problems, included_from)
-        return _described(path, made)
+        return _described(path, file, made)
     if getattr(vars(module).get(CARRYING), "has_guessed", False):
         return None
     message, *notes = _undescribed(module, made, file)
@@ -74,13 +74,12 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
         Code.NO_DESCRIPTION, message, Location(where, included_from), suggestion=meant, notes=notes
     )
     instead = _instead(module, made, problems, included_from)
-    return None if instead is None else _described(path, instead)
+    return None if instead is None else _described(path, file, instead)
 
 
-def _described(path: str, made: LaunchDescription) -> Description:
-    file = displayed(path, real)
+def _described(path: str, file: str, made: LaunchDescription) -> Description:
     at = point(file)
-    opaque = OpaqueAction.at(at, target=made, origin=made)
+    opaque = OpaqueAction.made(at, {"target": made}, made)
     return Description(path, file, (opaque,), _deprecated(made, at))
 
 

@@ -13,7 +13,6 @@ from orchestra.resolve.given import given_sections
 from orchestra.resolve.interpret import visit, visit_file
 from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.model import Resolved
-from orchestra.resolve.python.performing import perform_opaque
 from orchestra.resolve.resolution import Frame, LoadFile, Resolution
 from orchestra.resolve.scope import Scope
 from orchestra.resolve.settling import settled
@@ -22,7 +21,9 @@ from orchestra.witness.variables import copied
 
 if TYPE_CHECKING:
     from orchestra.description.launch import Description
+    from orchestra.description.text import Opaque
     from orchestra.errors import Problems
+    from orchestra.resolve.context import Evaluated
     from orchestra.resolve.inputs import Inputs
 
 
@@ -111,8 +112,15 @@ def begin(
         lost=found.lost,
     )
     run = Resolution(inputs, problems, load, visit, context, scope, found, make_engine=_engine)
-    context.perform_opaque = lambda part: perform_opaque(part, run)
+    context.perform_opaque = lambda part: _performed(part, run)
     return run
+
+
+def _performed(part: Opaque, run: Resolution) -> Evaluated:
+    # Here, because only Python launch files have such parts.
+    from orchestra.resolve.python.performing import perform_opaque  # noqa: PLC0415
+
+    return perform_opaque(part, run)
 
 
 def end(run: Resolution) -> None:

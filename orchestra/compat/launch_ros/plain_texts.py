@@ -56,6 +56,9 @@ def word(field: str) -> Reader:
     """Return what reads a text."""
 
     def reader(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
+        if type(value) is str and "$" not in value and "\\" not in value:  # as `plain_text` does, at once
+            fields[field] = matched_words(value, False, call, (name,))  # type: ignore[arg-type] # its groups are paths
+            return
         fields[field] = plain_text(value, call, (name,))
         if type(value) is list:
             kept[name] = list(value)

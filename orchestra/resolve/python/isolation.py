@@ -13,7 +13,6 @@ from orchestra.compat.hook import Serving, served
 from orchestra.resolve.packages.python import libraries
 from orchestra.resolve.python.environ import environment_now, put_environment
 from orchestra.resolve.python.files import Files
-from orchestra.witness.harmless import changes_nothing
 from orchestra.witness.observing import observer
 
 if TYPE_CHECKING:
@@ -40,6 +39,7 @@ class Isolation:
         self._before: tuple[Libraries, Interpreter] | None = None
         self._folder = os.getcwd()  # noqa: PTH109 - pathlib is slow
         self._zone = time.tzname
+        self._has_begun = False
 
     def prepare(self, code: CodeType | None = None) -> None:
         """Get ready for code of launch files, which may do anything unless it can be seen to change nothing."""
@@ -47,8 +47,11 @@ class Isolation:
             return
         # Here, because only such code needs it, and what it imports.
         from orchestra.compat.place import forget  # noqa: PLC0415
+        from orchestra.witness.harmless import changes_nothing  # noqa: PLC0415
 
-        forget()
+        if not self._has_begun:
+            forget()
+            self._has_begun = True
         if code is not None and changes_nothing(code):
             observer().harmless = code
             return
@@ -81,7 +84,7 @@ class Isolation:
         os.chdir(self._folder)
         put_environment(environment)
         _put_zone(self._zone)
-        self.files, self.remaining = Files(), None
+        self.files, self.remaining, self._has_begun = Files(), None, False
 
     def close(self) -> None:
         """Make this process what it was."""
