@@ -136,11 +136,13 @@ class Problems:
     """Collects the problems of one pass.
 
     The same problem at the same place is kept once, with the fewest includes, however often its file is included.
-    `silencing` has file and line of the comments that have silenced some.
+    `silencing` has file and line of the comments that have silenced some. `doubted` are ranges of files that have been
+    read as they were probably meant: what is found there may follow from that.
     """
 
     _found: dict[tuple[object, ...], Problem] = field(default_factory=dict)
     silencing: set[tuple[str, int]] = field(default_factory=set)
+    doubted: set[Span] = field(default_factory=set)
     _by_place: dict[tuple[object, ...], list[Problem]] = field(default_factory=dict)
 
     def report(self, problem: Problem) -> None:

@@ -103,6 +103,13 @@ def is_within(part: Span, whole: Span) -> bool:
     return part.file == whole.file and around[0] <= begin and end <= around[1]
 
 
+def meet(one: Span, other: Span) -> bool:
+    """Return whether two ranges of text have a place in common, be it an end."""
+    ends = (one.end_line, one.end_column), (other.end_line, other.end_column)
+    begins = (one.line, one.column), (other.line, other.column)
+    return one.file == other.file and begins[0] <= ends[1] and begins[1] <= ends[0]
+
+
 def inside(span: Span, first: int, last: int) -> Span:
     """Return a part of a span that was made of offsets, by offsets from its beginning."""
     whole, begin, _ = span._offsets  # type: ignore[attr-defined] # noqa: SLF001 - its own module

@@ -8,6 +8,7 @@ from orchestra.description.fields import Literal
 from orchestra.description.model import field
 from orchestra.description.nested import Children
 from orchestra.description.text import Template
+from orchestra.location import Span
 
 
 class Launch(Entity):
@@ -23,7 +24,8 @@ class Description:
 
     `path` is the absolute path. `deprecated` says why the file is not to be used any more. `lost` has every scalar of
     the actions that have been left out for their faults: what they would have provided is not reported missing.
-    `foreign` tells that the file may have variables in it as other languages write them.
+    `foreign` tells that the file may have variables in it as other languages write them. `doubted` are the ranges that
+    have been read as they were probably meant: what is found there may follow from that.
     """
 
     path: str
@@ -32,3 +34,4 @@ class Description:
     deprecated: Template | None = None
     lost: frozenset[str] = frozenset()
     foreign: bool = False
+    doubted: tuple[Span, ...] = ()

@@ -16,3 +16,11 @@ class Fault:
     code: Code = Code.SYNTAX
     suggestion: str | None = None
     notes: tuple[str, ...] = ()
+
+
+class RefusedError(Exception):
+    """A text cannot be read at all; `fault` says why, `at` is the offset where its parser gave up."""
+
+    def __init__(self, fault: Fault, at: int = 0) -> None:
+        super().__init__(fault.message)
+        self.fault, self.at = fault, at

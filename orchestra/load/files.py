@@ -70,7 +70,13 @@ def load(
     if actions is not None:
         return Description(path, file, actions, foreign=foreign)
     tree = import_module(f"orchestra.load.{module}").read(text, file, reader)
-    description = None if tree is None else describe(tree, path, file, reader)
+    if tree is None:
+        # Here, because only what cannot be read needs it.
+        from orchestra.load.carrying_on import description_behind  # noqa: PLC0415
+
+        description = description_behind(text, path, file, module, reader)
+    else:
+        description = describe(tree, path, file, reader)
     return description if description is None or not foreign else replace(description, foreign=True)
 
 

@@ -50,6 +50,11 @@ def read(text: str, file: str, reader: Reader) -> Keyed | None:
         fault = error.fault
         reader.error(fault.code, fault.message, fault.span, suggestion=fault.suggestion, notes=fault.notes)
         return None
+    return tree_of(root, whole, reader)
+
+
+def tree_of(root: Element, whole: Source, reader: Reader) -> Keyed | None:
+    """Return the tree of a root element, None where it is not that of a launch file (which has been reported)."""
     at = root.span(whole)
     if root.name != _ROOT:
         near = _ROOT if is_slip(root.name, _ROOT) else None

@@ -13,7 +13,7 @@ from xml.parsers import expat
 
 from orchestra.errors import Code
 from orchestra.load.elements import Element, new_attribute
-from orchestra.load.faults import Fault
+from orchestra.load.faults import Fault, RefusedError
 from orchestra.load.xml_faults import Opened, explained
 
 if TYPE_CHECKING:
@@ -27,12 +27,15 @@ _END_OF_TAG = re.compile(r"\s*/?>")
 _DOCTYPE = "<!DOCTYPE"
 
 
-class NotXmlError(Exception):
-    """The text is no XML, or such that nobody needs it in a launch file."""
+class NotXmlError(RefusedError):
+    """The text is no XML, or such that nobody needs it in a launch file.
 
-    def __init__(self, fault: Fault) -> None:
-        super().__init__(fault.message)
-        self.fault = fault
+    `code` is that of expat, `opened` are the elements that were open where it gave up.
+    """
+
+    def __init__(self, fault: Fault, code: int = 0, at: int = 0, opened: tuple[Element, ...] = ()) -> None:
+        super().__init__(fault, at)
+        self.code, self.opened = code, opened
 
 
 def parse(whole: Source, begin: int = 0, end: int | None = None) -> Element:
@@ -52,7 +55,8 @@ def parse(whole: Source, begin: int = 0, end: int | None = None) -> Element:
         parser.Parse(content, True)
     except expat.ExpatError as error:
         at = elements.offset(max(parser.ErrorByteIndex, 0))
-        raise NotXmlError(explained(error.code, at, whole, elements.opened())) from None
+        fault = explained(error.code, at, whole, elements.opened())
+        raise NotXmlError(fault, error.code, at, tuple(elements.open)) from None
     finally:
         del elements.parser  # they hold each other, and all that has been read
     return elements.roots[0]

@@ -69,7 +69,11 @@ class Failure:
 
     def line_of(self, offset: int) -> int:
         """Return the number of the line."""
-        return self.whole.place(offset)[0]
+        return self.place(offset)[0]
+
+    def place(self, offset: int) -> tuple[int, int]:
+        """Return line and column in the text as the parser sees it, which may be a mended one."""
+        return Source.place(self.whole, offset)
 
     def indentation(self, offset: int) -> int:
         """Return how far the line is indented; the dashes of items count as blanks."""

@@ -38,8 +38,7 @@ def explained(error: yaml.YAMLError, whole: Source) -> Fault:
     """Return the fault behind an error of PyYAML."""
     if not isinstance(error, yaml.MarkedYAMLError):
         return _no_character(error, whole)
-    mark = error.problem_mark or error.context_mark
-    at = _offset(mark, whole) if mark is not None else 0
+    at = failed_at(error, whole)
     context = _offset(error.context_mark, whole) if error.context_mark is not None else at
     failure = Failure(whole, at, context, error.problem or "", error.context or "")
     if failure.is_doubled:
@@ -47,6 +46,12 @@ def explained(error: yaml.YAMLError, whole: Source) -> Fault:
     by_lines = of_lines(failure) if any(map(failure.problem.count, _OF_LINES)) else None
     plain = failure.of_conflict() or failure.of_quotes()
     return plain or by_lines or _explanation(failure)(failure) or failure.plainly()
+
+
+def failed_at(error: yaml.YAMLError, whole: Source) -> int:
+    """Return the offset where PyYAML gave up."""
+    mark = (error.problem_mark or error.context_mark) if isinstance(error, yaml.MarkedYAMLError) else None
+    return _offset(mark, whole) if mark is not None else 0
 
 
 def _explanation(failure: Failure) -> Callable[[Failure], Fault | None]:
@@ -188,7 +193,7 @@ def _above_items(failure: Failure, begin: int) -> Fault | None:
 
 def _is_item(failure: Failure, begin: int) -> bool:
     """Return whether the line above is an item of a list that stands where this line does."""
-    line, column = failure.whole.place(begin)
+    line, column = failure.place(begin)
     above = failure.whole.lines[line - 2] + column - 1 if line > 1 else -1
     return (
         above >= 0
@@ -211,8 +216,8 @@ def _no_key(failure: Failure) -> Fault | None:
 def _no_item(failure: Failure) -> Fault | None:
     begin, end = failure.at, failure.end_of_word(failure.at)
     word = failure.text[begin:end]
-    column = failure.whole.place(begin)[1]
-    if column != failure.whole.place(failure.context)[1]:
+    column = failure.place(begin)[1]
+    if column != failure.place(failure.context)[1]:
         return failure.fault("this is indented as nothing above it is", begin, end)
     return failure.fault("an item of the list begins with '- '", begin, end, f"- {word.removeprefix('-')}")
 

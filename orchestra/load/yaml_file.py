@@ -16,7 +16,7 @@ from orchestra.description.actions import model_of
 from orchestra.description.source import Keyed, Listed, Written, kind_of
 from orchestra.errors import Code
 from orchestra.load import yaml_plain
-from orchestra.load.faults import Fault
+from orchestra.load.faults import Fault, RefusedError
 from orchestra.load.keys import spelled
 from orchestra.load.offsets import Source, source, spans_of
 from orchestra.load.reader import Reader
@@ -46,37 +46,31 @@ def read(text: str, file: str, reader: Reader) -> Any | None:  # noqa: ANN401 - 
 def read_closely(whole: Source, reader: Reader) -> Any | None:  # noqa: ANN401 - a tree
     """Return the tree of a YAML text, whatever is in it; None where it is no YAML (which has been reported)."""
     try:
+        return tree_of(whole, reader)
+    except RefusedError as error:
+        fault = error.fault
+        reader.error(fault.code, fault.message, fault.span, suggestion=fault.suggestion)
+        return None
+
+
+def tree_of(whole: Source, reader: Reader) -> Any:  # noqa: ANN401 - a tree
+    """Return the tree of a YAML text, whatever is in it. Raises `RefusedError` where it is no YAML."""
+    try:
         _check_depth(whole)
         node = yaml.compose(whole.text, Loader=PARSER)
-    except _RefusedError as error:
-        _refuse(error.fault, reader)
-        return None
     except yaml.YAMLError as error:
         # Most files are YAML, and what explains why one is none takes time to import.
-        from orchestra.load.yaml_faults import explained  # noqa: PLC0415
+        from orchestra.load.yaml_faults import explained, failed_at  # noqa: PLC0415
 
-        _refuse(explained(error, whole), reader)
-        return None
+        raise RefusedError(explained(error, whole), failed_at(error, whole)) from None
     if node is None:
-        reader.error(Code.SYNTAX, "the file is empty: a launch file has a 'launch' key", whole.span(0, 0))
-        return None
-    try:
-        return _Tree(whole, reader).of(node, None, ())
-    except _RefusedError as error:
-        _refuse(error.fault, reader)
-        return None
+        raise _refused("the file is empty: a launch file has a 'launch' key", whole.span(0, 0))
+    return _Tree(whole, reader).of(node, None, ())
 
 
-class _RefusedError(Exception):
-    """The file has something in it that keeps all of it from being read."""
-
-    def __init__(self, reason: str, span: Span, suggestion: str | None = None) -> None:
-        super().__init__(reason)
-        self.fault = Fault(reason, span, suggestion=suggestion)
-
-
-def _refuse(fault: Fault, reader: Reader) -> None:
-    reader.error(fault.code, fault.message, fault.span, suggestion=fault.suggestion)
+def _refused(reason: str, span: Span, suggestion: str | None = None) -> RefusedError:
+    """Return what tells that something keeps all of the file from being read."""
+    return RefusedError(Fault(reason, span, suggestion=suggestion))
 
 
 def _check_depth(whole: Source) -> None:
@@ -86,9 +80,7 @@ def _check_depth(whole: Source) -> None:
         if isinstance(event, yaml.CollectionStartEvent):
             depth += 1
             if depth > DEEPEST:
-                raise _RefusedError(
-                    f"the file nests more than {DEEPEST} deep", _mark(whole, event.start_mark)
-                )
+                raise _refused(f"the file nests more than {DEEPEST} deep", _mark(whole, event.start_mark))
         elif isinstance(event, yaml.CollectionEndEvent):
             depth -= 1
 
@@ -105,11 +97,11 @@ class _Tree:
         span = self.whole.span(node.start_mark.index, node.end_mark.index)
         self.built += 1
         if node in above:
-            raise _RefusedError("the alias refers to what it stands in", span)
+            raise _refused("the alias refers to what it stands in", span)
         if len(above) > DEEPEST:
-            raise _RefusedError(f"the file nests more than {DEEPEST} deep", span)
+            raise _refused(f"the file nests more than {DEEPEST} deep", span)
         if self.built > _MOST_VALUES + _VALUES_PER_CHARACTER * len(self.whole.text):
-            raise _RefusedError("the aliases of the file expand to too much", span)
+            raise _refused("the aliases of the file expand to too much", span)
         if isinstance(node, yaml.ScalarNode):
             return self._scalar(node, span)
         if node.tag not in _KNOWN_TAGS:
@@ -143,7 +135,7 @@ class _Tree:
                 continue
             if DASH.match(key.value) and not key.style:
                 message = f"a blank is missing behind the '-' of '{key.value}'"
-                raise _RefusedError(message, at, f"- {key.value[1:]}")
+                raise _refused(message, at, f"- {key.value[1:]}")
             tree = self.of(value, at, (*above, node))
             if key.value == "<<" and not key.style:
                 merged.extend(self._merged(tree, at))

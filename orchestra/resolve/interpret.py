@@ -113,6 +113,7 @@ def visit(actions: Iterable[Action], run: Resolution) -> None:
 def visit_file(description: Description, run: Resolution) -> None:
     """Visit the actions of the file that the visit is in."""
     run.found.lost |= description.lost
+    run.problems.doubted |= {*description.doubted}
     if description.deprecated is not None:
         at = run.at(description.deprecated.span)
         message = f"{description.file} is deprecated: {description.deprecated.constant}"

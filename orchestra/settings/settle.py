@@ -10,12 +10,14 @@ from typing import TYPE_CHECKING, Final
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems, Severity
 from orchestra.fields import field, replace
+from orchestra.location import meet
 from orchestra.settings.comments import Ignore, ignores
 from orchestra.settings.find import Finder
 from orchestra.settings.model import LASTING, OFF, Settings, code_meant
 
 if TYPE_CHECKING:
     from orchestra.errors import Problem
+    from orchestra.location import Span
 
 _NONE: Final = Settings()
 _KEPT: Final = (
@@ -30,12 +32,20 @@ def settle(problems: Problems, path: str, severity: Mapping[str, str], *, bare: 
     asked for; `severity` wins over both, a comment over all. What is wrong with the settings becomes a problem. `bare`:
     it is known that there are none for `path`.
     """
+    if problems.doubted:
+        problems.amend(lambda problem: None if _is_doubted(problem, problems.doubted) else problem)
     broken = Problems()
     weighing = _Weighing(os.getcwd(), Finder(broken), severity)  # noqa: PTH109 - pathlib is slow
     weighing.asked = None if bare else weighing.finder.settings(weighing.absolute(path))
     problems.amend(weighing.weighed)
     problems.extend(broken)
     problems.silencing |= weighing.used
+
+
+def _is_doubted(problem: Problem, doubted: set[Span]) -> bool:
+    """Return whether what is told, unless it is why a text cannot be read, may follow from how the text was taken."""
+    of_text = problem.code in (Code.SYNTAX, Code.PARAMETER_SYNTAX, Code.DUPLICATE_KEY)
+    return not of_text and problem.span is not None and any(meet(problem.span, other) for other in doubted)
 
 
 @dataclass(slots=True)

@@ -35,7 +35,7 @@ FAULTS: dict[str, tuple[str, Code, str, str, str | None]] = {
     "an unknown entity": ("<log message='a &foo; b'/>", Code.SYNTAX, "&foo;", "no entity &foo;", "&amp;foo;"),
     "an impossible character": ("<log message='&#0;'/>", Code.SYNTAX, "&#0;", "no character", None),
     "a control character": ("<log message='\x01'/>", Code.SYNTAX, "\x01", "U+0001", None),
-    "a less-than sign in a value": ("<log if='1 < 2'/>", Code.SYNTAX, "<", "cannot hold '<'", "&lt;"),
+    "a less-than sign in a value": ("<log message='1 < 2'/>", Code.SYNTAX, "<", "cannot hold '<'", "&lt;"),
     "a less-than sign in a text": ("1 < 2", Code.SYNTAX, "<", "'<' begins a tag", "&lt;"),
     "an attribute twice": ("<let name='a' name='b'/>", Code.DUPLICATE_KEY, "name", "stands twice", None),
     "an attribute in both spellings": (
