@@ -18,6 +18,9 @@ if TYPE_CHECKING:
 
 _LISTS: Final = re.compile(r"an action is expected here, this is a (?:list|tuple)")
 _COMMA: Final = re.compile(r"\s*,\s*")
+_OF_VALUES: Final = frozenset({Code.BAD_NAME, Code.MISSING_EXECUTABLE, Code.MISSING_FILE, Code.WRONG_TYPE})
+_VALUES: Final = re.compile(r"'[^']*'|\S*/[^\s:,]*|\d+")
+_FEW: Final = 5
 _MESSAGE: Final = "actions are expected here, these are lists"
 
 
@@ -63,17 +66,34 @@ def behind_exceptions(problems: Iterable[Problem]) -> Callable[[Problem], Proble
 
 
 def corrected_alike(problems: Iterable[Problem]) -> Callable[[Problem], Problem | None]:
-    """Return what leaves one problem of those that are mended alike: of code that runs again for other values."""
+    """Return what leaves one problem of those that are mended alike: of code that runs again for other values.
+
+    Where it is not known how they are mended, the others become notes of the first.
+    """
     first: dict[tuple[object, ...], Problem] = {}
+    notes: dict[int, list[str]] = {}
     for problem in problems:
-        if problem.suggestion is not None and problem.span is not None and problem.span.file.endswith(".py"):
-            first.setdefault((problem.code, problem.span, problem.suggestion), problem)
+        if problem.span is None or not problem.span.file.endswith(".py"):
+            continue
+        known = first.setdefault(_mended(problem), problem)
+        if known is not problem and known.suggestion is None and len(notes.get(id(known), ())) < _FEW:
+            notes.setdefault(id(known), []).append(f"here, too: {problem.message}")
 
     def amended(problem: Problem) -> Problem | None:
-        known = first.get((problem.code, problem.span, problem.suggestion), problem)
-        return problem if known is problem else None
+        if first.get(_mended(problem), problem) is not problem:
+            return None
+        more = notes.get(id(problem))
+        return problem if more is None else replace(problem, notes=(*problem.notes, *more))
 
     return amended
+
+
+def _mended(problem: Problem) -> tuple[object, ...]:
+    """Return what is the same of problems that are mended alike."""
+    if problem.suggestion is not None:
+        return (problem.code, problem.span, problem.suggestion)
+    is_of_value = problem.code in _OF_VALUES
+    return (problem.code, problem.span, _VALUES.sub("", problem.message) if is_of_value else problem.message)
 
 
 def _holds(outer: Span, inner: Span) -> bool:

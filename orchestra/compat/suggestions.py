@@ -11,6 +11,7 @@ from orchestra.compat.as_texts import without_echoes
 from orchestra.compat.glued_paths import without_slash
 from orchestra.compat.late_roots import without_followers
 from orchestra.compat.literals import Literal, argument
+from orchestra.compat.made_texts import part_of
 from orchestra.compat.one_mistake import behind_exceptions, corrected_alike, together
 from orchestra.compat.parameter_values import value_meant
 from orchestra.compat.place import Argument
@@ -71,8 +72,10 @@ def in_place(problem: Problem) -> Problem:
         way = "" if undeclared is None else f"; DeclareLaunchArgument({undeclared[1]}) declares it"
         return replace(problem, span=_narrower(problem, found), message=problem.message + way)
     is_name = not isinstance(span, Argument)  # else it may stand for what is wrong
-    wrong = _wrong(found, meant, problem.message, is_name=is_name) or _elsewhere(
-        found, meant, problem.message
+    wrong = (
+        part_of(found, meant, problem.message)
+        or _wrong(found, meant, problem.message, is_name=is_name)
+        or _elsewhere(found, meant, problem.message)
     )
     if wrong is None:
         return replace(problem, suggestion=None, notes=(*problem.notes, f"did you mean '{meant}'?"))

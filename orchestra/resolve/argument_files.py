@@ -81,7 +81,9 @@ def _lack(word: Value, run: Resolution) -> _Lack | None:
     if origin is not None:  # it comes through a variable
         return _Lack(missing, origin, near_path(missing, word.text))
     near = near_path(missing, raw)
-    return _Lack(missing, word.location, near if near != raw else None)
+    if near == raw:  # what is written are parts of it
+        near = near_path(missing, word.text) if is_python(word.location) else None
+    return _Lack(missing, word.location, near)
 
 
 def _is_path(text: str) -> bool:
@@ -90,6 +92,8 @@ def _is_path(text: str) -> bool:
 
 
 def _is_sure(name: str, near: str) -> bool:
-    """Return whether a name is hardly anything but another one mistyped, or one with another ending."""
+    """Return whether a name is hardly anything but another one mistyped, without a slash, or with another ending."""
+    if near.replace("/", "") == name:
+        return True
     one, other = (Path(item).name for item in (name, near))
     return one == other or is_slip(one, other) or one.partition(".")[0] == other.partition(".")[0]

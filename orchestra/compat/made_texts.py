@@ -1,0 +1,45 @@
+"""Texts that code puts together: which part of one is wrong, and what should stand in place of that part."""
+
+from __future__ import annotations
+
+import ast
+import os
+import re
+from typing import TYPE_CHECKING, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from orchestra.compat.literals import Literal
+    from orchestra.location import Span
+
+_TOLD: Final = re.compile(r"'([^']+)'|(\S*/[^\s:,]+)")
+
+
+def part_of(found: Literal, meant: str, message: str) -> tuple[Span, str] | None:
+    """Return where the one text stands that is wrong in what an expression has made, and what should stand there.
+
+    All that is made by the rest of it, as `'left'` of `side + ' cam'`, is part of what was meant, too. None where no
+    text is such, or several are, and where the expression is no more than a text.
+    """
+    if found.node is None or isinstance(found.node, ast.Constant) or "$(" in meant:
+        return None
+    told = _TOLD.search(message)
+    made = "" if told is None else told[1] or told[2]
+    if meant.startswith("/") and not made.startswith("/"):
+        made = os.path.abspath(made)  # noqa: PTH100 - pathlib is slow
+    elif not meant.startswith("/"):
+        made = made.removeprefix("/")
+    parts = list(_parts(found.texts, made, meant))
+    if len(parts) > 1:  # a slash between two of them is that of the second
+        parts = [part for part in parts if part[1].startswith("/")]
+    return parts[0] if len(parts) == 1 else None
+
+
+def _parts(texts: dict[str, Span], made: str, meant: str) -> Iterator[tuple[Span, str]]:
+    for text, span in texts.items():
+        begin, is_there, end = made.partition(text)
+        kept = len(begin) + len(end)
+        fits = is_there and meant.startswith(begin) and meant.endswith(end) and len(meant) > kept
+        if fits and meant[len(begin) : len(meant) - len(end)] != text:
+            yield span, meant[len(begin) : len(meant) - len(end)]
