@@ -18,6 +18,7 @@ if TYPE_CHECKING:
     from orchestra.location import Location, Span
 
 _TWICE = 2
+_TRANSFORM = "static_transform_publisher"
 
 
 def identities(
@@ -63,7 +64,8 @@ def check_names(processes: Sequence[ResolvedProcess | ResolvedComponent], proble
     """Report nodes that were given the same full name.
 
     It is only a warning where a condition stands on one of them, where one is a component, which its container may
-    refuse, and where one is written in Python: files that exist already do this, and upstream starts both.
+    refuse, and where one is written in Python: files that exist already do this, and upstream starts both. So it is of
+    publishers of static transforms, which nobody asks for anything: files that work give all of them one name.
     """
     twice = _tell_twice(processes, problems)
     first: dict[str, ResolvedProcess | ResolvedComponent] = {}
@@ -125,6 +127,8 @@ def _tell_twice(processes: Sequence[ResolvedProcess | ResolvedComponent], proble
 def _is_refused(process: ResolvedProcess | ResolvedComponent) -> bool:
     """Return whether there must not be another one of its name."""
     if isinstance(process, ResolvedComponent) or process.conditional:
+        return False
+    if process.executable == _TRANSFORM and process.package in ("tf2_ros", "tf2_ros_py"):
         return False
     return not is_python(process.location)
 

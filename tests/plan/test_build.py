@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.errors import Code
+from orchestra.errors import Code, Severity
 from orchestra.plan.codec import dumps, loads
 from orchestra.plan.parameter_file import contents
 from tests.resolve.launching import outcome
@@ -79,6 +79,14 @@ def test_a_name_like_a_repeat_is_kept_apart_too(tmp_path: Path) -> None:
 def test_two_nodes_with_one_name_are_refused_where_the_second_is(tmp_path: Path) -> None:
     text = "launch:\n- node: {exec: a, name: n}\n- push_ros_namespace: {namespace: /}\n- node: {exec: b, name: n}"
     assert outcome(tmp_path, text).faults == [(Code.DUPLICATE_NODE, "main.yaml", 4, 25)]
+
+
+def test_publishers_of_static_transforms_may_have_one_name(tmp_path: Path) -> None:
+    node = "- node: {pkg: tf2_ros, exec: static_transform_publisher, name: n}\n"
+    problems = outcome(tmp_path, f"launch:\n{node}{node}").problems
+    assert [(found.code, found.severity) for found in problems if found.code is Code.DUPLICATE_NODE] == [
+        (Code.DUPLICATE_NODE, Severity.WARNING)
+    ]
 
 
 PARAMETERS: dict[str, tuple[str, dict[str, str], dict[str, object]]] = {

@@ -58,6 +58,19 @@ def test_a_pattern_that_rcl_refuses_is_told_with_its_place(pattern: str, offset:
     assert fault.offset == offset
 
 
+@pytest.mark.parametrize(
+    "name", ["$(var ns)/n", "<robot_namespace>/n", "n<suffix>", "{{ robot }}", "${NS}/n"]
+)
+def test_what_is_replaced_before_rcl_reads_a_file_is_not_judged(name: str) -> None:
+    assert pattern_fault(name) is not None
+    assert pattern_fault(name, template=True) is None
+
+
+@pytest.mark.parametrize("name", ["<n", "n>", "a < b", "a/<b/c>", "{n}", "$n", "<>"])
+def test_what_nothing_replaces_is_judged_in_a_template_too(name: str) -> None:
+    assert pattern_fault(name, template=True) is not None
+
+
 _PARTS = st.sampled_from(["n", "ns", "*", "**", "a__b", "", "n*", "1n", "a b", "x"])
 _PATTERNS = st.builds(
     str.__add__, st.sampled_from(["", "/"]), st.lists(_PARTS, min_size=1, max_size=4).map("/".join)

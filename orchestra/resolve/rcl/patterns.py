@@ -10,12 +10,15 @@ import re
 from functools import cache
 from typing import TYPE_CHECKING
 
+from orchestra.patterns import pattern as pattern_of
 from orchestra.resolve.names import Fault, mended, rmw_namespace_fault, rmw_node_name_fault
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
 _WILDCARDS = frozenset({"*", "**"})
+# As ReplaceString of nav2_common, Jinja and envsubst have it.
+_REPLACED = pattern_of(r"\$\(|<[^<>/]+>|\{\{.+?\}\}|\$\{[^{}]+\}")
 
 
 def matches(pattern: str, full_name: str) -> bool:
@@ -30,9 +33,9 @@ def matches(pattern: str, full_name: str) -> bool:
 def pattern_fault(pattern: str, *, template: bool = False) -> Fault | None:
     """Return why rcl refuses a pattern, None where it takes it. Only whole parts can be wildcards.
 
-    Of a `template` nothing is known where `$(...)` stands in it.
+    Of a `template` nothing is known where `$(...)` stands in it, or a word that is replaced: `<robot_namespace>`.
     """
-    if template and "$(" in pattern:
+    if template and _REPLACED.search(pattern):
         return None
     parts = pattern.split("/")
     offset = 0
