@@ -17,8 +17,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat import pristine
-from orchestra.compat.borrowed import borrowing
 from orchestra.compat.place import is_own
 from orchestra.witness.observing import observer
 from orchestra.witness.origins import INSTALLED, PYTHON
@@ -45,6 +43,10 @@ class _Alias(Loader):
         self._spec: ModuleSpec | None = None
 
     def create_module(self, spec: ModuleSpec) -> ModuleType:
+        # Here, because only launch files in Python need them.
+        from orchestra.compat import pristine  # noqa: PLC0415
+        from orchestra.compat.borrowed import borrowing  # noqa: PLC0415
+
         module = importlib.import_module(self._name)
         if not hasattr(module, "__path__"):
             vars(module).setdefault("__getattr__", borrowing(self._name))
@@ -125,7 +127,7 @@ class Serving:
                     known[name] = module
             for name in _added(known):
                 del modules[name]
-        pristine.restore()
+        _restore()
 
 
 @contextmanager
@@ -157,7 +159,14 @@ def served(untouched: Callable[[], bool] = lambda: False) -> Iterator[Serving]:
         sys.dont_write_bytecode = bytecode
         _forget_new(before)
         if not untouched():
-            pristine.restore()
+            _restore()
+
+
+def _restore() -> None:
+    """Make what launch files have imported what it was, where one has imported anything."""
+    module = sys.modules.get(f"{_ROOM}.pristine")
+    if module is not None:
+        module.restore()
 
 
 def _forget_new(before: dict[str, ModuleType]) -> None:
