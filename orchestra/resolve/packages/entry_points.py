@@ -10,6 +10,8 @@ import os
 import sys
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from orchestra.witness.looking import read
+
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
@@ -40,20 +42,25 @@ def _declared_in(place: str, group: str) -> Iterator[EntryPoint]:
             if name.endswith(kind):
                 shipped_with = name.partition("-")[0].removesuffix(".egg").replace(".", "_")
                 metadata = os.path.join(place, name)  # noqa: PTH118 - as above
-                for point, target in _listed(os.path.join(metadata, "entry_points.txt"), group):  # noqa: PTH118 - as above
+                for point, target in _listed(text_in(metadata), group):
                     package = target.partition(":")[0].strip().partition(".")[0]
                     yield EntryPoint(point, target, (package, shipped_with), metadata)
 
 
-def _listed(entry_points: str, group: str) -> Iterator[tuple[str, str]]:
-    """Yield the pairs of name and target of one distribution."""
+def text_in(metadata: str) -> str:
+    """Return what a distribution declares, of which this is the folder; most declare nothing."""
     try:
-        with open(entry_points, encoding="utf-8") as file:  # noqa: PTH123 - as above
-            lines = file.read().splitlines()
-    except OSError:
+        return read(f"{metadata}/entry_points.txt").decode()
+    except (OSError, ValueError):
+        return ""
+
+
+def _listed(text_of_all: str, group: str) -> Iterator[tuple[str, str]]:
+    """Yield the pairs of name and target of one distribution."""
+    if f"[{group}]" not in text_of_all:
         return
     section = ""
-    for line in lines:
+    for line in text_of_all.splitlines():
         text = line.strip()
         if text.startswith("["):
             section = text

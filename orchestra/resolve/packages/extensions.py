@@ -8,8 +8,8 @@ from __future__ import annotations
 import os
 import sys
 from functools import lru_cache
-from pathlib import Path
 
+from orchestra.resolve.packages.entry_points import text_in
 from orchestra.witness.observing import observer
 from orchestra.witness.once import once
 
@@ -42,10 +42,6 @@ def _groups(folder: str, _changed: int) -> frozenset[str]:
         return frozenset()
     found: set[str] = set()
     for name in names:
-        try:
-            text = Path(folder, name, "entry_points.txt").read_text("utf-8")
-        except (OSError, ValueError):
-            continue
-        lines = (line.strip() for line in text.splitlines())
+        lines = (line.strip() for line in text_in(f"{folder or '.'}/{name}").splitlines())
         found.update(line[1:-1].strip() for line in lines if line.startswith("[") and line.endswith("]"))
     return frozenset(found)
