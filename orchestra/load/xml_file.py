@@ -120,6 +120,8 @@ class _Shaper:
         actions = Listed(at)
         for child in self._unwrapped(element.children, forms):
             form = self._form(child.name, forms, actions=forms.holds_actions, element=True)
+            if forms.holds_actions and child.children and spelled(child.name) in ACTIONS:
+                form = None  # `for_each` is an action where it has others in it, else a key of a group
             slip = form is not None and spelled(child.name) not in forms.by_key
             if form is not None and not (slip and child.attributes and form.kind in _ATTRIBUTES):
                 self._child(child, form, tagged)

@@ -58,6 +58,21 @@ _TURNS: dict[str, tuple[Actions, list[str]]] = {
     "values as Python writes them": ([_for_each("{a: true, b: 1.50}", _log("$(for-var a) $(for-var b)"))], ["True 1.5"]),
     "nothing between semicolons": ([_for_each(";{a: x};;null;", _log("$(for-var a)"))], ["x"]),
     "no mapping at all": ([_for_each("", _log("$(for-var a)"))], []),
+    "in a group, which has a key of that name": (
+        [{"group": {"children": [_for_each("{a: x};{a: y}", _log("$(for-var a)"))]}}],
+        ["x", "y"],
+    ),
+    "in a group that is repeated": (
+        [
+            {
+                "group": {
+                    "for_each": {"side": ["l", "r"]},
+                    "children": [_for_each("{a: x};{a: y}", _log("$(var side)$(for-var a)"))],
+                }
+            }
+        ],
+        ["lx", "ly", "rx", "ry"],
+    ),
     "a condition on the loop": (
         [{"for": {"len": "2", "name": "i", "if": "false", "children": [_log("a")]}}],
         [],
