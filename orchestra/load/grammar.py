@@ -22,6 +22,7 @@ from orchestra.load.exposed import exposed_part
 from orchestra.load.parts import Parts
 from orchestra.load.repeated import known_template, placed
 from orchestra.load.signatures import excess, lack, meant, one_default, usage
+from orchestra.load.unclosed import with_end
 from orchestra.location import Span
 from orchestra.patterns import pattern
 
@@ -133,15 +134,17 @@ class _Reader:
             return (call,)
         return tuple(part for argument in arguments for part in argument.parts if isinstance(part, Call))
 
-    def not_closed(self, start: int, told: int, depth: int) -> None:
+    def not_closed(self, start: int, first: int, depth: int) -> None:
         """Report a substitution without an end, behind so many problems.
 
         What else seems wrong within it follows from that: one with too many arguments has the end of this one.
         """
         if not self.lost:
-            self.problems.forget(Code.SUBSTITUTION_SYNTAX, told)
+            self.problems.forget(Code.SUBSTITUTION_SYNTAX, first)
             begin = self.crowded if self.crowded is not None and self.crowded > start else start
-            self.fault(begin, begin + 2, "this substitution is not closed: a ')' is missing")
+            end, instead = with_end(self.text, begin) or (begin + 2, None)
+            told = "this substitution is not closed: a ')' is missing"
+            self.fault(begin, end, told, suggestion=instead)
         line = self.text.find("\n", start)
         if (
             not depth and line >= 0 and self.faults < _MOST_LINES

@@ -86,7 +86,7 @@ def near_names(path: Path) -> tuple[tuple[str, str], ...]:
         if near is None and len(names) == 1:
             near = _one_folder_below(there, name)
         if near is None:
-            return _elsewhere(there, names[index - 1 :]) if not changes else ()
+            return _doubled(there, names) or _elsewhere(there, names[index - 1 :]) if not changes else ()
         if near != name:
             changes.append((name, near))
         there /= near
@@ -144,6 +144,20 @@ def _elsewhere(there: Path, names: Sequence[str]) -> tuple[tuple[str, str], ...]
     if found is None or around.name == "share":  # that is another package
         return ()
     return ((folder, found.rpartition("/")[0]),) if folders else ((f"{folder}/{name}", found),)
+
+
+def _doubled(there: Path, names: Sequence[str]) -> tuple[tuple[str, str], ...]:
+    """Return what is written once too often of a path, with the rest of it, for a file that is there without that.
+
+    As `share/demo/launch/a.launch.py` behind the folder `share/demo`.
+    """
+    around = there.parts
+    for count in range(1, len(names)):
+        if tuple(names[:count]) == around[len(around) - count :] and is_file(
+            str(there.joinpath(*names[count:]))
+        ):
+            return (("/".join(names[: count + 1]), names[count]),)
+    return ()
 
 
 def _one_folder_below(folder: Path, name: str) -> str | None:

@@ -97,11 +97,11 @@ def test_a_text_is_read_as_upstream_reads_it(text: str, shape: list[object]) -> 
 @pytest.mark.parametrize(
     ("text", "code", "at", "suggestion"),
     [
-        ("a $(var b", Code.SUBSTITUTION_SYNTAX, "$(", None),
+        ("a $(var b", Code.SUBSTITUTION_SYNTAX, "$(var b", "$(var b)"),
         ("a $(var", Code.SUBSTITUTION_SYNTAX, "$(", None),
         ("$(var $(var b) c", Code.SUBSTITUTION_SYNTAX, "$(", None),
         ("$(var 'b) c", Code.SUBSTITUTION_SYNTAX, "'", None),
-        ('$(eval "$(var a == b")', Code.SUBSTITUTION_SYNTAX, "$(", None),
+        ('$(eval "$(var a == b")', Code.SUBSTITUTION_SYNTAX, "$(var a", "$(var a)"),
         ("x $()", Code.SUBSTITUTION_SYNTAX, "$()", None),
         ("$(1var a)", Code.SUBSTITUTION_SYNTAX, "1var", None),
         ("$(var\ta)", Code.SUBSTITUTION_SYNTAX, "var\ta", None),
@@ -163,7 +163,7 @@ def test_all_faults_of_a_text_are_told() -> None:
         "nosuch",
         "$(var)",
         "$(eval 1 + 2)",
-        "$(",
+        "$(var a",
     ]
 
 
