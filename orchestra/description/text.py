@@ -158,10 +158,11 @@ Piece: TypeAlias = "str | PlainCall"
 
 @dataclass(frozen=True, slots=True)
 class Pieces:
-    """What is concatenated; and the variables that are, in order, where all calls are such."""
+    """What is concatenated; and the variables that are, in order: all calls, or all `beside` `$(dirname)`."""
 
     pieces: tuple[Piece, ...]
     variables: tuple[str, ...] | None
+    beside: tuple[str, ...] | None = None
 
     def filled(self, values: Sequence[str]) -> str:
         """Return the text with these values of the variables."""
@@ -177,9 +178,11 @@ class Pieces:
 
 def pieces_of(pieces: Sequence[Piece]) -> Pieces:
     """Return them with the variables among them."""
-    names = [piece.variable for piece in pieces if isinstance(piece, PlainCall)]
-    variables = tuple(name for name in names if name is not None)
-    return Pieces(tuple(pieces), variables if len(variables) == len(names) else None)
+    calls = [piece for piece in pieces if isinstance(piece, PlainCall)]
+    variables = tuple(call.variable for call in calls if call.variable is not None)
+    others = {(call.name, call.arguments) for call in calls if call.variable is None}
+    beside = variables if others == {("dirname", ())} else None
+    return Pieces(tuple(pieces), None if others else variables, beside)
 
 
 class MatchedTemplate(Template):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Final
 
 from orchestra.description.text import Call, MatchedTemplate, Opaque, Words
@@ -12,7 +13,7 @@ from orchestra.resolve.substitutions.table import SUBSTITUTIONS
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
-    from orchestra.description.text import Part, Template
+    from orchestra.description.text import Part, Pieces, Template
     from orchestra.resolve.context import Context, Evaluated, Value
 
 _VARIABLE: Final = "var"
@@ -81,16 +82,31 @@ def _concatenated(template: Template, context: Context) -> Evaluated:
 
 
 def _matched(template: MatchedTemplate, context: Context) -> Evaluated:
-    """Return what a text comes to whose calls are variables without anything to tell of, without their places."""
+    """Return what a text comes to, without the places of its calls where they have nothing to tell."""
     text = template.constant
     if text is not None:
         return new_value(text, context.place(template), verbatim=True)
-    pieces = template.pieces
-    known = None if pieces is None or pieces.variables is None else context.variables.known(pieces.variables)
+    pieces, file = template.pieces, context.file
+    names = None if pieces is None else pieces.variables
+    if names is None and pieces is not None and file is not None:
+        names = pieces.beside
+    known = None if names is None else context.variables.known(names)
     if pieces is None or known is None:
         return _concatenated(template, context)
     texts, reads = known
-    return new_value(pieces.filled(texts), context.place(template), through=reads, raw=template.raw)
+    made = pieces.filled(texts) if pieces.variables is not None else _in_folder(pieces, file or "", texts)
+    return new_value(made, context.place(template), through=reads, raw=template.raw)
+
+
+def _in_folder(pieces: Pieces, file: str, values: Sequence[str]) -> str:
+    """Return a text of a launch file in which only variables and its folder are substituted."""
+    folder, following = os.path.dirname(file), iter(values)  # noqa: PTH120 - as `$(dirname)` does
+    return "".join(
+        [
+            piece if isinstance(piece, str) else folder if piece.variable is None else next(following)
+            for piece in pieces.pieces
+        ]
+    )
 
 
 def perform(part: Call | Opaque, context: Context) -> Evaluated:

@@ -46,6 +46,7 @@ _ARGUMENTS = (
     "a\\ b",
     "--log-level x",
     "$(eval 1+1)",
+    "$(dirname)/$(var c) $(dirname)",
 )
 _SCALARS = (
     "1",
@@ -58,6 +59,8 @@ _SCALARS = (
     "$(var c)",
     "$(env E)",
     "1e3",
+    "$(dirname)/$(var a).x",
+    "$(dirname)/x/$(var none)",
     "-3",
     "$(find-pkg-share no)",
     "$(eval \"'$(var a)' == '1'\")",
