@@ -17,7 +17,7 @@ from orchestra.fields import replace
 from orchestra.load import xml_mends, yaml_mends
 from orchestra.load.entities import describe
 from orchestra.load.faults import Fault, RefusedError
-from orchestra.load.mended import mended
+from orchestra.load.mended import Mend, mended
 from orchestra.load.offsets import Source, source
 from orchestra.load.reader import Reader
 from orchestra.location import Span, meet
@@ -27,7 +27,6 @@ if TYPE_CHECKING:
 
     from orchestra.description.launch import Description
     from orchestra.errors import Problem
-    from orchestra.load.mended import Mend
 
 _MOST: Final = 20  # faults of one text
 _LONGEST: Final = 200_000  # characters of a text that is read again and again
@@ -89,32 +88,56 @@ def reading_behind(
     for _ in range(_MOST):
         if error is None:
             break
-        is_told = not any(meet(error.fault.span, span) for span in doubted)
-        faults += [error.fault] if is_told else []
-        best: tuple[int, Source, Any, Mend] | None = None
-        further: tuple[Source, RefusedError, Mend] | None = None
-        for mend in mends(error, whole):
-            tried = mended(whole, mend.edits)
-            try:
-                made = attempt(tried)
-            except RefusedError as following:
-                if further is None and _is_further(following, tried, error, whole, faults):
-                    further = tried, following, mend
-                continue
-            heavy = weight(made) + _left_out(whole.text, mend)
-            if best is None or heavy < best[0]:
-                best = heavy, tried, made, mend
-            if mend.doubted is None or not heavy:
-                break
-        if best is not None:
-            _, tried, made, mend = best
-            doubted.append(_doubted(whole, mend, error.fault))
-            return Reading(tried, made, tuple(faults), tuple(doubted))
-        if further is None:
-            return None
-        doubted.append(_doubted(whole, further[2], error.fault))
-        whole, error, _ = further
+        if not any(meet(error.fault.span, span) for span in doubted):
+            faults.append(error.fault)
+        step = _step(error, whole, attempt, mends, weight)
+        if step is None:
+            break
+        doubted.append(_doubted(whole, step.mend, error.fault))
+        whole, error = step.whole, step.error
+        if error is None:
+            return Reading(whole, step.made, tuple(faults), tuple(doubted))
     return None
+
+
+@dataclass(frozen=True, slots=True)
+class _Step:
+    """A mend, the text with it, and what was made of that, or what the text is refused for."""
+
+    mend: Mend
+    whole: Source
+    made: Any
+    error: RefusedError | None = None
+
+
+def _step(
+    error: RefusedError,
+    whole: Source,
+    attempt: Callable[[Source], Any],
+    mends: Callable[[RefusedError, Source], Iterator[Mend]],
+    weight: Callable[[Any], int],
+) -> _Step | None:
+    """Return the best mend: what is read with it has fewest mistakes, else its parser gets furthest."""
+    best: tuple[int, _Step] | None = None
+    further: _Step | None = None
+    reached = whole.place(error.at)[0]
+    for mend in mends(error, whole):
+        tried = mended(whole, mend.edits)
+        try:
+            made = attempt(tried)
+        except RefusedError as following:
+            line = tried.place(following.at)[0]
+            if line > reached and following.fault.span != error.fault.span:
+                reached, further = line, _Step(mend, tried, None, following)
+                if mend.doubted is None:
+                    break
+            continue
+        heavy = weight(made) + _left_out(whole.text, mend)
+        if best is None or heavy < best[0]:
+            best = heavy, _Step(mend, tried, made)
+        if mend.doubted is None or not heavy:
+            break
+    return further if best is None else best[1]
 
 
 def _refusal(whole: Source, attempt: Callable[[Source], Any]) -> RefusedError | None:
@@ -123,14 +146,6 @@ def _refusal(whole: Source, attempt: Callable[[Source], Any]) -> RefusedError | 
     except RefusedError as error:
         return error
     return None
-
-
-def _is_further(
-    following: RefusedError, tried: Source, error: RefusedError, whole: Source, faults: list[Fault]
-) -> bool:
-    """Return whether a parser got further, to another fault than those that are known."""
-    is_new = all(following.fault.span != fault.span for fault in faults)
-    return is_new and tried.place(following.at)[0] > whole.place(error.at)[0]
 
 
 def _doubted(whole: Source, mend: Mend, fault: Fault) -> Span:

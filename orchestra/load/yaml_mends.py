@@ -24,7 +24,7 @@ _CLOSERS: Final = {"[": "]", "{": "}"}
 _CONFLICT: Final = re.compile(r"^<{7}.*\n((?:.*\n)*?)={7}.*\n(?:.*\n)*?>{7}.*$", re.MULTILINE)
 _AGAIN: Final = re.compile(r"---.*\n(?:launch:.*)?")
 _ITEM: Final = re.compile(r"( *)- (?:" + "|".join(map(re.escape, ACTIONS)) + r")\s*:")
-_TABS: Final = re.compile(r"^( *\t[ \t]*)", re.MULTILINE)
+_TABS: Final = re.compile(r"( *\t[ \t]*)")
 _NAME: Final = re.compile(r"[\w./~*-]+")
 
 
@@ -56,7 +56,7 @@ def _guesses(error: RefusedError, text: str, begin: int, end: int) -> Iterator[M
     elif written in _CLOSERS:
         yield from _closed(text, begin, error.at)
     elif written == "\t":
-        yield from _without_tabs(text)
+        yield from _without_tabs(text, begin)
     elif written == "---" and (again := _AGAIN.match(text, begin)) is not None:
         yield Mend(((begin, again.end(), ""),), again.span())
     elif written == "-":
@@ -96,9 +96,12 @@ def _indent(line: str) -> int:
     return len(line) - len(line.lstrip(" "))
 
 
-def _without_tabs(text: str) -> Iterator[Mend]:
-    """Take the tabs before lines for so many blanks."""
-    tabs = [found.span(1) for found in _TABS.finditer(text)]
+def _without_tabs(text: str, at: int) -> Iterator[Mend]:
+    """Take the tabs before lines for so many blanks, as far as each line has one."""
+    tabs, line = list[tuple[int, int]](), text.rfind("\n", 0, at) + 1
+    while (found := _TABS.match(text, line)) is not None:
+        tabs.append(found.span(1))
+        line = _line_end(text, line) + 1
     for width in (4, 2, 8):
         yield Mend(tuple((begin, end, text[begin:end].replace("\t", " " * width)) for begin, end in tabs))
 

@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator, Sequence
 
     from orchestra.errors import Problem
+    from orchestra.load.offsets import Source
     from orchestra.resolve.rcl.opened import OpenSection
     from orchestra.resolve.rcl.sections import Section
 
@@ -85,15 +86,12 @@ def _read(
             sound = len(found)
             reader.take(event)
     except yaml.YAMLError as error:
-        # Most files are YAML, and what explains why one is none takes time to import.
-        from orchestra.load.yaml_faults import explained  # noqa: PLC0415
 
-        fault = explained(error, source(file, text))
-        problems.extend(_before(fault.span, [*found][:sound], reader.sections(), text))
-        at = Location(fault.span, included_from)
-        problems.error(Code.PARAMETER_SYNTAX, fault.message, at, suggestion=fault.suggestion)
-        _report_empty(reader.found, problems)
-        return reader.sections(), False
+        def again(events: Iterator[yaml.Event], told: Problems) -> tuple[tuple[Section, ...], bool]:
+            return _read(text, file, told, included_from, lambda _: changed(events), template=template)
+
+        before = [*found][:sound]
+        return _no_yaml(error, source(file, text), again, reader, before, problems)
     except UnicodeEncodeError:
         at = Location(Span(file, 1, 1, 1, 1), included_from)
         problems.error(Code.PARAMETER_SYNTAX, "not YAML: a lone surrogate", at)
@@ -101,14 +99,14 @@ def _read(
     except Unreadable:
         reader.lost = True  # it has reported why it cannot go on
 
-        def again() -> Iterator[yaml.Event]:
+        def events() -> Iterator[yaml.Event]:
             return changed(yaml.parse(text, Loader=LOADER))
 
         # Here, because rcl reads most files.
         from orchestra.resolve.rcl.remaining import remaining_sections  # noqa: PLC0415
 
         further += remaining_sections(
-            again, event, lambda: Reader(file, found, included_from, template=template)
+            events, event, lambda: Reader(file, found, included_from, template=template)
         )
     sections = (*reader.sections(), *further)
     _amend(found, text)
@@ -117,6 +115,30 @@ def _read(
     report_surprises(sections, text, problems)
     _report_empty((*reader.found, *further) if reader.lost else (), problems)
     return sections, not reader.lost
+
+
+def _no_yaml(
+    error: yaml.YAMLError,
+    whole: Source,
+    again: Callable[[Iterator[yaml.Event], Problems], tuple[tuple[Section, ...], bool]],
+    reader: Reader,
+    before: Sequence[Problem],
+    problems: Problems,
+) -> tuple[tuple[Section, ...], bool]:
+    """Return the sections of a file that is no YAML: as it was meant, else those above its fault."""
+    # Here, because most files are YAML, and what explains why one is none takes time to import.
+    from orchestra.load.yaml_faults import explained  # noqa: PLC0415
+    from orchestra.resolve.rcl.as_meant import read_as_meant  # noqa: PLC0415
+
+    meant = read_as_meant(whole, again, problems, reader.included_from)
+    if meant is not None:
+        return meant
+    fault = explained(error, whole)
+    problems.extend(_before(fault.span, before, reader.sections(), whole.text))
+    at = Location(fault.span, reader.included_from)
+    problems.error(Code.PARAMETER_SYNTAX, fault.message, at, suggestion=fault.suggestion)
+    _report_empty(reader.found, problems)
+    return reader.sections(), False
 
 
 def _report_empty(sections: Iterable[OpenSection | Section], problems: Problems) -> None:
