@@ -20,7 +20,7 @@ from orchestra.description.text import (
     new_template,
     new_words,
 )
-from orchestra.description.written import called
+from orchestra.description.written import called, escaped
 from orchestra.location import Matched
 
 if TYPE_CHECKING:
@@ -30,6 +30,9 @@ if TYPE_CHECKING:
     from orchestra.compat.place import Place, Step
     from orchestra.description.text import Part
     from orchestra.location import Span
+
+
+_VALUE: Final = "var"
 
 
 class CallSubstitution(Substitution):
@@ -122,10 +125,44 @@ class Composed(Pieces):
     def placed(self, whole: Span) -> tuple[Part, ...]:
         """Return them as parts of a text that stands at a place."""
         pieces: tuple[Any, ...] = self.pieces
-        return tuple([new_words(piece, whole) if type(piece) is str else piece for piece in pieces])
+        return tuple(
+            [
+                new_words(piece, whole)
+                if type(piece) is str
+                else piece.call
+                if type(piece) is _Variable
+                else piece
+                for piece in pieces
+            ]
+        )
 
 
 new_composed: Final[Callable[[tuple[Any, ...], tuple[str, ...]], Composed]] = maker(Composed)
+
+
+class _Variable:
+    """A variable by its name alone: few texts with it are ever asked for the call that it is."""
+
+    __slots__ = ("_call", "_name", "_place")
+
+    def __init__(self, name: str, place: Place) -> None:
+        self._name = name
+        self._place = place
+        self._call: Call | None = None
+
+    @property
+    def call(self) -> Call:
+        """The call."""
+        if self._call is None:
+            name = template(self._name, argument(self._place, ("variable_name",)))
+            self._call = new_call(_VALUE, (name,), self._place.span)
+        return self._call
+
+
+def variable(name: str, place: Place) -> Template:
+    """Return the text that a variable alone is, by its name, which stands at a place."""
+    pieces = new_composed((_Variable(name, place),), (name,))
+    return matched_template(called(_VALUE, (escaped(name),)), False, _Made(place), 0, pieces)
 
 
 class _Made(Matched):
@@ -154,7 +191,7 @@ def _is_known(item: Substitution) -> bool:
 
 def _variable(call: Call) -> str | None:
     """Return the variable whose value a call is, None for any other one."""
-    if call.name != "var" or len(call.arguments[0].parts) != 1:
+    if call.name != _VALUE or len(call.arguments[0].parts) != 1:
         return None
     name = call.arguments[0].parts[0]
     return name.text if type(name) is Words else None

@@ -14,6 +14,7 @@ if TYPE_CHECKING:
 _SPECIAL = pattern(r"([\\$])")
 _PIECE = pattern(r"\\.|\$\(|.", re.DOTALL)
 _IN_ARGUMENT = frozenset("'\"()")
+_SIGNS = _IN_ARGUMENT | {" ", "$", "\\"}
 
 
 def escaped(text: str) -> str:
@@ -36,6 +37,8 @@ def _argument(text: str) -> str:
 
     A call with quotes of its own cannot stand in quotes: there is no way to write that.
     """
+    if text and _SIGNS.isdisjoint(text):  # as nearly always
+        return text
     found, spaced, depth = [], not text, 0
     for piece in _PIECE.findall(text):
         spaced |= depth == 0 and " " in piece

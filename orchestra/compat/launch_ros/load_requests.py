@@ -34,14 +34,11 @@ class Request:
     extra_arguments: list[Any] = field(default_factory=list)
 
 
-def get_composable_node_load_request(
-    composable_node_description: ComposableNode, context: LaunchContext
-) -> Any:
+def load_request(component: ComposableNode, context: LaunchContext) -> Any:
     """Return the request for a component in the present scope, None where its condition is false.
 
     Raises `ImportError` for one with parameters where there is no rclpy.
     """
-    component = composable_node_description
     condition = component.condition()
     if condition is not None and not condition.evaluate(context):
         return None

@@ -6,9 +6,6 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.described import described
 from orchestra.compat.launch.condition import Condition
-from orchestra.compat.launch.conditions.evaluate_condition_expression_impl import (
-    evaluate_condition_expression,
-)
 from orchestra.compat.place import here
 from orchestra.compat.text import normalized, template
 
@@ -35,6 +32,11 @@ class IfCondition(Condition):
 
     def _predicate_func(self, context: LaunchContext) -> bool:
         """Return whether the condition holds; files call this by upstream's name for it."""
+        # Here, because only code that asks for it needs it: a visit goes by the text.
+        from orchestra.compat.launch.conditions.evaluate_condition_expression_impl import (  # noqa: PLC0415
+            evaluate_condition_expression,
+        )
+
         return evaluate_condition_expression(context, self.__expression) is self._wanted
 
     def _fields(self, span: Span) -> dict[str, Any]:

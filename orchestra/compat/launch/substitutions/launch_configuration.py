@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.compat.calls import variable
 from orchestra.compat.described import described
+from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.place import here
 from orchestra.compat.text import normalized
@@ -43,12 +45,23 @@ class LaunchConfiguration(ParsedSubstitution):
         return (name,) if self.__default is None else (name, self.__default)
 
     def _whole(self) -> Template | None:
-        kept = self._kept
-        if kept is None or self.__default is not None:
+        name, place, kept = self.__variable_name, self._place, self._kept
+        if self.__default is not None or type(self).perform is not _perform:
             return super()._whole()
         # As there, at once: launch files have thousands of these.
-        same = kept[0][0] == self.__variable_name and kept[2] is self._place
-        return kept[1] if same else super()._whole()
+        if kept is not None and kept[0][0] == name and kept[2] is place:
+            return kept[1]
+        if type(self) is not LaunchConfiguration or len(name) != 1 or type(name[0]) is not TextSubstitution:
+            return super()._whole()
+        text = name[0].text
+        if not text:
+            return super()._whole()
+        made = variable(text, place)
+        self._kept = (list(name),), made, place
+        return made
+
+
+_perform: Final = LaunchConfiguration.perform
 
 
 def _texts(default: Any) -> Any:

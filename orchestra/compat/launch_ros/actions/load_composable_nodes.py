@@ -10,7 +10,6 @@ from orchestra.compat.launch.action import ModelledAction
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch_ros.actions.composable_node_container import ComposableNodeContainer
 from orchestra.compat.launch_ros.descriptions.composable_node import component_models
-from orchestra.compat.launch_ros.load_requests import get_composable_node_load_request
 from orchestra.compat.text import template
 from orchestra.compat.wrong import WrongType
 from orchestra.description.actions.group import Group
@@ -20,6 +19,7 @@ from orchestra.description.text import Opaque, Template
 if TYPE_CHECKING:
     from collections.abc import Mapping
 
+    from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.launch_ros.descriptions.composable_node import ComposableNode
     from orchestra.compat.text import Sub
     from orchestra.description.entity import Action as Model
@@ -62,3 +62,15 @@ class LoadComposableNodes(ModelledAction):
         if isinstance(target, ComposableNodeContainer):
             return Template((Opaque(target, span),), target.describe(), span)
         return template(target, span)
+
+
+def get_composable_node_load_request(
+    composable_node_description: ComposableNode, context: LaunchContext
+) -> Any:
+    """Return the request for a component in the present scope, None where its condition is false.
+
+    Raises `ImportError` for one with parameters where there is no rclpy.
+    """
+    from orchestra.compat.launch_ros.load_requests import load_request  # noqa: PLC0415 - few ask for what it imports
+
+    return load_request(composable_node_description, context)
