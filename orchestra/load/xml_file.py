@@ -18,7 +18,6 @@ from orchestra.load.exposed import exposes_action
 from orchestra.load.forms import VARIABLES, Form, Forms, Kind, forms_of
 from orchestra.load.keys import action_meant, key_meant, spelled
 from orchestra.load.offsets import Source, source
-from orchestra.load.placed import placed
 from orchestra.load.reader import Reader
 from orchestra.load.xml_attributes import listed, separated
 from orchestra.load.xml_parser import NotXmlError, parse
@@ -101,6 +100,9 @@ class _Shaper:
         action = Keyed(at, at)
         model = model_of(spelled(element.name))
         if model is None and exposes_action(element.name):
+            # Here, because only code of users has words of its own, and it imports the library's elements.
+            from orchestra.load.placed import placed  # noqa: PLC0415
+
             action.put(element.name, placed(element, self.whole), at)
             return action
         if model is None:
