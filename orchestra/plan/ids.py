@@ -55,9 +55,10 @@ def base_identity(process: ResolvedProcess | ResolvedComponent) -> str:
 
 def node_name(process: ResolvedProcess | ResolvedComponent) -> str | None:
     """Return the full name of a node where it is known."""
-    if process.name is None or (isinstance(process, ResolvedProcess) and process.kind == "process"):
+    name, namespace = process.name, process.namespace
+    if name is None or (isinstance(process, ResolvedProcess) and process.kind == "process"):
         return None
-    return full_name(process.namespace.text if process.namespace is not None else "/", process.name.text)
+    return full_name("/" if namespace is None else namespace.text, name.text)
 
 
 def check_names(processes: Sequence[ResolvedProcess | ResolvedComponent], problems: Problems) -> None:

@@ -219,8 +219,8 @@ def _is_ours(executable: str) -> bool:
 
 def _first_line(path: str) -> bytes:
     try:
-        with open(path, "rb") as file:  # noqa: PTH123 - as above
-            return file.readline(256).rstrip(b"\n")
+        with open(path, "rb", buffering=0) as file:  # noqa: PTH123 - as above
+            return file.read(256).partition(b"\n")[0]
     except OSError:
         return b""
 

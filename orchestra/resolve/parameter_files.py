@@ -193,7 +193,7 @@ def _read(text: str, file: str, *, bare: bool) -> tuple[tuple[Section, ...], boo
 
 def _text(path: str, location: Location, chain: tuple[Span, ...], run: Resolution) -> str | None:
     try:
-        return once(("parameters", path), lambda: decoded(Path(path).read_bytes()))
+        return once(("parameters", path), lambda: decoded(_content(path)))
     except OSError as error:
         message = f"cannot read the parameter file {displayed(path)}: {error}"
         run.problems.error(Code.UNREADABLE_FILE, message, location)
@@ -201,6 +201,11 @@ def _text(path: str, location: Location, chain: tuple[Span, ...], run: Resolutio
         at = Location(point(displayed(path, real), error.line, error.column), chain)
         run.problems.error(Code.PARAMETER_SYNTAX, str(error), at)
     return None
+
+
+def _content(path: str) -> bytes:
+    with open(path, "rb", buffering=0) as file:  # noqa: PTH123 - pathlib is slow
+        return file.read()
 
 
 def _is_refused(path: str, text: str, location: Location, run: Resolution) -> bool:

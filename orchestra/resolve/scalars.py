@@ -181,6 +181,7 @@ def _list_alike(text: str) -> ParameterValue | None:
     return alike
 
 
+@lru_cache(maxsize=64)  # as many lists say the same
 def _is_text(text: str) -> bool:
     return not text.strip() or isinstance(read_scalars(text, by_pyyaml), str)
 
