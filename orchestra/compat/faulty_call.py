@@ -104,7 +104,8 @@ class FaultyCall:
         meant = self._named(index, at)
         if meant is None and len(self.given) - len(self.named) == _TWO and index == 0:
             usual = _USUAL.get(name) or [item for item in self.parameters if item not in self.named][:_TWO]
-            at, meant = all_named(self.places[0], index, usual)
+            fits = not any(_is_unfit(item, word) for item, word in zip(usual, self.given, strict=False))
+            at, meant = all_named(self.places[0], index, usual) if fits else (at, None)
             if meant is not None:
                 self.named |= dict(zip(usual, self.given, strict=False))
                 self.original |= self.named

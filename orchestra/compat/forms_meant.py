@@ -22,6 +22,7 @@ from orchestra.compat.forms_of_entities import (
     one_argument,
     signalled,
     transition,
+    type_called,
     uncalled,
 )
 from orchestra.compat.forms_of_sets import as_list, as_pair, with_colon
@@ -99,11 +100,29 @@ def _mapping(source: str, value: Any) -> str | None:
     if isinstance(value, set):
         return with_colon(source)
     try:
-        plain = dict(value)
+        plain = dict(map(_named_value, value) if isinstance(value, list) else value)
     except (TypeError, ValueError):
         return None
     is_literal = source[:1] == "[" and all(isinstance(each, str) for pair in plain.items() for each in pair)
-    return repr(plain) if is_literal else f"dict({source})"
+    if is_literal:
+        return repr(plain)
+    are_pairs = not isinstance(value, list) or not any(isinstance(item, str | dict) for item in value)
+    return f"dict({source})" if are_pairs else None
+
+
+def _named_value(item: Any) -> Any:
+    """Return the name and the value in `NAME=value`, in a dictionary with one key, and in one as YAML has it."""
+    if isinstance(item, str):
+        name, sign, value = item.partition("=")
+        if not sign:
+            raise ValueError(item)
+        return name, value
+    if isinstance(item, dict):
+        if item.keys() == {"name", "value"}:
+            return item["name"], item["value"]
+        ((name, value),) = item.items()
+        return name, value
+    return item
 
 
 def _words(source: str, value: Any) -> str | None:
@@ -139,6 +158,12 @@ def _remappings(source: str, value: Any) -> str | None:
 
 def _pair(source: str, value: Any) -> str | None:
     """Return a remapping of the command line, or a list of two names, as that of a launch file."""
+    if (
+        isinstance(value, dict)
+        and len(value) == _TWO
+        and all(isinstance(name, str) for name in value.values())
+    ):
+        return repr(tuple(value.values()))  # `from` and `to`, as YAML has them, or other words for them
     if isinstance(value, set | dict):
         return as_pair(source)
     if not isinstance(value, str):
@@ -260,6 +285,7 @@ _FORMS: Final[dict[str, _Form]] = {
     "is not called": uncalled,
     "of an OpaqueFunction cannot be called": handed_over,
     "of None has no action": _nothing,
+    "value_type is a type, this is": type_called,
 }
 # What stands where values do.
 _OF_VALUES: Final = (_as_text, _plain_value, _as_truth, _as_float, _condition, _words)

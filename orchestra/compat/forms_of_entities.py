@@ -18,6 +18,14 @@ _TAKING: Final = {
     "function": "OpaqueFunction(function=",
 }
 
+_TYPES: Final = {
+    **{name: name for name in ("bool", "float", "int", "str")},
+    "boolean": "bool",
+    "double": "float",
+    "integer": "int",
+    "string": "str",
+}
+
 
 def is_declaration(value: Any) -> bool:
     """Return whether a value is the declaration of a launch argument, which people take for its value."""
@@ -107,3 +115,8 @@ def handed_over(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the
     """Return a function that was called in place of being handed over."""
     called = _CALLED.fullmatch(source)
     return None if called is None else called[1]
+
+
+def type_called(source: str, value: Any) -> str | None:  # noqa: ARG001 - as the others
+    """Return the type of Python that the name of one was meant to be."""
+    return _TYPES.get(str(value).lower())

@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from orchestra.compat.literals import Literal
     from orchestra.location import Span
 
+_SHORT: Final = 2  # letters, which may stand anywhere
 _TOLD: Final = re.compile(r"'([^']+)'|(\S*/[^\s:,]+)")
 
 
@@ -41,5 +42,6 @@ def _parts(texts: dict[str, Span], made: str, meant: str) -> Iterator[tuple[Span
         begin, is_there, end = made.partition(text)
         kept = len(begin) + len(end)
         fits = is_there and meant.startswith(begin) and meant.endswith(end) and len(meant) > kept
-        if fits and meant[len(begin) : len(meant) - len(end)] != text:
+        is_short = len(text) <= _SHORT and text.isalnum()
+        if fits and not is_short and meant[len(begin) : len(meant) - len(end)] != text:
             yield span, meant[len(begin) : len(meant) - len(end)]

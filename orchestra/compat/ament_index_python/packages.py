@@ -80,7 +80,10 @@ def _meant(package_name: str, find: Callable[[str], str | None]) -> str:
 
 def _check(package_name: str) -> None:
     if _NAME.fullmatch(package_name) is None:
-        raise ValueError(f"{package_name!r} cannot be the name of a package")
+        # Here, because only mistakes need it, and what it imports.
+        from orchestra.compat.packages_meant import no_name  # noqa: PLC0415
+
+        raise no_name(package_name)
 
 
 def _missing(package_name: str) -> PackageNotFoundError:

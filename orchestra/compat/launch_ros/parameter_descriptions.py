@@ -17,7 +17,7 @@ from orchestra.compat.launch.utilities.type_utils import (
 from orchestra.compat.place import here
 from orchestra.compat.refusing import Refusing
 from orchestra.compat.text import normalized
-from orchestra.compat.wrong import WrongType
+from orchestra.compat.wrong import WrongNumber, WrongType
 
 if TYPE_CHECKING:
     from orchestra.compat.launch.launch_context import LaunchContext
@@ -32,6 +32,9 @@ class ParameterValue(Refusing):
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
         self._place = here(self)
+        if isinstance(value_type, str):
+            told = f"value_type is a type, this is the text {value_type!r}"
+            raise WrongNumber(told, path=("value_type",))
         self.__value = normalize_typed_substitution(value, value_type)
         self.__value_type = value_type
         self.__evaluated: Any = None
