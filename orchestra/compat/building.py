@@ -60,19 +60,21 @@ def models_of(entities: Iterable[Any], place: Place, argument: str = "actions") 
 
 
 def _model_or_opaque(entities: list[Any], index: int, place: Place) -> Model:
-    from orchestra.description.actions.opaque import OpaqueAction  # noqa: PLC0415 - as above
-
     entity = entities[index]
-    if not isinstance(entity, LaunchDescriptionEntity):
+    if isinstance(entity, LaunchDescriptionEntity):
+        try:
+            return model_of(entity)
+        except Exception:  # noqa: BLE001 - the visit of the entity alone comes upon the same
+            at: Place = getattr(entity, "_place", None) or place
+            span = at.span
+    else:
         # Here, because only mistakes need it, and what it imports.
         from orchestra.compat.literals import item_span  # noqa: PLC0415
 
-        return OpaqueAction.made(item_span(place, index, len(entities)), {"target": entity}, entity)
-    try:
-        return model_of(entity)
-    except Exception:  # noqa: BLE001 - the visit of the entity alone comes upon the same
-        at: Place = getattr(entity, "_place", None) or place
-        return OpaqueAction.made(at.span, {"target": entity}, entity)
+        span = item_span(place, index, len(entities))
+    from orchestra.description.actions.opaque import OpaqueAction  # noqa: PLC0415 - as above
+
+    return OpaqueAction.made(span, {"target": entity}, entity)
 
 
 def conditioned(action: Action) -> dict[str, Any]:

@@ -116,7 +116,7 @@ class PlainNode(ExecuteProcess):
 
     def _resolved_by(self, names: Callable[[], tuple[Any, ...]]) -> None:
         """Take note of what gives what a visit has come to."""
-        made = self._plainly()
+        made: Plain | None = vars(self).get("_plain")
         if made is not None:
             made.resolved = names
         else:
@@ -126,7 +126,7 @@ class PlainNode(ExecuteProcess):
         """Take note of what a visit has come to; a node does."""
 
     def _prepared_by(self, details: Callable[[], tuple[Any, ...]]) -> None:
-        made = self._plainly()
+        made: Plain | None = vars(self).get("_plain")
         if made is not None:
             made.prepared = details
         else:
