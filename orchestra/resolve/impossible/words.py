@@ -33,8 +33,24 @@ def refuse_condition(template: Template, value: Value, run: Resolution) -> None:
     if meant is not None:
         run.problems.error(Code.BAD_CONDITION, message, value.location, suggestion=meant)
         return
+    if _is_choice(template, value, run):
+        return
     meant = nearest(value.text, FLAG_WORDS)
     refuse_value(value, run.problems, Code.BAD_CONDITION, message, meant=meant)
+
+
+def _is_choice(template: Template, value: Value, run: Resolution) -> bool:
+    """Report a condition that is an argument with choices of which none is true or false: it is to be compared."""
+    name = value.through[0].name if len(value.through) == 1 else ""
+    choices = run.found.choices_of(name) or ()
+    if value.text.strip() not in choices or any(boolean(choice) is not None for choice in choices):
+        return False
+    message = f"a condition is true or false, and '{name}' is {' or '.join(choices)}"
+    other = next((choice for choice in choices if choice != value.text), value.text)
+    meant = None if is_python(template.span) else f"$(equals {template.raw.strip()} {other})"
+    notes = () if meant else ("compare it, with LaunchConfigurationEquals or EqualsSubstitution",)
+    run.problems.error(Code.BAD_CONDITION, message, run.at(template.span), suggestion=meant, notes=notes)
+    return True
 
 
 def check_word(value: Value, run: Resolution, *, holds: bool) -> None:
