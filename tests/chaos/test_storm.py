@@ -59,6 +59,6 @@ def test_ctrl_c_ends_a_storm(tmp_path: Path, moment: float) -> None:
 
 def end(run: Run) -> float:
     """Press Ctrl-C and return how many seconds the end took, by the events: a busy machine is slow to tell us."""
-    assert run.stop() == 130
+    assert run.stop() == 130, run.output
     began, ended = (run.wait_for_event(kind).monotonic for kind in ("run_stopping", "run_ended"))
     return ended - began
