@@ -81,7 +81,7 @@ _INSTRUCTIONS: Final = """
     POP_JUMP_IF_TRUE POP_JUMP_IF_FALSE POP_JUMP_IF_NONE POP_JUMP_IF_NOT_NONE
     POP_JUMP_FORWARD_IF_TRUE POP_JUMP_FORWARD_IF_FALSE POP_JUMP_FORWARD_IF_NONE POP_JUMP_FORWARD_IF_NOT_NONE
     POP_JUMP_BACKWARD_IF_TRUE POP_JUMP_BACKWARD_IF_FALSE POP_JUMP_BACKWARD_IF_NONE POP_JUMP_BACKWARD_IF_NOT_NONE
-    RAISE_VARARGS RERAISE PUSH_EXC_INFO CHECK_EXC_MATCH POP_EXCEPT LOAD_ASSERTION_ERROR
+    CALL_INTRINSIC_1 RAISE_VARARGS RERAISE PUSH_EXC_INFO CHECK_EXC_MATCH POP_EXCEPT LOAD_ASSERTION_ERROR
 """
 _NUMBERS: Final = range(256)  # of real instructions
 _HARMLESS: Final = bytes(opmap[name] for name in _INSTRUCTIONS.split() if opmap.get(name) in _NUMBERS)
@@ -89,11 +89,15 @@ _LONG, _BINARY, _IMPORT, _STORE = map(
     opmap.__getitem__, ("EXTENDED_ARG", "BINARY_OP", "IMPORT_NAME", "STORE_NAME")
 )
 _OR_IN_PLACE: Final = 20  # of the instructions for two values the one that changes an environment
+_WITHIN, _MAKING = (
+    opmap.get("CALL_INTRINSIC_1"),
+    frozenset({3, 5, 6}),
+)  # an error, a number, a tuple; not `import *`
 # What asks something for a name, and by how many bits the number of the name is moved.
 _ASKING: Final = tuple(
     (opmap[name], int(name == "LOAD_ATTR" and sys.version_info >= (3, 12)))
     for name in ("IMPORT_NAME", "IMPORT_FROM", "LOAD_ATTR", "LOAD_METHOD")
-    if name in opmap
+    if opmap.get(name) in _NUMBERS
 )
 _IS_KNOWN: Final = sys.version_info < (3, 14)  # what instructions are given
 
@@ -115,6 +119,8 @@ def changes_nothing(code: CodeType) -> bool:
         if seen.instructions.translate(None, _HARMLESS) or _OR_IN_PLACE in _given(seen, _BINARY):
             return False
         if not MODULES.issuperset(_names(seen, _IMPORT)):
+            return False
+        if _WITHIN is not None and not _MAKING.issuperset(_given(seen, _WITHIN)):
             return False
         codes.append(seen)
         own.update(seen.names)

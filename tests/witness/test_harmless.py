@@ -140,15 +140,22 @@ _FUNCTIONS_OF_OTHERS = {
     *("posix.getcwd", "posix.listdir", "os.getenv", "typing.Union"),
     *(f"collections.abc.{name}" for name in ("get", "items", "keys", "values")),  # of `os.environ`
     *(
-        f"posixpath.{name}"
-        for name in ("abspath", "basename", "commonpath", "dirname", "expanduser", "expandvars")
+        "posixpath.abspath",
+        "posixpath.basename",
+        "posixpath.commonpath",
+        "posixpath.dirname",
+        "posixpath.isabs",
     ),
     *(
-        f"posixpath.{name}"
-        for name in ("isabs", "islink", "join", "lexists", "normpath", "realpath", "relpath")
+        "posixpath.expanduser",
+        "posixpath.expandvars",
+        "posixpath.join",
+        "posixpath.normpath",
+        "posixpath.realpath",
     ),
-    *(f"posixpath.{name}" for name in ("split", "splitext")),
-    *(f"genericpath.{name}" for name in ("exists", "isdir", "isfile")),
+    *("posixpath.relpath", "posixpath.split", "posixpath.splitext", "posix._path_normpath"),
+    *(f"{place}.{name}" for place in ("posixpath", "genericpath") for name in ("islink", "lexists")),
+    *("genericpath.exists", "genericpath.isdir", "genericpath.isfile"),
 }
 
 
