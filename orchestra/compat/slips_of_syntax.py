@@ -25,6 +25,10 @@ _HALF_QUOTED: Final = re.compile(
 _TWO_QUOTES: Final = re.compile(r"""(?<![\w'"./-])(?:'([\w./-]+)"|"([\w./-]+)')(?=[,)\]}:])""")
 _PRINT: Final = re.compile(r"\bprint\s+(?![(=])(.+?)[ \t]*$")
 _SIGN: Final = re.compile(r"(?<![=!<>:+*/-])[=:](?!=)")
+_FOREIGN: Final = re.compile(r"=>|;")
+_MEANT: Final = {"=>": ("=", ":"), ";": (",",)}
+_CLOSED: Final = re.compile(r"closing parenthesis .* does not match opening parenthesis '(.)'")
+_CLOSERS: Final = {"(": ")", "[": "]", "{": "}"}
 _QUOTED_NAME: Final = re.compile(r"""(["'])([A-Za-z_]\w*)\1\s*[:=](?!=)\s*""")
 _ROUND: Final = re.compile(
     r"""([\u2018\u2019\u201a\u201c\u201d\u201e])([^\u2018\u2019\u201c\u201d'"]*)[\u2018\u2019\u201c\u201d'"]"""
@@ -49,11 +53,23 @@ def slip_in(error: SyntaxError, lines: Sequence[str]) -> _Slip | None:
         for make in makers
         for slip in make(text, end)
     )
-    for begin, end, meant in islice(ways, _MOST):
-        whole = [*lines[: line - 1], f"{text[:begin]}{meant}{text[end:]}", *lines[line:]]
-        if _reads_beyond("".join(whole), line):
-            return begin, end, meant
-    return None
+    return next((slip for slip in islice(ways, _MOST) if _reads_beyond(_with(lines, line, slip), line)), None)
+
+
+def other_bracket(error: SyntaxError, lines: Sequence[str]) -> _Slip | None:
+    """Return a bracket of another kind than the one that it closes, where the file is Python with that of its kind."""
+    closed, line, at = _CLOSED.match(error.msg or ""), error.lineno or 1, (error.offset or 1) - 1
+    if closed is None or line > len(lines):
+        return None
+    slip = (at, at + 1, _CLOSERS[closed[1]])
+    return slip if _reads_beyond(_with(lines, line, slip), len(lines)) else None
+
+
+def _with(lines: Sequence[str], line: int, slip: _Slip) -> str:
+    """Return the text of a file with what was meant in place of a slip."""
+    begin, end, meant = slip
+    text = lines[line - 1]
+    return "".join([*lines[: line - 1], f"{text[:begin]}{meant}{text[end:]}", *lines[line:]])
 
 
 def _misspelt(text: str, _: int) -> Iterator[_Slip]:
@@ -75,6 +91,8 @@ def _other_signs(text: str, _: int) -> Iterator[_Slip]:
     """Yield the signs of a line that may stand for others: a dictionary has `:`, a call has `=`."""
     for found in _SIGN.finditer(text):
         yield (*found.span(), ":" if found[0] == "=" else "=")
+    for found in _FOREIGN.finditer(text):
+        yield from ((*found.span(), sign) for sign in _MEANT[found[0]])
 
 
 def _quoted_names(text: str, _: int) -> Iterator[_Slip]:

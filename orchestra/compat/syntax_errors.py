@@ -5,6 +5,7 @@ CPython counts columns in bytes up to 3.12 where it reads bytes, and always in w
 
 from __future__ import annotations
 
+import re
 from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.place import code_points, shown
@@ -13,6 +14,8 @@ from orchestra.location import Span
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+# What is written for the `=` of an argument with a name: `name == 'a'`, `name: 'a'`.
+_SIGN: Final = re.compile(r"([A-Za-z_]\w*)\s*(==|:=?|=>)")
 # How CPython tells of what may follow from a bracket that is missing.
 _OF_BRACKETS: Final = (
     "'",
@@ -61,19 +64,27 @@ def _without_bracket(
     """Return where a bracket lacks the one that closes it, where that is all that is wrong."""
     # Here, because only mistakes need them.
     from orchestra.compat.missing_brackets import bracket_missing  # noqa: PLC0415
+    from orchestra.compat.slips_of_syntax import other_bracket  # noqa: PLC0415
     from orchestra.compat.unnamed_arguments import unnamed_argument  # noqa: PLC0415
 
     source = "".join(lines)
     if "positional argument follows" in str(error.msg):
         offset = sum(map(len, lines[: (error.lineno or 1) - 1])) + max((error.offset or 1) - 1, 0)
         argument = unnamed_argument(source, offset)
+        sign = None if argument is None else _SIGN.match(source[slice(*argument)])
+        if argument is not None and sign is not None:
+            return _span(error, source, argument[0] + sign.start(2), argument[0] + sign.end(2)), "=", ()
         if argument is not None:
             return _span(error, source, *argument), None, ()
     if not str(error.msg).startswith(_OF_BRACKETS):
         return None
     found = bracket_missing(source)
     if found is None:
-        return None
+        slip, line = other_bracket(error, lines), error.lineno or 1
+        span = (
+            None if slip is None else Span(shown(str(error.filename)), line, slip[0] + 1, line, slip[1] + 1)
+        )
+        return None if slip is None or span is None else (span, slip[2], ())
     begin, end, meant, notes = found
     if source[begin] in "([{":
         error.msg = f"'{source[begin]}' was never closed"
