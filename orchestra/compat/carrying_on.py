@@ -17,8 +17,10 @@ from orchestra.compat.place import is_own, shown, span_in
 from orchestra.compat.reported import CARRYING, ReportedError
 from orchestra.compat.source_text import text_at
 from orchestra.compat.suggestions import in_place
-from orchestra.compat.syntax_trees import tree_of
+from orchestra.compat.syntax_trees import node_span, tree_of
+from orchestra.compat.too_early import IN_PATHS
 from orchestra.errors import Problems, Severity
+from orchestra.location import is_within
 from orchestra.witness.origins import INSTALLED, PYTHON
 
 if TYPE_CHECKING:
@@ -30,6 +32,9 @@ if TYPE_CHECKING:
 
 # What functions do by themselves, not by what they return.
 _ACTING: Final = frozenset({"emit_event", "emit_event_sync", "execute", "register_event_handler", "visit"})
+_JOINING: Final = (
+    "(lambda *path: __import__('launch.substitutions').substitutions.PathJoinSubstitution(path))"
+)
 _MOST: Final = 50  # mistakes of one file
 _MISSING_NAME: Final = re.compile(r"cannot import name '(\w+)'")
 
@@ -58,7 +63,9 @@ class CarryingOn:
         if len(found) != 1 or len(self._told) >= _MOST:
             return None
         self._told += found
-        meant = _meant(error, in_place(found[0]), self._source.file)
+        meant = _meant(error, in_place(found[0]), self._source.file) or _path_meant(
+            found[0], self._source.file
+        )
         is_import = isinstance(error, ImportError) or (meant is not None and IMPORT.fullmatch(meant[1]))
         self.has_guessed = self.has_guessed or not is_import
         return self._source.code() if meant is not None and self._source.mend(*meant) else None
@@ -139,6 +146,22 @@ def _meant(error: BaseException, problem: Problem, file: str) -> tuple[Span, str
         name = _imported(file, span.line, missing[1])
         return None if name is None else (name, f"from {meant} import {missing[1]}")
     return span, meant
+
+
+def _path_meant(problem: Problem, file: str) -> tuple[Span, str] | None:
+    """Return what joins something that is no text yet to a path, and what can; None for any other problem."""
+    span, tree = problem.span, tree_of(file)
+    if IN_PATHS not in problem.message or span is None or span.file != shown(file) or tree is None:
+        return None
+    around = [
+        call
+        for call in tree.nodes
+        if isinstance(call, ast.Call) and ast.unparse(call.func).endswith("path.join") and not call.keywords
+    ]
+    found = [call for call in around if is_within(span, node_span(file, call))]
+    if not found:
+        return None
+    return node_span(file, found[-1].func), _JOINING
 
 
 def _imported(file: str, line: int, name: str) -> Span | None:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 _CLASS: Final = re.compile(r"\b[A-Z]\w+")
 _EXPORTING: Final = ("launch.substitutions", "launch_ros.substitutions")
 _IN_LISTS: Final = "a list joins texts and substitutions: ['a', LaunchConfiguration('b')]"
-_IN_PATHS: Final = "PathJoinSubstitution joins the parts of a path"
+IN_PATHS: Final = "PathJoinSubstitution joins the parts of a path"
 _IN_FUNCTIONS: Final = (
     "a function that OpaqueFunction calls has the texts: LaunchConfiguration('b').perform(context)"
 )
@@ -38,7 +38,7 @@ def explained(error: TypeError, frame: FrameType, place: Place) -> Explanation |
     if found is None:
         return None
     message = f"{found} is no text before the launch file is visited"
-    notes: tuple[str, ...] = (_IN_LISTS, _IN_PATHS, _IN_FUNCTIONS)
+    notes: tuple[str, ...] = (_IN_LISTS, IN_PATHS, _IN_FUNCTIONS)
     tree = tree_of(place.file)
     node = None if tree is None else tree.expression(place.file, place.span)
     if tree is None or node is None:
@@ -55,7 +55,7 @@ def explained(error: TypeError, frame: FrameType, place: Place) -> Explanation |
         performed = Rewritten(f"{text_at(place.file, span)}.perform({context})")
         return Explanation(message, span=span, suggestion=performed, notes=notes)
     if meant is not None:  # it stands for the whole call, not for the part of it that is wrong
-        message += f": {_IN_PATHS if meant.startswith('PathJoin') else 'a list joins such texts'}"
+        message += f": {IN_PATHS if meant.startswith('PathJoin') else 'a list joins such texts'}"
         notes = (f"did you mean '{meant}'?", _IN_FUNCTIONS)
     return Explanation(message, span=span, notes=notes)
 

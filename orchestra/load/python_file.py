@@ -94,12 +94,28 @@ def _instead(
                 made = None if meant is None or _needs_arguments(meant) else meant()
             except Exception:  # noqa: BLE001 - what is wrong with the file has been told
                 return None
+        elif made is None:
+            made = _unreturned(module)
         if isinstance(made, LaunchDescription):
             return made
         actions: Any = made if isinstance(made, list | tuple) else [made]
         if actions and all(isinstance(item, LaunchDescriptionEntity) for item in actions):
             return LaunchDescription(actions)
     return None
+
+
+def _unreturned(module: ModuleType) -> Any:  # noqa: ANN401 - whatever the user's function returns
+    """Return what the file's function makes and does not return; None where that is not plain."""
+    from orchestra.compat.missing_return import code_with_return  # noqa: PLC0415 - only mistakes need it
+
+    path = str(module.__file__)
+    code = code_with_return(path, FUNCTION)
+    if code is None:
+        return None
+    try:
+        return _made(load_module(path, code, {}))
+    except Exception:  # noqa: BLE001 - what is wrong with the file has been told
+        return None
 
 
 def _ran(
