@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.description.source import Keyed, Listed, Written, shortened
+from orchestra.load.elements import Tagged
 from orchestra.location import Span
 from orchestra.patterns import pattern
 
@@ -70,6 +71,18 @@ def written_pair(key: str, text: Written) -> str | None:
     return None if pair is None else _parted(text.text, pair)
 
 
+def written_two(key: str, items: Any) -> str | None:  # noqa: ANN401 - a tree
+    """Return the item of a list that a list of two texts was meant to be: what it is called, and what it is."""
+    pair = _LISTS.get(key, ())
+    if (
+        type(items) is not Listed
+        or len(items) != len(pair)
+        or not all(isinstance(item, Written) for item in items)
+    ):
+        return None
+    return f"{{{', '.join(f'{name}: {_value(item)}' for name, item in zip(pair, items, strict=True))}}}"
+
+
 def written_mapping(known: AbstractSet[str], required: AbstractSet[str], text: Written) -> str | None:
     """Return the mapping with such keys that a text was meant to be, None where that is not clear."""
     for pair in (_NAMED, _RULE, _DECLARED):
@@ -131,14 +144,26 @@ def written_item(known: AbstractSet[str], content: Keyed) -> tuple[tuple[str, st
     if len(content) != 1:
         return None
     pair = next((pair for pair in (_NAMED, _RULE) if known >= set(pair)), None)
-    return None if pair is None else (pair, shortened(_items(content, pair), _LONGEST))
+    if pair is None:
+        return None
+    ((key, value),) = content.items()
+    if isinstance(content, Tagged) and isinstance(value, Written):
+        text = value.text.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
+        return pair, f'{pair[0]}="{key}" {pair[1]}="{text}"'
+    return pair, shortened(_items(content, pair), _LONGEST)
 
 
 def whole_item(content: Keyed) -> Span | None:
-    """Return the place of all of such an item, None where it is on several lines or is none of YAML."""
+    """Return the place of all of such an item, None where it is on several lines; in XML that of its attribute."""
     ((key, value),) = content.items()
     at = content.keys_at[key]
-    if type(content) is not Keyed or not isinstance(value, Written) or value.null:
+    if not isinstance(value, Written) or value.null:
+        return None
+    if isinstance(content, Tagged):
+        end = value.span
+        quote = end.end_column + 1
+        return Span(at.file, at.line, at.column, end.end_line, quote) if at.line == end.end_line else None
+    if type(content) is not Keyed:
         return None
     end = content.span if content.span < at else value.span  # in flow form it has braces
     begin = min(content.span, at)

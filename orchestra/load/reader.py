@@ -25,6 +25,7 @@ from orchestra.load.pairs import (
     written_list,
     written_pair,
     written_so,
+    written_two,
 )
 from orchestra.location import Location, Span
 from orchestra.patterns import pattern
@@ -220,6 +221,8 @@ class Reader:
             instead = written_so(place[-1], value)
         elif isinstance(value, Written) and len(place) > 1:
             instead = written_pair(str(place[-2]), value)
+        elif isinstance(value, Listed) and len(place) > 1:
+            instead = written_two(str(place[-2]), value)
         else:
             instead = None
         whole = None if instead is None else extent(value)

@@ -204,7 +204,9 @@ def _in_attribute(found: re.Match[str], whole: Source) -> Fault | None:
     """Return what is wrong with one attribute: a blank before it, a name, a value in quotes or without."""
     blank, name, quoted, bare = found.groups()
     if not blank:
-        return _fault(f"a space is missing before '{name}'", whole, found.start(2), found.end(2))
+        if name[:1] in ",;":
+            return _fault(f"blanks stand between attributes, not '{name}'", whole, *found.span(2), " ")
+        return _fault(f"a space is missing before '{name}'", whole, *found.span(2), f" {name}")
     if bare:
         behind = whole.text[found.end(4) :][:1]
         meant = f"{behind}{bare}" if behind in ("'", '"') else f'"{bare.strip(_CURLY)}"'

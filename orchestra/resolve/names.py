@@ -23,7 +23,9 @@ _LONGEST_TOPIC_NAME = 247
 _WORDS = "only letters, digits and '_' are allowed"
 _PATHS = "only letters, digits, '_' and '/' are allowed"
 _DIGITS = frozenset("0123456789")
-_OF_A_SHELL = pattern(r"\$(?:\{([A-Za-z_][A-Za-z0-9_]*)\}|([A-Za-z_][A-Za-z0-9_]*))")
+_OF_A_SHELL = pattern(
+    r"\$(?:\{([A-Za-z_][A-Za-z0-9_]*)\}|([A-Za-z_][A-Za-z0-9_]*))|\(var ([A-Za-z_][A-Za-z0-9_]*)\)"
+)
 _SUBSTITUTION = pattern(r"\{([^{}]*)\}")
 _NUMBERED = pattern(r"(?:(?<=/)|\A)([0-9]+)([A-Za-z0-9_]+)")  # a part that begins with a number
 _SHORTEST = 3  # of a word: `1st` and `3d` are left alone
@@ -165,7 +167,7 @@ def mended(name: str, fault: Callable[[str], Fault | None]) -> str | None:
     """Return a name without what ROS does not allow in it, None where that alone does not help.
 
     Other characters become `_`, slashes that are too many and quotes go away, a number in front goes to the end,
-    `${name}` is what it is in a launch file.
+    `${name}` and `(var name)` are what they are in a launch file.
     """
     if not name.isascii() or not re.search("[A-Za-z]", name):
         return None
@@ -186,8 +188,8 @@ def _number_last(found: re.Match[str]) -> str:
 
 
 def _substitution(found: re.Match[str]) -> str:
-    name = found[1] or found[2]
-    return f"$({'env' if name.isupper() else 'var'} {name})"
+    name = found[1] or found[2] or found[3]
+    return f"$({'env' if name.isupper() and not found[3] else 'var'} {name})"
 
 
 def _path_fault(path: str, longest: int) -> Fault | None:

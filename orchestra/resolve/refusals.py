@@ -103,8 +103,9 @@ def made_at(value: Value) -> Location | None:
 
 
 def forget_surprise(at: Span, problems: Problems) -> None:
-    """Take back the warning that a value is surprising where it is told to be wrong."""
+    """Take back the warning that a value is surprising, or seems to lack a '$', where it is told to be wrong."""
     problems.take_back(Code.SURPRISING_SCALAR, at)
+    problems.take_back(Code.SUBSTITUTION_SYNTAX, at)
 
 
 def set_by_code(value: Value) -> Location | None:
@@ -159,6 +160,8 @@ class Missing:
 @lru_cache(maxsize=64)  # many nodes are of one package
 def missing_package(package: str, known: tuple[str, ...], weight: Severity) -> Missing:
     """Return what is to be said of a package that is none of those that are known, of such a weight."""
+    if not package.strip():
+        return Missing(Severity.ERROR, "the name of a package is missing", None)
     meant = nearest(package, known)
     if weight is Severity.ERROR or (meant is not None and _is_slip_in_words(package, meant)):
         return Missing(Severity.ERROR, f"there is no package {package!r} here", meant)

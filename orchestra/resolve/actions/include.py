@@ -79,7 +79,7 @@ def _include(action: Include, path: str, description: Description, run: Resoluti
     with run.inside(frame) as ledger:
         visit_file(description, run)
     missing = list(ledger.missing)
-    if action.faulty and not action.arg:  # what was given is not known
+    if len(given) < len(action.arg) or (action.faulty and not action.arg):  # what was given is not known
         ledger.missing.clear()
     settle([item for item in given if item.name not in used], description, ledger, run, location)
     for name in missing:
