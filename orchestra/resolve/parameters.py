@@ -36,12 +36,11 @@ from orchestra.resolve.scalars import (
     items_alike,
     number_held,
     read_alike,
-    unified,
     upstream_value,
     value_alike,
 )
 from orchestra.resolve.worded import look_at_paths
-from orchestra.resolve.wrong_lists import meant_as_text, odd_in_text, odd_place, wrong_as_a_whole
+from orchestra.resolve.wrong_lists import meant_as_text, odd_in_text, odd_place, united, wrong_as_a_whole
 from orchestra.resolve.yaml_scalars import QUOTE
 
 if TYPE_CHECKING:
@@ -267,7 +266,7 @@ def _list(
     if len(values) < len(items):
         return POISON
     try:
-        return unified(values, texts)
+        return united(items, values, texts, run)
     except ValueError as error:
         odd = odd_place(items, values)
         place, instead = (at, None) if odd is None else (run.at(odd[0]), odd[1])

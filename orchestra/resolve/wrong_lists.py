@@ -10,17 +10,31 @@ from orchestra.description.text import Template, Words
 from orchestra.location import Span
 from orchestra.resolve.rcl.mixed import in_place, odd_item, wanted_type
 from orchestra.resolve.rcl.scalars import typed
-from orchestra.resolve.scalars import coerced, upstream_value
+from orchestra.resolve.refusals import forget_surprise
+from orchestra.resolve.scalars import coerced, unified, upstream_value
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
 
     from orchestra.description.fields import Value as Typed
+    from orchestra.resolve.resolution import Resolution
     from orchestra.values import ParameterValue, Scalar
 
 _LISTS: Final = "list_of_"
 _QUOTES: Final = ("'", '"')
 _WORDS = {bool: "bool", int: "int", float: "float", str: "str"}
+
+
+def united(
+    items: Sequence[Typed], values: Sequence[ParameterValue], texts: Sequence[str], run: Resolution
+) -> ParameterValue:
+    """Return one list of values, as `unified` does; nothing is surprising about them where all stay texts."""
+    made = unified(values, texts)
+    if made == tuple(texts):
+        for item, value in zip(items, values, strict=True):
+            if isinstance(item, Template) and not isinstance(value, str):
+                forget_surprise(run.place(item).span, run.problems)
+    return made
 
 
 def wrong_as_a_whole(items: Sequence[Typed], element: str) -> str | None:

@@ -193,6 +193,14 @@ def test_lists_of_substitutions_are_typed_item_by_item() -> None:
     assert _made(_param((number, number), "list_of_str"))[0] == {"p": ("5", "5")}
 
 
+def test_a_word_that_stays_a_text_in_a_list_is_no_surprise() -> None:
+    parameters, problems = _made(_param((text("x"), text("y"))))
+    assert (parameters, [*problems]) == ({"p": ("x", "y")}, [])
+    parameters, problems = _made(_param((text("y"), text("n"))))
+    assert parameters == {"p": (True, False)}
+    assert {problem.code for problem in problems} == {Code.SURPRISING_SCALAR}
+
+
 TEXTS_FOR_ALL = {"5": 5, "true": True, "1e-3": 0.001, "007": 7, "": "", "a: b": "a: b", "word": "word"}
 
 
