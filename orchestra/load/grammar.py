@@ -22,7 +22,6 @@ from orchestra.load.exposed import exposed_part
 from orchestra.load.parts import Parts
 from orchestra.load.repeated import known_template, placed
 from orchestra.load.signatures import excess, lack, meant, one_default, usage
-from orchestra.load.unclosed import with_end
 from orchestra.location import Span
 from orchestra.patterns import pattern
 
@@ -140,6 +139,8 @@ class _Reader:
         What else seems wrong within it follows from that: one with too many arguments has the end of this one.
         """
         if not self.lost:
+            from orchestra.load.unclosed import with_end  # noqa: PLC0415 - only mistakes need it
+
             self.problems.forget(Code.SUBSTITUTION_SYNTAX, first)
             begin = self.crowded if self.crowded is not None and self.crowded > start else start
             end, instead = with_end(self.text, begin) or (begin + 2, None)
