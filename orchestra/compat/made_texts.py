@@ -41,7 +41,8 @@ def _parts(texts: dict[str, Span], made: str, meant: str) -> Iterator[tuple[Span
     for text, span in texts.items():
         begin, is_there, end = made.partition(text)
         kept = len(begin) + len(end)
-        fits = is_there and meant.startswith(begin) and meant.endswith(end) and len(meant) > kept
+        # Where nothing is kept, the text that is told may be any other that stands there.
+        fits = is_there and meant.startswith(begin) and meant.endswith(end) and len(meant) > kept > 0
         is_short = len(text) <= _SHORT and text.isalnum()
         if fits and not is_short and meant[len(begin) : len(meant) - len(end)] != text:
             yield span, meant[len(begin) : len(meant) - len(end)]

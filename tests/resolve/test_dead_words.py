@@ -234,8 +234,8 @@ def generate_launch_description():
     path = tmp_path / "main.launch.py"
     path.write_text(text, "utf-8")
     found = check(str(path), inputs_from([], environment={}))
-    assert [(problem.code, problem.span.line) for problem in found if problem.span] == [
-        (_NEVER, 9),
-        (_NEVER, 10),
-        (_NEVER, 11),
+    assert [(problem.code, problem.span.line, problem.span.column) for problem in found if problem.span] == [
+        (_NEVER, 9, 65),
+        (_NEVER, 10, 75),
+        (_NEVER, 11, 72),
     ]
