@@ -126,9 +126,10 @@ def _step(
         try:
             made = attempt(tried)
         except RefusedError as following:
-            line = tried.place(following.at)[0]
-            if line > reached and following.fault.span != error.fault.span:
-                reached, further = line, _Step(mend, tried, None, following)
+            at = tried.place(following.at)
+            is_behind = at[0] > reached or (mend.doubted is None and at > whole.place(error.at))
+            if is_behind and following.fault.span != error.fault.span:
+                reached, further = at[0], _Step(mend, tried, None, following)
                 if mend.doubted is None:
                     break
             continue

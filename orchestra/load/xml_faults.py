@@ -153,7 +153,9 @@ def _invalid(at: int, whole: Source, opened: Opened | None) -> Fault:
         return comment
     ampersand = text.rfind("&", 0, at)
     if ampersand >= 0 and re.fullmatch(r"&[\w.#-]*", text[ampersand:at]):
-        return _fault("'&' begins an entity: write &amp;", whole, ampersand, ampersand + 1, "&amp;")
+        end = ampersand + 1 + (text[ampersand + 1 : ampersand + 2] == "&")  # `&&` is one mistake
+        meant = "&amp;" * (end - ampersand)
+        return _fault(f"'&' begins an entity: write {meant}", whole, ampersand, end, meant)
     here = text[at : at + 1]
     if here.isspace() and text.endswith("/", 0, at) and begin >= 0 and text[at:].lstrip().startswith("<"):
         return _fault("this '/' needs a '>' behind it", whole, at - 1, at, "/>")

@@ -26,7 +26,7 @@ FAULTS: dict[str, tuple[str, Code, str, str, str | None]] = {
     "a value without quotes": ("<log message=a/>", Code.SYNTAX, "a", "needs quotes", '"a"'),
     "a value in quotes of a word processor": ("<log message=“a”/>", Code.SYNTAX, "“a”", "needs quotes", '"a"'),
     "an attribute without a value": ("<log message/>", Code.SYNTAX, "message", 'write message="..."', None),
-    "no space between attributes": ("<let name='a'value='b'/>", Code.SYNTAX, "value", "a space is missing", None),
+    "no space between attributes": ("<let name='a'value='b'/>", Code.SYNTAX, "value", "a space is missing", " value"),
     "a quote that is not closed": (
         "<node exec='a' name=\"b>\n<param name='x' value=\"1\"/></node>", Code.SYNTAX, '"', "a quote is missing", None,
     ),
