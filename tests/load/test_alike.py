@@ -364,3 +364,9 @@ def test_what_takes_a_closer_look_is_left_alone(text: str) -> None:
 )
 def test_xml_that_takes_a_closer_look_is_left_alone(text: str) -> None:
     assert not _compare(text, xml_items, xml_file)
+
+
+def test_a_block_of_the_wrong_kind_in_a_long_file_is_left_to_the_ordinary_way() -> None:
+    """What is told of it is told in the words of the file, which the reader of single actions has to know, too."""
+    text = f"# {'x' * 1000}\nlaunch:\n- node:\n    pkg: demo\n    exec: talker\n    env:\n      A: '1'\n"
+    assert actions(cast("Any", yaml_items), source("a.launch.yaml", text), Reader(Problems())) is None

@@ -62,7 +62,7 @@ def actions(written: Format, whole: Source, around: Reader) -> tuple[Action, ...
     items = written.items(whole)
     if items is None:
         return None
-    reader = Reader(Problems(), around.included_from)
+    reader = Reader(Problems(), around.included_from, whole.text)
     known, found = written.FORMS.known, []
     for item in items:
         action = action_of(known.get(item.beginning), whole, item.begin, item.end, reader)
