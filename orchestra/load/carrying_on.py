@@ -30,6 +30,8 @@ if TYPE_CHECKING:
 
 _MOST: Final = 20  # faults of one text
 _LONGEST: Final = 200_000  # characters of a text that is read again and again
+_MOST_READ: Final = 500_000  # characters, in all attempts together: two seconds
+_REFUSED: Final = 4  # times faster is a text refused, and that explained, than read
 _NOTHING: Final = 1_000  # mistakes: as bad as it gets
 _WORD: Final = re.compile(r"[\w./~-]+")
 
@@ -84,13 +86,14 @@ def reading_behind(
     `attempt` reads a text, or raises `RefusedError`, for which `mends` gives what may have been meant.
     """
     faults, doubted = list[Fault](), list[Span]()
-    error = _refusal(whole, attempt) if len(whole.text) <= _LONGEST else None
+    attempts = _Attempts(attempt)
+    error = _refusal(whole, attempts) if len(whole.text) <= _LONGEST else None
     for _ in range(_MOST):
         if error is None:
             break
         if not any(meet(error.fault.span, span) for span in doubted):
             faults.append(error.fault)
-        step = _step(error, whole, attempt, mends, weight)
+        step = _step(error, whole, attempts, mends, weight)
         if step is None:
             break
         doubted.append(_doubted(whole, step.mend, error.fault))
@@ -110,10 +113,33 @@ class _Step:
     error: RefusedError | None = None
 
 
+class _Attempts:
+    """Reads texts until it has read so much that nobody waits for more."""
+
+    def __init__(self, attempt: Callable[[Source], Any]) -> None:
+        self._attempt = attempt
+        self._left = _MOST_READ
+
+    @property
+    def are_over(self) -> bool:
+        """Whether no more is to be read."""
+        return self._left <= 0
+
+    def __call__(self, whole: Source) -> Any:  # noqa: ANN401 - whatever is made of a text
+        """Return what is made of a text. Raises `RefusedError`."""
+        try:
+            made = self._attempt(whole)
+        except RefusedError as error:
+            self._left -= max(error.at, len(whole.text) // _REFUSED)
+            raise
+        self._left -= len(whole.text)
+        return made
+
+
 def _step(
     error: RefusedError,
     whole: Source,
-    attempt: Callable[[Source], Any],
+    attempt: _Attempts,
     mends: Callable[[RefusedError, Source], Iterator[Mend]],
     weight: Callable[[Any], int],
 ) -> _Step | None:
@@ -122,6 +148,8 @@ def _step(
     further: _Step | None = None
     reached = whole.place(error.at)[0]
     for mend in mends(error, whole):
+        if attempt.are_over:
+            break
         tried = mended(whole, mend.edits)
         try:
             made = attempt(tried)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from bisect import bisect_left
 from typing import TYPE_CHECKING
 
 from orchestra.dataclass import dataclass
@@ -24,12 +25,11 @@ class Mend:
 
 @dataclass(frozen=True)
 class Mended(Source):
-    """A text that was made of another one by an edit."""
+    """A text that was made of another one by edits; `begins` are the offsets in it where those begin."""
 
     before: Source
-    begin: int
-    end: int
-    width: int  # of what stands there now
+    edits: tuple[tuple[int, int, str], ...]
+    begins: tuple[int, ...]
 
     def place(self, offset: int) -> tuple[int, int]:
         """Return the 1-based line and column of an offset in the file as it is."""
@@ -37,16 +37,24 @@ class Mended(Source):
 
     def written(self, offset: int) -> int:
         """Return the offset in the text before."""
-        if offset < self.begin or (offset == self.begin and self.end > self.begin):
+        number = bisect_left(self.begins, offset)
+        if number == len(self.begins) or self.begins[number] > offset:
+            number -= 1
+        if number < 0:
             return offset
-        if offset < self.begin + self.width:
-            return min(offset, self.end)
-        return offset - self.width + self.end - self.begin
+        begin, end, meant = self.edits[number]
+        within = offset - self.begins[number]
+        if within == 0 and end > begin:
+            return begin
+        return min(begin + within, end) if within < len(meant) else end + within - len(meant)
 
 
 def mended(whole: Source, edits: Sequence[tuple[int, int, str]]) -> Source:
     """Return a text with edits."""
-    for begin, end, meant in reversed(edits):
-        text = whole.text[:begin] + meant + whole.text[end:]
-        whole = Mended(whole.file, text, whole, begin, end, len(meant))
-    return whole
+    parts, begins, at, length = list[str](), list[int](), 0, 0
+    for begin, end, meant in edits:
+        begins.append(length + begin - at)
+        parts += [whole.text[at:begin], meant]
+        at, length = end, begins[-1] + len(meant)
+    text = "".join([*parts, whole.text[at:]])
+    return Mended(whole.file, text, whole, tuple(edits), tuple(begins))

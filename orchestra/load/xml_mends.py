@@ -24,7 +24,8 @@ if TYPE_CHECKING:
 
 _ATTRIBUTE: Final = re.compile(r"""\s*=\s*(?:"[^"<]*"|'[^'<]*'|[^\s/>]*)""")
 _TAG: Final = re.compile(r"<[^<>]*>")
-_NEXT: Final = re.compile(r"""\s+[\w.:-]+\s*=\s*["']|\s*/?>""")
+# Blanks are gone through once, from the first of them.
+_NEXT: Final = re.compile(r"""(?<!\s)(?:\s+[\w.:-]+\s*=\s*["']|\s*/?>)""")
 _CLOSING: Final = re.compile(r"</[\w.:-]+\s*>\s*\Z")
 _CLOSED: Final = re.compile(r"</([\w.:-]+)(\s*>\s*</)([\w.:-]+)\s*>")
 _LAUNCH: Final = re.compile(r"<launch\b[^<>]*>")

@@ -19,9 +19,10 @@ if TYPE_CHECKING:
     from orchestra.load.reader import Reader
 
 _BROKEN: Final = re.compile(r"[\r\n]")
-_COMMENT: Final = re.compile(r"\s+#.*$")
+_COMMENT: Final = re.compile(r"(?<!\s)\s+#.*$")  # blanks are gone through once, from the first of them
 _CLOSERS: Final = {"[": "]", "{": "}"}
-_CONFLICT: Final = re.compile(r"^<{7}.*\n((?:.*\n)*?)={7}.*\n(?:.*\n)*?>{7}.*$", re.MULTILINE)
+_BETWEEN: Final = re.compile(r"^={7}.*\n", re.MULTILINE)
+_MERGED: Final = re.compile(r"^>{7}.*$", re.MULTILINE)
 _AGAIN: Final = re.compile(r"---.*\n(?:launch:.*)?")
 _ITEM: Final = re.compile(r"( *)- (?:" + "|".join(map(re.escape, ACTIONS)) + r")\s*:")
 _TABS: Final = re.compile(r"( *\t[ \t]*)")
@@ -108,9 +109,12 @@ def _without_tabs(text: str, at: int) -> Iterator[Mend]:
 
 def _merged(text: str, begin: int) -> Iterator[Mend]:
     """Take the first side of a conflict."""
-    found = _CONFLICT.match(text, begin)
-    if found is not None:
-        yield Mend(((begin, found.start(1), ""), (found.end(1), found.end(), "")), found.span())
+    # One after the other: an expression for all of it tries each line between with all that follow.
+    between = _BETWEEN.search(text, begin)
+    end = None if between is None else _MERGED.search(text, between.end())
+    if between is not None and end is not None:
+        first = _line_end(text, begin) + 1
+        yield Mend(((begin, first, ""), (between.start(), end.end(), "")), (begin, end.end()))
 
 
 def _quoted(text: str, begin: int) -> Iterator[Mend]:
