@@ -25,6 +25,7 @@ ADDED_BY: Final[Mapping[str, str]] = MappingProxyType(
         "gz_spawn_model": "ros_gz_sim",
         "ros_gz_bridge": "ros_gz_bridge",
         "spawn_controller": "launch_ros2_control",
+        "trace": "tracetools_launch",
     }
 )
 """Actions that packages of ROS 2 add, with the package: what they take is known only where it is installed."""
