@@ -15,7 +15,7 @@ from orchestra.cli import boundary
 from orchestra.cli.glance.walk import declared
 from orchestra.cli.inputs import file_and_inputs
 from orchestra.dataclass import dataclass
-from orchestra.errors import DescriptionError, Problems
+from orchestra.errors import Code, DescriptionError, Problems
 from orchestra.fields import replace
 from orchestra.location import displayed
 from orchestra.resolve.packages import InstalledPackages
@@ -57,6 +57,9 @@ def show_arguments(options: Namespace) -> int:
     shown = _shown(
         [item for item in plan.arguments if not item.given], declared(path, InstalledPackages(os.environ))
     )
+    if not shown and any(problem.code is Code.SYNTAX for problem in problems.errors):
+        # Arguments may stand in what could not be read.
+        raise DescriptionError(problems.ordered)
     sys.stdout.write(arguments_text(displayed(path), shown))
     if not problems.errors:
         return boundary.OK

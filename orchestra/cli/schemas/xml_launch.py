@@ -83,7 +83,7 @@ def _type(model: type[Entity], models: dict[str, type[Entity]]) -> str:
     elements = "".join(
         _element(key, form.model, texts[key], models)
         for key, form in forms.by_key.items()
-        if form.kind in _ELEMENTS or form.or_variables
+        if (form.kind in _ELEMENTS or form.or_variables) and not _is_action_too(key, model)
     )
     if forms.holds_actions:
         elements += '      <xs:group ref="actions"/>\n'
@@ -96,15 +96,34 @@ def _type(model: type[Entity], models: dict[str, type[Entity]]) -> str:
     return f'  <xs:complexType name="{model.__name__}">\n{choice}{attributes}  </xs:complexType>\n'
 
 
+def _is_action_too(key: str, around: type[Entity]) -> bool:
+    """Tell whether a key of an action is an action in it too, as `for_each` of `group`: XSD has one type for both."""
+    return key in ACTIONS and forms_of(around).holds_actions
+
+
+def _is_key_too(model: type[Entity]) -> bool:
+    """Tell whether an action is the key with variables of one around it as well."""
+    names = [name for name in ACTIONS if _model(name) is model]
+    return any(
+        name in forms_of(around).by_key and _is_action_too(name, around)
+        for around in map(_model, ACTIONS)
+        for name in names
+    )
+
+
 def _attributes(model: type[Entity], texts: dict[str, str]) -> Iterator[str]:
+    any_variable = _is_key_too(model)
+    needed = () if any_variable else model.required_beside(model.known_keys())
     for key, form in forms_of(model).by_key.items():
         if form.kind not in _ATTRIBUTES and not form.or_text:
             continue
-        required = key in model.required_beside(model.known_keys()) and len(_spellings(key)) == 1
+        required = key in needed and len(_spellings(key)) == 1
         for spelling in _spellings(key):
             yield _attribute(spelling, texts[key], required=required)
         if form.kind in _LISTS or _may_be_list(model.model_fields[_field(model, key)].annotation):
             yield from (_attribute(f"{name}-sep", _SEPARATOR) for name in _spellings(key))
+    if any_variable:
+        yield '    <xs:anyAttribute processContents="skip"/>\n'
     if model is Launch:
         yield _attribute("version", "Says nothing; files of ROS 1 have it.")
         yield '    <xs:anyAttribute namespace="##other" processContents="skip"/>\n'
