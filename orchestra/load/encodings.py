@@ -1,4 +1,4 @@
-"""From the bytes of a file to its text: UTF-8, UTF-16 or UTF-32 with a mark, or what an XML declaration says.
+"""From the bytes of a file to its text: UTF-8, UTF-16 or UTF-32 with a mark, in XML UTF-16 without, or the one declared.
 
 UTF-8 comes first whatever is declared, as upstream: editors save UTF-8 and leave old declarations as they are.
 """
@@ -18,6 +18,8 @@ _WIDE: Final = {
     codecs.BOM_UTF16_LE: "utf-16",
     codecs.BOM_UTF16_BE: "utf-16",
 }
+# XML without a mark, which expat reads whatever it is told (XML 1.0, appendix F).
+_UNMARKED: Final = pattern(rb"<\0[^\0]\0|(\0<\0[^\0])")
 
 
 class UndecodableError(Exception):
@@ -32,6 +34,8 @@ class UndecodableError(Exception):
 def decoded(content: bytes) -> str:
     """Return the text of a file without its byte order mark. Raises `UndecodableError`."""
     wide = next((name for mark, name in _WIDE.items() if content.startswith(mark)), None)
+    if wide is None and (found := _UNMARKED.match(content)) is not None:
+        wide = "utf-16-le" if found[1] is None else "utf-16-be"
     if wide is not None:
         return _text(content, wide)
     declared = DECLARED.match(content)

@@ -44,6 +44,9 @@ def parse(whole: Source, begin: int = 0, end: int | None = None) -> Element:
     parser.ordered_attributes = True
     text = whole.text[begin:end]
     content = text.encode("utf-8", "surrogatepass")
+    if "\0" in text[:2]:  # expat would take it for UTF-16, whatever it has been told
+        code, at = expat.errors.codes[expat.errors.XML_ERROR_INVALID_TOKEN], text.index("\0")
+        raise NotXmlError(explained(code, at, whole, None), code, at)
     offset = _offsets(text, content)
     elements = _Elements(whole, (lambda index: begin + offset(index)) if begin else offset, parser)
     elements.deepest -= begin > 0  # it stands in another one

@@ -251,6 +251,10 @@ _MESSAGE = "<launch><log message='ä'/></launch>"
     [
         (_MESSAGE.encode("utf-8-sig"), []),
         (_MESSAGE.encode("utf-16"), []),
+        (_MESSAGE.encode("utf-16-le"), []),
+        (_MESSAGE.encode("utf-16-be"), []),
+        (b"<\0" + _MESSAGE[1:].encode(), [(Code.SYNTAX, 1, 2)]),
+        (b"\0" + _MESSAGE.encode(), [(Code.SYNTAX, 1, 1)]),
         (f"<?xml version='1.0' encoding='latin-1'?>{_MESSAGE}".encode("latin-1"), []),
         (f"<?xml version='1.0' encoding='latin-1'?>{_MESSAGE}".encode(), []),
         (_MESSAGE.encode("latin-1"), [(Code.SYNTAX, 1, 23)]),

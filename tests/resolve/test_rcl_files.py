@@ -54,6 +54,13 @@ def test_sections_and_entries_come_in_order_with_their_places() -> None:
     assert sections[1].location.span == Span("f.yaml", 7, 3, 7, 4)
 
 
+def test_what_is_wrong_above_a_fault_of_the_text_is_told_with_it() -> None:
+    """What is told of the keys around the fault may follow from it, but for what was wrong before."""
+    _, problems = _read("/n*m:\n  ros__parameters:\n    a: b   c: d\n")
+    spans = sorted(problem.span for problem in problems if problem.span is not None)
+    assert spans == [Span("f.yaml", 1, 1, 1, 5), Span("f.yaml", 3, 8, 3, 16)]
+
+
 @pytest.mark.parametrize(
     "text", ["\ufeff/n:\n  ros__parameters: {x: 1}\n", "/n:\r\n  ros__parameters: {x: 1}\r\n"]
 )

@@ -16,9 +16,10 @@ from orchestra.location import Location, meet
 from orchestra.resolve.rcl.values import LOADER
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Iterator, Sequence
     from typing import TypeAlias
 
+    from orchestra.errors import Problem
     from orchestra.load.offsets import Source
     from orchestra.location import Span
     from orchestra.resolve.rcl.sections import Section
@@ -33,10 +34,12 @@ def read_as_meant(
     read: Callable[[Iterator[yaml.Event], Problems], _Read],
     problems: Problems,
     included_from: tuple[Span, ...],
+    certain: Sequence[Problem] = (),
 ) -> _Read | None:
     """Return the sections of a file that is no YAML, and whether none is lost; None where it is not known how.
 
-    `read` makes sections of events. What is wrong is reported, but for what may follow from a guess.
+    `read` makes sections of events. What is wrong is reported, but for what may follow from a guess; what is `certain`
+    has been found above all of them.
     """
 
     def attempt(tried: Source) -> tuple[_Read, Problems]:
@@ -62,11 +65,12 @@ def read_as_meant(
     problems.extend(
         problem
         for problem in found
-        if not follows(problem.span) and (problem.span is None or problem.span.line not in around)
+        if problem in certain
+        or (not follows(problem.span) and (problem.span is None or problem.span.line not in around))
     )
-    certain = all(span.line == span.end_line for span in reading.doubted)
+    is_plain = all(span.line == span.end_line for span in reading.doubted)
     whole_sections = not any(follows(section.location.span) for section in sections)
-    return tuple(_without(section, follows) for section in sections), kept and certain and whole_sections
+    return tuple(_without(section, follows) for section in sections), kept and is_plain and whole_sections
 
 
 def _around(lines: list[str], line: int) -> Iterator[int]:

@@ -130,11 +130,12 @@ def _no_yaml(
     from orchestra.load.yaml_faults import explained  # noqa: PLC0415
     from orchestra.resolve.rcl.as_meant import read_as_meant  # noqa: PLC0415
 
-    meant = read_as_meant(whole, again, problems, reader.included_from)
+    fault = explained(error, whole)
+    certain = tuple(_before(fault.span, before, reader.sections(), whole.text))
+    meant = read_as_meant(whole, again, problems, reader.included_from, certain)
     if meant is not None:
         return meant
-    fault = explained(error, whole)
-    problems.extend(_before(fault.span, before, reader.sections(), whole.text))
+    problems.extend(certain)
     at = Location(fault.span, reader.included_from)
     problems.error(Code.PARAMETER_SYNTAX, fault.message, at, suggestion=fault.suggestion)
     _report_empty(reader.found, problems)
