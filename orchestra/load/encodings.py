@@ -1,4 +1,4 @@
-"""From the bytes of a file to its text: UTF-8, UTF-16 or UTF-32 with a mark, in XML UTF-16 without, or the one declared.
+"""From the bytes of a file to its text: UTF-8, UTF-16 or UTF-32 with a mark, XML in UTF-16, or what that declares.
 
 UTF-8 comes first whatever is declared, as upstream: editors save UTF-8 and leave old declarations as they are.
 """
