@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 
 _READING = frozenset({"os.getenv", "getenv", "os.environ.get", "environ.get"})
 _ENVIRONMENT = frozenset({"os.environ", "environ"})
-_CODES = frozenset({Code.USER_CODE, Code.WRONG_TYPE, Code.BAD_VALUE, Code.MISSING_FILE})
+_CODES = frozenset({Code.USER_CODE, Code.WRONG_TYPE, Code.BAD_VALUE, Code.MISSING_FILE, Code.NOT_A_CHOICE})
 _ENDING = frozenset({"SystemExit", "exit", "quit", "sys.exit"})
 
 
@@ -28,7 +28,8 @@ def left_open(problem: Problem, unset: Callable[[str], str | None], weight: Seve
     """Return an error, or what an argument or this machine lacks, as one of the variable that has led to it.
 
     Sure is that where an expression that cannot use None, or a text with it, is made of `os.getenv` without a default,
-    and where code itself stops for it. `unset` has what is to be told of a variable, None where it is set; it weighs
+    and where code itself stops for it; so is that where a text is none of the choices that is empty unless it is set.
+    `unset` has what is to be told of a variable, None where it is set; it weighs
     so much.
     """
     span = problem.span
@@ -41,8 +42,9 @@ def left_open(problem: Problem, unset: Callable[[str], str | None], weight: Seve
     tree = tree_of(file)
     if tree is None:
         return problem
+    instead = "" if problem.code is Code.NOT_A_CHOICE else None
     for name, node in (
-        read for place in _places(problem, tree, file, span) for read in _reads(place, tree, set())
+        read for place in _places(problem, tree, file, span) for read in _reads(place, tree, set(), instead)
     ):
         told = unset(name)
         if told is not None:
@@ -64,7 +66,7 @@ def _places(problem: Problem, tree: Tree, file: str, span: Span) -> Iterator[ast
     whole = tree.expression(file, span)
     if problem.code is Code.MISSING_ARGUMENT:
         yield from () if whole is None else _defaults(tree, whole)
-    elif "None" in problem.message and whole is not None:
+    elif ("None" in problem.message or problem.code is Code.NOT_A_CHOICE) and whole is not None:
         yield whole
     if problem.code is Code.USER_CODE:
         assigned = _assignment(tree, span.line) if "None" in problem.message else None
@@ -110,8 +112,13 @@ def _ends(statement: ast.stmt) -> bool:
     return isinstance(call, ast.Call) and ast.unparse(call.func) in _ENDING
 
 
-def _reads(node: ast.AST, tree: Tree, seen: set[int]) -> Iterator[tuple[str, ast.expr]]:
-    """Yield the variables that are read without a default in an expression and what its names stand for."""
+def _reads(
+    node: ast.AST, tree: Tree, seen: set[int], instead: str | None = None
+) -> Iterator[tuple[str, ast.expr]]:
+    """Yield the variables that are read in an expression and what its names stand for: such as are `instead` if unset.
+
+    That is None for those that are read without a default.
+    """
     for part in ast.walk(node):
         meant = tree.meaning(part) if isinstance(part, ast.Name) else part
         if id(meant) in seen:
@@ -119,7 +126,14 @@ def _reads(node: ast.AST, tree: Tree, seen: set[int]) -> Iterator[tuple[str, ast
         seen.add(id(meant))
         match meant:
             case ast.Call(func=func, args=[ast.Constant(value=str(name)) as key], keywords=[]):
-                if ast.unparse(func) in _READING:
+                if instead is None and ast.unparse(func) in _READING:
+                    yield name, key
+            case ast.Call(
+                func=func,
+                args=[ast.Constant(value=str(name)) as key, ast.Constant(value=default)],
+                keywords=[],
+            ):
+                if instead is not None and default == instead and ast.unparse(func) in _READING:
                     yield name, key
             case ast.Compare(
                 left=ast.Constant(value=str(name)) as key, ops=[ast.NotIn()], comparators=[asked]
@@ -127,4 +141,4 @@ def _reads(node: ast.AST, tree: Tree, seen: set[int]) -> Iterator[tuple[str, ast
                 if ast.unparse(asked) in _ENVIRONMENT:
                     yield name, key
         if meant is not part:
-            yield from _reads(meant, tree, seen)
+            yield from _reads(meant, tree, seen, instead)

@@ -82,6 +82,53 @@ def test_what_comes_with_a_package_is_noted_once_and_a_warning_where_a_workspace
         assert (found.returncode, told) == (0, [(weight, code)])
 
 
+_ARGUMENT: Final = """\
+import os
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument, LogInfo
+from launch.substitutions import EnvironmentVariable, LaunchConfiguration
+
+def generate_launch_description():
+    model = %s
+    return LaunchDescription([
+        DeclareLaunchArgument('model', default_value=model, choices=['a', 'b']),
+        LogInfo(msg=LaunchConfiguration('model')),
+    ])
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "text"),
+    [
+        (
+            "a.launch.yaml",
+            "launch:\n- arg: {name: model, default: $(env QQ_MODEL ''), choice: [{value: a}, {value: b}]}\n",
+        ),
+        (
+            "a.launch.xml",
+            """<launch><arg name="model" default="$(env QQ_MODEL '')"><choice value="a"/></arg></launch>\n""",
+        ),
+        ("a.launch.py", _ARGUMENT % "EnvironmentVariable('QQ_MODEL', default_value='')"),
+        ("a.launch.py", _ARGUMENT % "os.environ.get('QQ_MODEL', '')"),
+        ("a.launch.py", _ARGUMENT % "os.getenv('QQ_MODEL', '')"),
+    ],
+)
+def test_an_empty_default_that_is_no_choice_asks_for_the_variable_that_is_read_before_it(
+    orchestra: Command, folder: Path, name: str, text: str
+) -> None:
+    """So a robot says what it is: there the variable is set."""
+    (folder / name).write_text(text)
+    for value, told in (
+        ({}, [("note", "ORC021")]),
+        ({"QQ_MODEL": "a"}, []),
+        ({"QQ_MODEL": "z"}, [("error", "ORC023")]),
+    ):
+        found = orchestra(name, "--format", "json", **value)
+        assert [(problem["severity"], problem["code"]) for problem in json.loads(found.stdout)] == told
+    (folder / name).write_text(text.replace("''", "'z'"))  # a default that is meant to be one of them
+    assert "ORC023" in orchestra(name).stdout
+
+
 def test_what_is_kept_of_a_file_is_weighed_anew_where_another_workspace_is_sourced(
     orchestra_beside: Command, folder: Path, prefix: Path
 ) -> None:

@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.errors import Code
+from orchestra.description.text import Call, Template
+from orchestra.errors import Code, Severity
 from orchestra.nearest import nearest
 from orchestra.resolve.context import POISON, Evaluated, Value
 from orchestra.resolve.declarations import declare, settle
 from orchestra.resolve.mentions import glimpse
 from orchestra.resolve.model import ResolvedArgument
-from orchestra.resolve.refusals import refuse_value
+from orchestra.resolve.refusals import refuse_value, report_unset_environment
 
 if TYPE_CHECKING:
     from orchestra.description.actions.arg import Arg
-    from orchestra.description.text import Template
     from orchestra.resolve.resolution import Resolution
 
 
@@ -27,7 +27,8 @@ def visit(action: Arg, run: Resolution) -> None:
     value = _value(action, name, run)
     _check_default(action, value, choices, run)
     if isinstance(value, Value) and choices is not None and value.text not in choices:
-        _refuse(name, value, choices, run)
+        if not _is_left_open(action, name, value, run):
+            _refuse(name, value, choices, run)
         run.scope.set(name, POISON, at)
     settle(name, action.span, run)
     _record(action, name, value, choices, run)
@@ -60,6 +61,24 @@ def _check_default(action: Arg, value: Evaluated, choices: tuple[str, ...] | Non
         return
     if not isinstance(value, Value) or value.text != text:
         _refuse(_text(action.name), Value(text, run.at(action.default.span), verbatim=True), choices, run)
+
+
+def _is_left_open(action: Arg, name: str, value: Value, run: Resolution) -> bool:
+    """Tell what a default without a text lacks: `$(env ROBOT_MODEL '')` demands a variable that is set on the robot.
+
+    Where that is an error anyway, it is told as the value that is none of the choices.
+    """
+    context = run.context
+    if value.text or name not in run.scope.ledger.defaulted or context.weights.variable is Severity.ERROR:
+        return False
+    match action.default:
+        case Template(parts=(Call(name="env", arguments=(written, _)),)):
+            variable = written.constant
+            if variable is None or context.environment.get(variable) is not None:
+                return False
+            report_unset_environment(variable, action.default, context)
+            return True
+    return False
 
 
 def _refuse(name: str, value: Value, choices: tuple[str, ...], run: Resolution) -> None:
