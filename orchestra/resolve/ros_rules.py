@@ -42,7 +42,8 @@ _RULE: Final = pattern(r"[\w/~.]+:=.*")
 _OF_ROS_1: Final = pattern(r"_(_params|_log_level|[A-Za-z]\w*):=(.+)")
 _SEVERAL: Final = pattern(r"""--?[A-Za-z][\w-]*\s[^"'{]*|(?:-?\d[\d.]*\s+){3}[^"'{]*""")
 _PASSED_ON: Final = pattern(
-    r"(?!--ros-args$)--?[\w-]*(?:arg|argument|param|parameter|opt|option|flag|command|cmd|prefix)s?|-[ce]"
+    r"(?:(?!--ros-args$)--?|.*[\w/]--(?!ros-args$))[\w-]*(?:arg|argument|param|parameter|opt|option|flag|command|cmd|prefix)s?"
+    r"|-[ce]"
 )
 _OPTIONS: Final = {"_params": "--params-file", "_log_level": "--log-level"}
 
@@ -103,7 +104,8 @@ def _check_unknown(words: Sequence[Value], problems: Problems, *, for_ros: bool)
 def _check_joined(words: Sequence[Value], problems: Problems) -> None:
     """Report options and what belongs to them in one word of a list, which nothing takes apart: `['-d a.rviz']`.
 
-    What an option for further arguments takes is one word: `['--controller-ros-args', '-r a:=b']`.
+    What an option for further arguments takes is one word: `['--controller-ros-args', '-r a:=b']`. So it is where the
+    comma before the option is missing, which is told: `['/manager' '--controller-ros-args', '-r a:=b']`.
     """
     before = ""
     for word in words:

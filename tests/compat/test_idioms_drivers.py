@@ -303,3 +303,21 @@ def test_what_an_option_passes_on_is_one_word(tmp_path: Path) -> None:
     _, problems = planned(tmp_path, text)
     (problem,) = [problem for problem in problems if "is one word" in problem.message]
     assert "--log-level" in problem.message
+
+
+def test_a_missing_comma_before_an_option_is_told_alone(tmp_path: Path) -> None:
+    """What the option passes on is not told to be several words: put apart, they would be the spawner's own."""
+    text = """\
+        from launch import LaunchDescription
+        from launch_ros.actions import Node
+        def generate_launch_description():
+            return LaunchDescription([
+                Node(package="demo", executable="talker", arguments=[
+                    "-c", "/robot/manager"
+                    "--controller-ros-args",
+                    "-r /robot/wheels/cmd_vel:=/robot/cmd_vel"]),
+            ])
+        """
+    _, problems = planned(tmp_path, text)
+    (problem,) = [problem for problem in problems if "word" in problem.message]
+    assert problem.message.startswith("a comma is missing")
