@@ -10,7 +10,6 @@ faulty template stays among its parts, because evaluating it finds further fault
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Final
 
@@ -37,7 +36,7 @@ _MOST_LINES: Final = 50  # of a file, with a fault each, that are read anew
 
 _NAME = pattern(r"[A-Za-z][A-Za-z0-9_-]*")
 _KEPT_QUOTES = pattern(r"""(['"])([^'" ()$\\]*)\1(?=[ )])""")
-_ESCAPE = pattern(r"\\(.)", re.DOTALL)
+_ESCAPE = pattern(r"\\(.)")
 _QUOTES = ("'", '"')
 _XML = (".xml", ".launch")
 # Characters without a meaning anywhere, and those without one outside an argument or in a quoted one.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, Final, Protocol
 
 from orchestra.description.text import Words
 
@@ -12,6 +12,8 @@ if TYPE_CHECKING:
 
     from orchestra.description.text import Part
     from orchestra.location import Span
+
+_UNESCAPED: Final = ("", "\n")
 
 
 class Reading(Protocol):
@@ -46,14 +48,14 @@ class Parts:
     def text(self, plain: re.Pattern[str]) -> None:
         """Take a run of plain characters, else the next one, or the one behind a backslash.
 
-        A backslash at the very end is itself.
+        A backslash at the very end is itself, and at the end of a line, as upstream's pattern for escapes has it.
         """
         reader = self._reader
         if match := plain.match(reader.text, reader.at):
             self._characters.append(match[0])
             reader.at = match.end()
             return
-        if reader.here == "\\" and reader.at + 1 < len(reader.text):
+        if reader.here == "\\" and reader.text[reader.at + 1 : reader.at + 2] not in _UNESCAPED:
             reader.at += 1
         self._characters.append(reader.here)
         reader.at += 1

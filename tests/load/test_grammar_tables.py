@@ -38,6 +38,8 @@ ROWS: dict[str, tuple[str, str | None]] = {
     "3.1 5, a backslash before a substitution": (r"\$(var a)", "$(var a)"),
     "3.1 5, a backslash before a letter": (r"a\nb", "anb"),
     "3.1 5, a backslash before a backslash": (r"\\", "\\"),
+    "3.1 5, a backslash at the end of a line": ("a\\\nb\\\\\nc", "a\\\nb\\\nc"),
+    "3.1 5, one in a quoted argument": ("$(var none 'a \\\n b')", "a \\\n b"),
     "3.1 6, quotes outside are text": ("'$(var a)' \"b\"", "'A' \"b\""),
     "3.1 7, a quoted argument": ("$(var none 'a $(var a)  c')", "a A  c"),
     "3.1 7, in the other quotes": ('$(var none "it\'s")', "it's"),

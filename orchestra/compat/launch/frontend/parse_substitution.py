@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from orchestra.compat.launch.substitution import Substitution
     from orchestra.description.text import Part, Template
 
-_ESCAPED = re.compile(r"\\(.)", re.DOTALL)
+_ESCAPED = re.compile(r"\\(.)")
 
 
 @dataclass(frozen=True, slots=True)
