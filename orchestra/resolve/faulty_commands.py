@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from orchestra.resolve.substitutions.arguments import Evaluate
 
 _ASKS_THE_GRAPH = "ros2"  # whose words are names of nodes and topics
+_SHELLS = frozenset({"bash", "dash", "sh", "zsh"})
 
 
 def explained(
@@ -42,7 +43,13 @@ def explained(
 
 
 def look_at_files(written: Template, context: Context, evaluate: Evaluate) -> None:
-    """Report files that are not there of a command whose program is not known."""
+    """Report files that are not there of a command whose program is not known.
+
+    The program of a shell may write those it names, and so may what runs before it.
+    """
+    words = written.raw.split(maxsplit=2)
+    if len(words) > 1 and Path(words[0]).name in _SHELLS and words[1] == "-c":
+        return
     for part in written.parts:
         value = evaluate(Template((part,), written.raw, part.span), context)
         if isinstance(value, Value) and _lacks(value.text):
