@@ -36,7 +36,7 @@ def explained(error: TypeError, frame: FrameType, place: Place) -> Explanation |
         case ast.Call(func=ast.Attribute(value=ast.Name() as name)) if "missing" in str(error):
             return None if tree is None else _uncalled(name, frame, place, tree)
     if tree is not None and "unsupported operand" in str(error):
-        return _added(tree, place)
+        return _added(tree, frame, place)
     return None
 
 
@@ -78,12 +78,12 @@ def _uncalled(name: ast.Name, frame: FrameType, place: Place, tree: Tree) -> Exp
     return Explanation(message, Code.WRONG_TYPE, span, Rewritten(f"{text_at(place.file, span)}()"))
 
 
-def _added(tree: Tree, place: Place) -> Explanation | None:
+def _added(tree: Tree, frame: FrameType, place: Place) -> Explanation | None:
     """Return how something is added to a launch description, where `+=` is written for it."""
     for node in tree.nodes:
         match node:
-            case ast.AugAssign(target=ast.Name(id=name), op=ast.Add(), value=value) if (
-                node.lineno == place.span.line
+            case ast.AugAssign(target=ast.Name(id=name) as target, op=ast.Add(), value=value) if (
+                node.lineno == place.span.line and hasattr(value_of(target, frame), "add_action")
             ):
                 code = f"{name}.add_action({ast.unparse(value)})"
                 meant = Rewritten(code) if len(code) <= _MOST else None
