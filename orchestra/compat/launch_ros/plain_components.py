@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.building import condition_fields
+from orchestra.compat.launch_ros.made_later import Made, MadeLater
 from orchestra.compat.launch_ros.plain_parameters import parameters, remaps
 from orchestra.compat.launch_ros.plain_texts import entity, left, read, word
-from orchestra.compat.place import Place, standing
-from orchestra.compat.refusing import Refusing
+from orchestra.compat.place import Place
 from orchestra.description.components import ComposableNode
 
 if TYPE_CHECKING:
@@ -17,14 +17,13 @@ if TYPE_CHECKING:
     from orchestra.compat.launch_ros.plain_texts import Reader
 
 
-class PlainComponent(Refusing):
+class PlainComponent(MadeLater):
     """What a component is before somebody asks for more than its model: then it is constructed from its arguments.
 
     That is for the very class that says `_may_be_plain`, which has all of its own in `_place` and `_plain` until then.
     """
 
     _may_be_plain = False
-    _place: Place
 
     def _taken(self, keywords: dict[str, Any], caller: FrameType) -> bool:
         kind = type(self)
@@ -34,26 +33,8 @@ class PlainComponent(Refusing):
         kept = read(keywords, place, _READ, fields)
         if kept is None or fields["pkg"] is None or fields["plugin"] is None:
             return False
-        self.__dict__ = {"_place": place, "_plain": (fields, kept)}
+        self.__dict__ = {"_place": place, "_plain": Made(fields, kept)}
         return True
-
-    if not TYPE_CHECKING:  # else any attribute would be one
-
-        def __getattr__(self, name: str) -> Any:
-            """Return what the constructor makes."""
-            if "_plain" not in vars(self):
-                return super().__getattr__(name)
-            self._construct()
-            return getattr(self, name)
-
-    def _construct(self) -> None:
-        """Do what the constructor does; what users have set since stays."""
-        own = vars(self)
-        _, given = own.pop("_plain")
-        self.__dict__ = {}
-        with standing(own["_place"]):
-            self.__init__(**given)  # type: ignore[misc] # with the keywords of the subclass
-        vars(self).update(own)
 
     def _plain_model(self) -> ComposableNode | None:
         """Return the model as long as nobody has asked for more, or set something; None where it takes another look."""
@@ -63,12 +44,12 @@ class PlainComponent(Refusing):
         if len(own) > _OF_PLAIN:
             self._construct()
             return None
-        fields, given = own["_plain"]
-        condition = given.get("condition")
+        made: Made = own["_plain"]
+        condition = made.given.get("condition")
         said = {} if condition is None else condition_fields(condition, self._place.at("condition"))
         if any(text.constant is not None for text in said.values()):  # the validator looks at its words
             return None
-        values = fields | {_CONDITIONS[word]: text for word, text in said.items()}
+        values = made.fields | {_CONDITIONS[word]: text for word, text in said.items()}
         model: ComposableNode = entity(ComposableNode, values, self._place.span, self)
         return model
 

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.compat.building import unchecked
 from orchestra.compat.launch.actions.execute_local import OVERRIDE
 from orchestra.compat.launch.actions.execute_process import ExecuteProcess
+from orchestra.compat.launch_ros.made_later import Made, MadeLater
 from orchestra.compat.launch_ros.plain_parameters import parameters, remaps
 from orchestra.compat.launch_ros.plain_texts import (
     UnusualError,
@@ -25,7 +26,7 @@ from orchestra.compat.launch_ros.plain_texts import (
     read,
     word,
 )
-from orchestra.compat.place import Arguments, Key, Place, ValueOf, standing
+from orchestra.compat.place import Arguments, Key, Place, ValueOf
 from orchestra.description.actions.node import Node as NodeModel
 from orchestra.description.outputs import OUTPUTS
 from orchestra.description.parts import Pair
@@ -37,17 +38,13 @@ if TYPE_CHECKING:
     from orchestra.description.entity import Action as Model
 
 
-class Plain:
-    """What a node is made of: the fields of its model, and its arguments, with lists and dictionaries of its own.
+class Plain(Made):
+    """What a node is made of; `resolved` and `prepared` give what a visit has come to."""
 
-    `resolved` and `prepared` give what a visit has come to.
-    """
-
-    __slots__ = ("fields", "given", "prepared", "resolved")
+    __slots__ = ("prepared", "resolved")
 
     def __init__(self, fields: dict[str, Any], given: dict[str, Any]) -> None:
-        self.fields = fields
-        self.given = given
+        super().__init__(fields, given)
         self.resolved: Callable[[], tuple[Any, ...]] | None = None
         self.prepared: Callable[[], tuple[Any, ...]] | None = None
 
@@ -63,7 +60,7 @@ class Plain:
         return NodeModel.at(place.span, **said, **common)
 
 
-class PlainNode(ExecuteProcess):
+class PlainNode(MadeLater, ExecuteProcess):
     """What a node is before somebody asks for more than its model: then it is constructed from its arguments.
 
     That is for the very class that says `_may_be_plain`: those of users may look at what the constructor keeps.
@@ -83,23 +80,9 @@ class PlainNode(ExecuteProcess):
         self.__dict__ = {"_place": place, "_plain": made, "_Action__condition": condition}
         return True
 
-    if not TYPE_CHECKING:  # else any attribute would be one
-
-        def __getattr__(self, name: str) -> Any:
-            """Return what the constructor makes."""
-            if "_plain" not in vars(self):
-                return super().__getattr__(name)
-            self._construct()
-            return getattr(self, name)
-
     def _construct(self) -> None:
-        """Do what the constructor does; what users have set since stays."""
-        own = vars(self)
-        made: Plain = own.pop("_plain")
-        self.__dict__ = {}
-        with standing(own["_place"]):
-            self.__init__(**made.given)  # type: ignore[misc] # with the keywords of the subclass
-        vars(self).update(own)
+        made: Plain = vars(self)["_plain"]
+        super()._construct()
         if made.resolved is not None:
             self._resolved_by(made.resolved)
         if made.prepared is not None:
