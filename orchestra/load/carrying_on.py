@@ -38,7 +38,7 @@ _WORD: Final = re.compile(r"[\w./~-]+")
 
 @dataclass(frozen=True, slots=True)
 class Reading:
-    """What was read of a text in the end: the text itself, and what was made of it; `weight` tells how wrong that is.
+    """What was read of a text in the end: the text itself, and what was made of it.
 
     `faults` kept it from being read; `doubted` are the ranges that may be meant otherwise.
     """
