@@ -88,7 +88,7 @@ class Reader:
     def template(self, written: Written) -> Template:
         """Read a text with substitutions."""
         text = written.text
-        if text[-1:] in _QUOTES and not written.quoted and _HALF_QUOTED.fullmatch(text):
+        if text[-1:] in _QUOTES and not written.quoted and _ends_half_quoted(written):
             told = f"the {text[-1]} at the end of '{text}' is part of the text: nothing opens it"
             self.warning(Code.SURPRISING_SCALAR, told, written.inside, suggestion=text[-1] + text)
         if "(" in text and (bare := _BARE.search(text)) is not None and self._is_lost(bare, written):
@@ -232,6 +232,15 @@ class Reader:
             return whole, instead
         key = self.text.split("\n")[at.line - 1][at.column - 1 : at.end_column - 1]
         return replace(at, end_line=whole.end_line, end_column=whole.end_column), f"{key}: {instead}"
+
+
+def _ends_half_quoted(written: Written) -> bool:
+    """Tell whether a quote at the end of a text looks like one too many; one that is written as an entity is meant."""
+    text = written.text
+    if not _HALF_QUOTED.fullmatch(text):
+        return False
+    quote = written.spans(len(text) - 1, len(text))
+    return quote.end_column - quote.column == 1
 
 
 def _among_texts(mapping: Keyed, error: ErrorDetails) -> str | None:

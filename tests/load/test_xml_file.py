@@ -247,6 +247,17 @@ _MESSAGE = "<launch><log message='ä'/></launch>"
 
 
 @pytest.mark.parametrize(
+    ("value", "told"),
+    [("maze'", True), ("maze&apos;", False), ("maze&quot;", False), ("&lt;'", True), ("'maze'", False)],
+)
+def test_a_quote_at_the_end_of_a_value_is_one_too_many_unless_it_is_an_entity(
+    tmp_path: Path, value: str, *, told: bool
+) -> None:
+    found = _loaded(f'<launch><log message="{value}"/></launch>', tmp_path, "a.launch.xml")
+    assert [code for code, *_ in found] == [Code.SURPRISING_SCALAR] * told
+
+
+@pytest.mark.parametrize(
     ("content", "faults"),
     [
         (_MESSAGE.encode("utf-8-sig"), []),
