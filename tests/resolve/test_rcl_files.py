@@ -297,6 +297,33 @@ def _agree(ask_rcl: Callable[..., Any], texts: list[str]) -> None:
         assert repr(_plain(tabulated(sections))) == repr(real)
 
 
+_TWICE = """\
+/**:
+  ros__parameters: {a: 1}
+/**:
+  n:
+    ros__parameters: {b: 2}
+ns:
+  n:
+    ros__parameters: {c: 3}
+ns:
+  m:
+    ros__parameters: {d: 4}
+  n:
+    ros__parameters: {e: 5}
+"""
+
+
+def test_a_node_may_stand_below_a_name_that_had_parameters_in_a_mapping_before(
+    ask_rcl: Callable[..., Any],
+) -> None:
+    """As in the files that rclcpp is tested with."""
+    sections, problems = _read(_TWICE)
+    assert not list(problems)
+    assert [section.pattern for section in sections] == ["/**", "/**/n", "ns/n", "ns/m", "ns/n"]
+    _agree(ask_rcl, [_TWICE])
+
+
 @pytest.mark.conforms("4.6.4 shape", "4.6.4 node keys", "4.6.4 string")
 @settings(
     suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow],

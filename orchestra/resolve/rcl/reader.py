@@ -114,7 +114,7 @@ class Reader:
         pattern, said = self.node.text, joined("/", self.keys[1:])
         fault, named = pattern_fault(pattern, template=self.template), self.key_places[-1] or at
         self.lost |= told or fault is not None
-        if tuple(self.keys[:-1]) in self.strays.sections:
+        if self.depth - 1 in self.strays.around:
             raise self.unreadable(f"'{self.keys[-1]}' {_BELOW}", event, named)
         if fault is not None:
             self.error(f"'{pattern}' cannot be the name of a node: {fault.reason}", named, instead(self.keys))

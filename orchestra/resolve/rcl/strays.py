@@ -71,13 +71,15 @@ def is_misspelt_section(name: str) -> bool:
 class Strays:
     """Reports strays, one for each key of the file's mapping; `held` are those of which not all is known yet.
 
-    `sections` are the keys of the mappings that have `ros__parameters`.
+    `sections` are the keys of the mappings that have `ros__parameters`, `around` the depths of those that are open:
+    rcl takes the same keys again, in a mapping of their own.
     """
 
     problems: Problems
     told: set[str] = field(default_factory=set)
     held: dict[str, _Stray] = field(default_factory=dict)
     sections: set[tuple[str, ...]] = field(default_factory=set)
+    around: set[int] = field(default_factory=set)
     empty: Key | None = None
 
     def has_told(self, keys: Sequence[str]) -> bool:
@@ -112,6 +114,7 @@ class Strays:
         above, self.empty = self.empty, None
         if is_section(key.name):
             self.sections.add(tuple(keys))
+            self.around.add(key.depth)
         if above is None:
             return False
         if above.depth == key.depth and is_section(above.name) != is_section(key.name):
@@ -150,6 +153,7 @@ class Strays:
 
     def end(self, depth: int) -> None:
         """Take the end of a mapping so deep, or of the file: an empty key is nothing but empty, a node is known."""
+        self.around.discard(depth)
         if self.empty is not None:
             self._tell(self.empty)
             self.empty = None
