@@ -80,3 +80,7 @@ class Beginnings:
             return False
         self._patience.grant(seconds)
         return True
+
+    def settle(self, status: int) -> None:
+        """Let the keeper know what the run has come to: it has been told, and nothing changes it any more."""
+        self._patience.settle(status)

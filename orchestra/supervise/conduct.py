@@ -194,4 +194,5 @@ def _conclude(system: System, around: Surroundings, beginnings: Beginnings) -> O
     around.journal.say(f"run ended with status {outcome.status}: {outcome.reason}")
     around.service.ended(f"ended with status {outcome.status}: {outcome.reason}")
     around.recorder.record("run_ended", status=outcome.status, reason=outcome.reason)
+    beginnings.settle(outcome.status)
     return outcome

@@ -15,7 +15,7 @@ import time
 
 from orchestra.supervise.beginnings import Beginnings, Kept
 from orchestra.supervise.keeping import kernel
-from orchestra.supervise.keeping.keeper import keep
+from orchestra.supervise.keeping.keeper import keep, no_room
 from orchestra.supervise.keeping.marks import RUN, number_of, run_mark
 from orchestra.supervise.keeping.patience import Patience
 from orchestra.supervise.keeping.signals import (
@@ -100,7 +100,10 @@ def _supervise(
     import gc  # noqa: PLC0415 - the keeper has no use for it
 
     gc.disable()
-    resolver = fork_resolver(prepare, kept.stacks)
+    try:
+        resolver = fork_resolver(prepare, kept.stacks)
+    except OSError as error:
+        return no_room(error)
     reset_signals(unblock=False)
     signals = receive_signals(received_signals())
     kept.stacks.show_on_request(chain=True)

@@ -5,11 +5,14 @@ from __future__ import annotations
 import os
 import signal
 import time
+from types import SimpleNamespace
 from typing import TYPE_CHECKING
 
 import pytest
 
-from orchestra.supervise.keeping.patience import USUAL, Patience
+from orchestra.supervise.keeping import keeper, proc
+from orchestra.supervise.keeping import patience as patiences
+from orchestra.supervise.keeping.patience import USUAL, Effort, Patience
 from orchestra.values import Stop
 from tests.supervise.plans import launched, plan, process, wait_for
 
@@ -33,6 +36,61 @@ def test_what_a_child_asks_for_its_parent_sees() -> None:
 def test_nothing_is_granted_before_somebody_asks() -> None:
     Patience().grant(100.0)
     assert Patience().remaining() < 0
+
+
+class Clock:
+    """The keeper's clock; what the supervisor has had of a processor goes with it at a rate."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, rate: float | None) -> None:
+        self.now = 100.0
+        self._rate = rate
+        for module in (keeper, patiences):
+            monkeypatch.setattr(module, "time", SimpleNamespace(monotonic=lambda: self.now))
+        monkeypatch.setattr(proc, "run_time", self._run_time)
+
+    def _run_time(self, _pid: int) -> float | None:
+        return None if self._rate is None else self.now * self._rate
+
+
+@pytest.mark.parametrize(
+    ("rate", "most"),
+    [
+        pytest.param(0.0, 0.0, id="asleep"),
+        pytest.param(1.0, 0.0, id="in a loop"),
+        pytest.param(0.1, 20.0, id="in a loop, with a tenth of a processor"),
+        pytest.param(0.001, 30.0, id="with next to none"),
+        pytest.param(None, 0.0, id="on a kernel that does not tell"),
+    ],
+)
+def test_who_has_no_processor_is_not_stuck(
+    monkeypatch: pytest.MonkeyPatch, rate: float | None, most: float
+) -> None:
+    clock = Clock(monkeypatch, rate)
+    effort = Effort(1)
+    starved = 0.0
+    for second in range(1, 40):
+        clock.now += 1.0
+        effort.look()
+        if second >= USUAL and effort.starved:
+            starved = second
+    assert starved == pytest.approx(most, abs=1.0)
+
+
+def test_time_in_which_the_keeper_stood_still_does_not_count(monkeypatch: pytest.MonkeyPatch) -> None:
+    clock = Clock(monkeypatch, 0.0)
+    waits: list[float] = []
+
+    def fetch(seconds: float | None) -> None:
+        assert seconds is not None
+        clock.now += seconds + (0.0 if waits else 600.0)
+        waits.append(seconds)
+
+    monkeypatch.setattr(keeper, "_fetch", fetch)
+    monkeypatch.setattr(os, "kill", lambda *_: None)
+    watch = keeper._Watch(1, None, Patience(), None, None)  # type: ignore[arg-type]
+    watch._stop(signal.SIGINT)
+    assert watch._next() is None
+    assert sum(waits) == pytest.approx(USUAL)
 
 
 @pytest.mark.long

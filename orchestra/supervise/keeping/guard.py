@@ -37,7 +37,6 @@ class Guard:
         self._bury = bury
         self._times = 0
         self._pid = 0
-        self._descriptor = -1
         self.renew()
 
     def renew(self) -> None:
@@ -45,12 +44,12 @@ class Guard:
         if (self._pid and not self._gone(os.WNOHANG)) or self._times == _MOST_TIMES:
             return
         self._times += 1
+        watched: list[int] = []
         with contextlib.suppress(OSError):
-            watched = [os.pidfd_open(pid) for pid in (os.getpid(), self._supervisor)]
+            watched += (os.pidfd_open(pid) for pid in (os.getpid(), self._supervisor))
             self._pid = _forked(watched, self._bury)
-            self._descriptor = os.pidfd_open(self._pid)
-            for descriptor in watched:
-                os.close(descriptor)
+        for descriptor in watched:
+            os.close(descriptor)
 
     @property
     def pids(self) -> tuple[int, ...]:
@@ -59,9 +58,8 @@ class Guard:
 
     def dismiss(self) -> None:
         """End it: there is nothing to guard any more."""
-        if self._pid:
-            with contextlib.suppress(ProcessLookupError):
-                signal.pidfd_send_signal(self._descriptor, signal.SIGKILL)
+        if self._pid and not self._gone(os.WNOHANG):
+            os.kill(self._pid, signal.SIGKILL)  # it stays ours until it is reaped
             self._gone(0)
 
     def _gone(self, options: int) -> bool:
@@ -71,7 +69,6 @@ class Guard:
                 return False
         except ChildProcessError:
             pass
-        os.close(self._descriptor)
         self._pid = 0
         return True
 

@@ -17,7 +17,7 @@ import signal
 import time
 
 from orchestra.supervise.keeping import kernel, proc, terminal_modes
-from orchestra.supervise.keeping.patience import USUAL
+from orchestra.supervise.keeping.patience import LOOK_AGAIN, USUAL, Effort, standstill
 from orchestra.supervise.keeping.signals import received_signals, stop_signals
 from orchestra.supervise.keeping.standard_streams import flush, say
 from orchestra.supervise.keeping.sweeping import reap, sweep
@@ -48,6 +48,7 @@ _BUG = 3
 def keep(supervise: Callable[[], int], patience: Patience, stacks: Stacks, bury: Callable[[], object]) -> int:
     """Run `supervise` in a child and return its status; 1 where it died of a signal, 4 where something is left.
 
+    One that dies when it has told what the run has come to changes that no more.
     `bury` is called by whoever is left where we are killed as well.
     """
     kernel.set_name("orc-keeper")
@@ -57,7 +58,10 @@ def keep(supervise: Callable[[], int], patience: Patience, stacks: Stacks, bury:
     signal.pthread_sigmask(signal.SIG_SETMASK, received_signals())
     modes = terminal_modes.kept()
     began = time.time()
-    supervisor = _fork(supervise)
+    try:
+        supervisor = _fork(supervise)
+    except OSError as error:
+        return no_room(error)
     from orchestra.supervise.keeping.guard import Guard  # noqa: PLC0415 - the supervisor is at work meanwhile
 
     guard = Guard(supervisor, bury)
@@ -78,7 +82,15 @@ def keep(supervise: Callable[[], int], patience: Patience, stacks: Stacks, bury:
     if status is not None and os.WIFEXITED(status):
         return UNSTOPPABLE if left else os.WEXITSTATUS(status)
     say(f"the supervisor {_fate(status)}; {_outcome(left)}")
-    return UNSTOPPABLE if left else FAILED
+    if left:
+        return UNSTOPPABLE
+    return FAILED if patience.settled is None else patience.settled
+
+
+def no_room(error: OSError) -> int:
+    """Tell that a run cannot begin for want of a process or of memory, and return its status."""
+    say(f"the run cannot begin, for no process can be started: {error.strerror}")
+    return FAILED
 
 
 def _fate(status: int | None) -> str:
@@ -140,6 +152,7 @@ class _Watch:
         self._stacks = stacks
         self._modes = modes
         self._asked_at: float | None = None
+        self._effort: Effort | None = None
         self._deadline: float | None = None
         self._interrupts = 0
         self._killed = False
@@ -147,7 +160,7 @@ class _Watch:
     def until_it_ends(self) -> int | None:
         """Forward signals until the supervisor has ended; return its wait status, None where nothing can end it."""
         while True:
-            received = _fetch(None if self._deadline is None else max(0.0, self._deadline - time.monotonic()))
+            received = self._next()
             self._guard.renew()
             status = reap(self._supervisor)
             if status is not None:
@@ -158,6 +171,21 @@ class _Watch:
                 self._lose_patience()
             else:
                 self._hear(received)
+
+    def _next(self) -> int | None:
+        """Return the next signal, None where the deadline has passed. Time in which we stood still does not count."""
+        while self._deadline is not None:
+            now = time.monotonic()
+            seconds = min(max(0.0, self._deadline - now), LOOK_AGAIN)
+            received = _fetch(seconds)
+            self._deadline += standstill(now, seconds)
+            if received is not None:
+                return received
+            if self._effort:
+                self._effort.look()
+            if time.monotonic() >= self._deadline:
+                return None
+        return _fetch(None)
 
     def _hear(self, number: int) -> None:
         if number in stop_signals():
@@ -181,12 +209,15 @@ class _Watch:
             self._deadline = now + USUAL
         if self._asked_at is None:
             self._asked_at = now
+            self._effort = Effort(self._supervisor)
 
     def _lose_patience(self) -> None:
-        """Wait on where the supervisor has asked for it, and kill it where it is stuck."""
-        granted = self._patience.remaining()
-        if granted > 0 and self._interrupts < _IMPATIENT:
-            self._deadline = time.monotonic() + granted
+        """Wait on where the supervisor has asked for it or had no processor, and kill it where it is stuck."""
+        more = self._patience.remaining()
+        if more <= 0 and self._effort and self._effort.starved:
+            more = LOOK_AGAIN
+        if more > 0 and self._interrupts < _IMPATIENT:
+            self._deadline = time.monotonic() + more
             return
         facts = proc.stat(self._supervisor)
         state = f" (state {facts.state})" if facts else ""

@@ -55,6 +55,15 @@ def birth(pid: int) -> int | None:
     return None if state in (b"Z", b"X") else int(facts[_BIRTH])
 
 
+def run_time(pid: int) -> float | None:
+    """Return for how long the first thread of a process has had a processor, in seconds; None where that is not told.
+
+    In nanoseconds in the file, where `stat` counts ticks (sched-stats, CONFIG_SCHED_INFO).
+    """
+    words = (_read(f"/proc/{pid}/schedstat") or b"").split()
+    return int(words[0]) / 1e9 if words else None
+
+
 def pids() -> list[int]:
     """Return every process on the machine."""
     return [
