@@ -27,7 +27,7 @@ from orchestra.fields import (
     values_of,
 )
 
-__all__ = ["changer", "dataclass", "maker", "opened", "unguard"]
+__all__ = ["changer", "dataclass", "maker"]
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -141,9 +141,7 @@ class _Late:
             instance.__post_init__()
 
     def _compiled(self, instance: object, owner: type | None) -> Any:
-        if self._frozen and _unguarded:
-            _left_open(self._cls)
-        method = _init(self._cls, frozen=self._frozen and not _unguarded)
+        method = _init(self._cls, frozen=self._frozen and not _is_open(self._cls))
         setattr(self._cls, "__init__", method)  # noqa: B010 - mypy takes the other way for a mistake
         return method.__get__(instance, owner)
 
@@ -209,9 +207,10 @@ def _assignment(item: Field, known: dict[str, Any], *, frozen: bool) -> str:
 def maker(cls: Callable[P, T]) -> Callable[P, T]:
     """Return what makes objects of a frozen class with slots as calling it does, in a third of the time.
 
-    Fields that nobody may change are slow to set. They are set here in an open object of the same layout, which then
-    becomes one of the class. For classes of which a launch makes thousands; without `__post_init__`.
+    For classes of which a launch makes thousands; without `__post_init__`. To refuse that fields are set takes time
+    where they are set first: of such a class it is left to type checkers. So the module of the class makes its maker.
     """
+    _leave_open(cls)
     made: Callable[P, T] = _Maker(cls).made
     return made
 
@@ -239,9 +238,8 @@ class _Maker:
         known = self._known
         items: Any = fields(self._cls)
         known.update(_unwritten=UNWRITTEN, _new=object.__new__, _cls=self._cls)
-        known["_open"] = _left_open(self._cls) if _unguarded else opened(self._cls)
-        lines = ["self = _new(_open)", *(_assignment(item, known, frozen=False) for item in items)]
-        lines += [*([] if _unguarded else ["self.__class__ = _cls"]), "return self"]
+        lines = ["self = _new(_cls)", *(_assignment(item, known, frozen=False) for item in items)]
+        lines.append("return self")
         words = [_parameter(item, known) for item in items if item.init]
         text = "\n ".join([f"def make({', '.join(words)}):", *lines])
         exec(compile(text, _MADE, "exec"), known)  # noqa: S102 - names of fields, which are identifiers
@@ -256,43 +254,31 @@ def _called(*args: Any, **named: Any) -> Any:
 
 # Both make up one slot of a type, which is quick only where neither is one of Python code.
 _OPEN = {"__setattr__": object.__setattr__, "__delattr__": object.__delattr__}
-_unguarded = False
 
 
-def opened(cls: Any) -> type:
-    """Return a class of the same layout whose objects can become ones of this class, and whose fields are open."""
-    return type(f"_Open{cls.__name__}", cls.__bases__, {"__slots__": cls.__slots__, **_OPEN})
+def _is_open(cls: Any) -> bool:
+    """Tell whether a class refuses nothing."""
+    set_field: object = cls.__setattr__
+    return set_field is object.__setattr__
 
 
-def unguard() -> None:
-    """Let makers leave their classes open from now on: fields are set in the object itself, and refused to nobody.
-
-    For a process that does one thing many times and has no use for its objects afterwards. Where it is watched, the
-    interpreter tells of each object that becomes one of another class, which takes as long as to make it.
-    """
-    global _unguarded  # noqa: PLW0603 - a process is one, and does not go back
-    _unguarded = True
-
-
-def _left_open(cls: Any) -> type:
-    """Return the class itself, which refuses nothing any more."""
+def _leave_open(cls: Any) -> None:
+    """Have a class refuse nothing any more."""
     for name, method in _OPEN.items():
         setattr(cls, name, method)
-    opened_class: type = cls
-    return opened_class
 
 
 def changer(cls: Callable[..., T], name: str) -> Callable[[T, Any], T]:
     """Return what makes an object like another one but for one field, as `replace` does, in a tenth of the time.
 
-    It is compiled, so that it pays where many objects are made anew; for classes as `maker` is.
+    It is compiled, so that it pays where many objects are made anew; for classes that have a maker.
     """
-    known: dict[str, Any] = {"_new": object.__new__, "_cls": cls, "_open": opened(cls)}
+    known: dict[str, Any] = {"_new": object.__new__, "_cls": cls}
     frozen: Any = cls
     items: Any = fields(frozen)
-    lines = ["made = _new(_open)", f"made.{name} = value"]
+    lines = ["made = _new(_cls)", f"made.{name} = value"]
     lines += [f"made.{item.name} = record.{item.name}" for item in items if item.name != name]
-    lines += ["made.__class__ = _cls", "return made"]
+    lines.append("return made")
     text = "\n ".join(["def change(record, value):", *lines])
     exec(compile(text, _MADE, "exec"), known)  # noqa: S102 - names of fields, which are identifiers
     made: Callable[[T, Any], T] = known["change"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Any, Final, Protocol
 
-from orchestra.dataclass import dataclass, maker, opened
+from orchestra.dataclass import dataclass, maker
 
 if TYPE_CHECKING:
     import re
@@ -228,23 +228,18 @@ class LocationOfGroup(Location):
         return Location, (self.span, self.included_from)
 
 
-_OpenLocation: Any = opened(LocationOfGroup)
-
-
 def location_of(matched: Matched, group: int, included_from: tuple[Span, ...]) -> Location:
     """Return the location of a group."""
-    location = _new(_OpenLocation)
+    location: Any = _new(LocationOfGroup)
     location.included_from = included_from
     location.matched = matched
     location.group = group
-    location.__class__ = LocationOfGroup
     made: Location = location
     return made
 
 
+# With this, locations of groups refuse no field either.
 new_location = maker(Location)
-
-
 new_span = maker(Span)
 
 

@@ -140,12 +140,6 @@ def _told(call: Callable[[], object]) -> str:
         return str(error)
 
 
-@pytest.fixture(autouse=True)
-def _guarded(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Whatever tests in this process have begun to watch it: then nothing is refused any more."""
-    monkeypatch.setattr("orchestra.dataclass._unguarded", False)
-
-
 @pytest.mark.parametrize(("cls", "words", "named"), _CALLS)
 def test_they_are_made_shown_and_refused_in_the_same_words(
     cls: type[Any], words: tuple[Any, ...], named: dict[str, Any]
@@ -265,55 +259,68 @@ def test_everything_of_ours_is_made_so() -> None:
     assert set(wrong) <= _OF_THEIR_OWN
 
 
+@dataclass(frozen=True, slots=True)
+class Made:
+    """Has a maker."""
+
+    name: str
+    many: tuple[int, ...] = ()
+    made: list[int] = dataclasses.field(default_factory=list, compare=False)
+    hidden: int = dataclasses.field(default=7, repr=False, init=False)
+
+
+@dataclass(frozen=True, slots=True)
+class MadeToo(Made):
+    """One more field."""
+
+    more: str = "more"
+
+
+_make, _make_too = maker(Made), maker(MadeToo)
+
+
 def test_what_a_changer_changes_is_one_field_of_another_object() -> None:
-    before = Inherited("a", (1,))
-    for item in filter(lambda item: item.init, dataclasses.fields(Inherited)):
-        value = getattr(Inherited("b", (2,)), item.name)
-        made = changer(Inherited, item.name)(before, value)
-        assert type(made) is Inherited
+    before = MadeToo("a", (1,))
+    for item in filter(lambda item: item.init, dataclasses.fields(MadeToo)):
+        value = getattr(MadeToo("b", (2,), more="B"), item.name)
+        made = changer(MadeToo, item.name)(before, value)
+        assert type(made) is MadeToo
         assert made == dataclasses.replace(before, **{item.name: value})
-    assert before == Inherited("a", (1,))
+    assert before == MadeToo("a", (1,))
 
 
 def test_what_a_maker_makes_is_what_the_class_makes() -> None:
-    frozen, inherited = maker(Frozen), maker(Inherited)
     for _ in range(5):  # the first few are made by the class
-        assert frozen("a", (1,)) == Frozen("a", (1,))
-        assert inherited("a", more="B") == Inherited("a", more="B")
-    assert frozen("a", (1,)) == Frozen("a", (1,))
-    assert (
-        inherited("a", more="B") == dataclasses.replace(inherited("a"), more="B") == Inherited("a", more="B")
-    )
-    assert (type(inherited("a")), inherited("a").hidden) == (Inherited, 7)
-    assert hash(frozen("a")) == hash(Frozen("a"))
-    assert pickle.loads(pickle.dumps(frozen("a"))) == copy.copy(frozen("a")) == Frozen("a")  # noqa: S301 - just made
-    with pytest.raises(dataclasses.FrozenInstanceError):
-        frozen("a").name = "b"  # type: ignore[misc] # refused at run time too
-    frozen("a").made.append(1)
-    assert not frozen("a").made
+        assert _make("a", (1,)) == Made("a", (1,))
+        assert _make_too("a", more="B") == MadeToo("a", more="B")
+    assert _make_too("a", more="B") == dataclasses.replace(_make_too("a"), more="B") == MadeToo("a", more="B")
+    assert (type(_make_too("a")), _make_too("a").hidden) == (MadeToo, 7)
+    assert (hash(_make("a")), repr(_make("a"))) == (hash(Made("a")), repr(Made("a")))
+    assert pickle.loads(pickle.dumps(_make("a"))) == copy.copy(_make("a")) == Made("a")  # noqa: S301 - just made
+    assert _make("a") != _make_too("a")
+    _make("a").made.append(1)
+    assert not _make("a").made
     with pytest.raises(TypeError):
-        frozen()  # type: ignore[call-arg] # refused at run time too
+        _make()  # type: ignore[call-arg] # refused at run time too
 
 
-def test_where_nothing_is_refused_objects_are_made_as_what_they_are(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Whoever watches this process is told of each object that becomes one of another class."""
-    monkeypatch.setattr("orchestra.dataclass._unguarded", True)
+def test_what_makes_objects_quickly_is_made_where_their_class_is() -> None:
+    """It decides for everybody whether fields are refused at run time, whatever else is imported."""
+    elsewhere = []
+    for path in sorted((_ROOT / "orchestra").glob("**/*.py")):
+        nodes = list(ast.walk(ast.parse(path.read_text("utf-8"))))
+        imported = [node for node in nodes if isinstance(node, ast.ImportFrom)]
+        if not any(node.module == "orchestra.dataclass" and "maker" in _names(node) for node in imported):
+            continue
+        classes = {node.name for node in nodes if isinstance(node, ast.ClassDef)}
+        made = {
+            ast.unparse(node.args[0])
+            for node in nodes
+            if isinstance(node, ast.Call) and ast.unparse(node.func) == "maker"
+        }
+        elsewhere += [f"{path.stem}: {name}" for name in made - classes]
+    assert elsewhere == []
 
-    @dataclass(frozen=True, slots=True)
-    class Outer:
-        name: str
-        many: tuple[int, ...] = ()
 
-    @dataclass(frozen=True, slots=True)
-    class Inner(Outer):
-        more: str = "more"
-
-    make: Any = maker(Inner)
-    for _ in range(5):  # the first few are made by the class
-        made = make("a", more="b")
-        assert (type(made), made) == (Inner, Inner("a", (), "b"))
-    assert "__class__" not in make.__code__.co_names
-    assert (hash(made), repr(made)) == (hash(Inner("a", (), "b")), repr(Inner("a", (), "b")))
-    assert dataclasses.replace(made, name="c") == Inner("c", (), "b")
-    assert copy.copy(made) == made
-    assert Outer("a") != made
+def _names(node: ast.ImportFrom) -> list[str]:
+    return [alias.name for alias in node.names]

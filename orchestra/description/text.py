@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any, Self, TypeAlias
 
-from orchestra.dataclass import dataclass, maker, opened
+from orchestra.dataclass import dataclass, maker
 from orchestra.location import Location, Matched, Span, inside, location_of, new_location
 from orchestra.values import ParameterValue
 
@@ -228,6 +228,8 @@ class MatchedTemplate(Template):
         return (new_words(self.raw, self.span),) if self.raw else ()
 
     def __eq__(self, other: object) -> bool:
+        if not isinstance(other, Template):
+            return NotImplemented
         return self.ordinary == getattr(other, "ordinary", other)
 
     def __hash__(self) -> int:
@@ -245,33 +247,30 @@ class MatchedTemplate(Template):
         return new_template(self.parts, self.raw, self.span, self.quoted, self.faulty)
 
 
-_Open: Any = opened(MatchedTemplate)
 _new = object.__new__
 
 
 def matched_words(text: str, quoted: bool, matched: Matched, group: int) -> Template:
     """Return a text of literal words."""
-    made = _new(_Open)
+    made: Any = _new(MatchedTemplate)
     made.raw = made.constant = text
     made.quoted = quoted
     made.matched = matched
     made.group = group
     made.pieces = None
-    made.__class__ = MatchedTemplate
     template: Template = made
     return template
 
 
 def matched_template(text: str, quoted: bool, matched: Matched, group: int, pieces: Pieces) -> Template:
     """Return a text of words and calls."""
-    made = _new(_Open)
+    made: Any = _new(MatchedTemplate)
     made.raw = text
     made.quoted = quoted
     made.matched = matched
     made.group = group
     made.pieces = pieces
     made.constant = text if pieces.variables == () else None
-    made.__class__ = MatchedTemplate
     template: Template = made
     return template
 

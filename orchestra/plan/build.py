@@ -5,7 +5,6 @@ from __future__ import annotations
 from functools import partial
 from typing import TYPE_CHECKING
 
-from orchestra.dataclass import maker
 from orchestra.fields import replace
 from orchestra.plan.awaited import life, readiness
 from orchestra.plan.checks.table import check_all
@@ -23,6 +22,8 @@ from orchestra.plan.model import (
     Provenance,
     Skipped,
     late_provenance,
+    new_file,
+    new_process,
 )
 from orchestra.plan.parameter_file import path_of
 from orchestra.plan.parameters import check_given, parameters_of
@@ -90,10 +91,6 @@ def build(
     )
     check_all(resolved, plan, problems)
     return replace(plan, problems=problems.ordered) if whole else plan
-
-
-new_process = maker(Process)
-new_file = maker(ParameterFile)
 
 
 def _arguments(resolved: Resolved) -> tuple[Argument, ...]:

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.dataclass import maker
 from orchestra.location import is_python
-from orchestra.plan.model import Candidate, Via
+from orchestra.plan.model import Candidate, Via, new_candidate, new_via
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
@@ -21,10 +20,6 @@ _OVERRULED = "overruled by the command line"
 # Of a chain that branches, so many variables are told, and so many characters of the value of each.
 _MOST = 16
 _LONGEST = 200
-
-
-new_candidate = maker(Candidate)
-_new_via = maker(Via)
 
 
 class Origins:
@@ -80,7 +75,7 @@ def passage(through: Sequence[Read]) -> tuple[Via, ...]:
 
 def _via(read: Read, depth: int) -> Via:
     value = read.value if len(read.value) <= _LONGEST else f"{read.value[:_LONGEST]}..."
-    return _new_via(read.kind, read.name, value, read.setter, read.location, depth)
+    return new_via(read.kind, read.name, value, read.setter, read.location, depth)
 
 
 def behind(location: Location, known: Origins) -> tuple[Via, ...]:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Literal, TypeAlias
 
-from orchestra.dataclass import dataclass
+from orchestra.dataclass import dataclass, maker
 from orchestra.errors import Problem
 from orchestra.fields import field, fields
 from orchestra.location import Location
@@ -248,3 +248,10 @@ class Plan:
     triggers: tuple[Trigger, ...]
     skipped: tuple[Skipped, ...]
     problems: tuple[Problem, ...]
+
+
+# What a plan has many of.
+new_process = maker(Process)
+new_file = maker(ParameterFile)
+new_candidate = maker(Candidate)
+new_via = maker(Via)

@@ -12,7 +12,7 @@ from orchestra.nearest import nearest
 from orchestra.plan import candidates
 from orchestra.plan.absent import is_mistake
 from orchestra.plan.ids import node_name
-from orchestra.plan.model import Candidate, ParameterFile
+from orchestra.plan.model import Candidate, ParameterFile, new_candidate
 from orchestra.plan.parameter_file import rendered
 from orchestra.plan.passed_on import EVERY_NODE, Sections
 from orchestra.resolve.model import InlineParameter
@@ -142,7 +142,7 @@ def _candidate(
     known: candidates.Origins,
 ) -> tuple[Candidate, ...]:
     through = candidates.behind(at, known) if source is None else candidates.passage(source.through)
-    return (candidates.new_candidate(value, at, True, rule, through),)
+    return (new_candidate(value, at, True, rule, through),)
 
 
 def _each_once(

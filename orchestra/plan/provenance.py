@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from orchestra.dataclass import maker
 from orchestra.plan import candidates
 from orchestra.plan.model import Provenance
 
@@ -19,12 +18,9 @@ def environment_of(process: ResolvedProcess) -> dict[str, str | None]:
     return {name: changes[-1].value for name, changes in process.environment.items()}
 
 
-_new_provenance = maker(Provenance)
-
-
 def provenance(process: ResolvedProcess, parameters: Parameters) -> Provenance:
     """Return the places of all that can be overruled."""
-    return _new_provenance(
+    return Provenance(
         name=process.name.location if process.name is not None else None,
         namespace=process.namespace.location if process.namespace is not None else None,
         parameters=parameters.written(),

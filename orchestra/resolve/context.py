@@ -104,6 +104,9 @@ class Variable:
     noted: list[Read] = field(default_factory=list, compare=False, repr=False)
 
 
+new_variable = maker(Variable)
+
+
 def read_of(name: str, value: Value, variable: Variable) -> Read:
     """Return what is noted of a variable that is read."""
     written = value.location if value.verbatim else None

@@ -72,6 +72,7 @@ class FileParameters:
 
 # What a resolution makes thousands of; `new_remap` and `new_process` are another two.
 new_parameter = maker(InlineParameter)
+new_file = maker(FileParameters)
 
 ParameterSource: TypeAlias = InlineParameter | FileParameters
 

@@ -7,7 +7,6 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
-from orchestra.dataclass import maker
 from orchestra.description.source import shortened
 from orchestra.description.substitutions import SIGNATURES
 from orchestra.errors import Code, Problems, Severity
@@ -16,7 +15,7 @@ from orchestra.load.encodings import UndecodableError, decoded
 from orchestra.location import Location, displayed, point
 from orchestra.patterns import pattern
 from orchestra.resolve.context import Value
-from orchestra.resolve.model import FileParameters
+from orchestra.resolve.model import FileParameters, new_file
 from orchestra.resolve.near_paths import near_path
 from orchestra.resolve.paths import beside, existing_file, folder_of
 from orchestra.resolve.rcl.files import read_kept, read_plain_file
@@ -77,7 +76,7 @@ def file_parameters(
 
 def _given(file: FileParameters, value: Value, *, everywhere: bool) -> FileParameters:
     """Return a file as it is given by a value that is its path."""
-    return _new_file(
+    return new_file(
         file.path,
         file.sections,
         value.location,
@@ -87,9 +86,6 @@ def _given(file: FileParameters, value: Value, *, everywhere: bool) -> FileParam
         file.within,
         file.sound,
     )
-
-
-_new_file: Final = maker(FileParameters)
 
 
 def _warn_of_lacking(told: str, value: Value, written: Template, run: Resolution) -> None:

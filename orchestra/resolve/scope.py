@@ -12,11 +12,11 @@ from __future__ import annotations
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
-from orchestra.dataclass import dataclass, maker
+from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.fields import field
 from orchestra.resolve.bounded import with_change, with_parameter
-from orchestra.resolve.context import POISON, Evaluated, Read, Setter, Value, Variable, read_of
+from orchestra.resolve.context import POISON, Evaluated, Read, Setter, Value, Variable, new_variable, read_of
 from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.model import EnvironmentChange, InlineParameter, ParameterSource, ResolvedRemap
 from orchestra.resolve.scalars import flow
@@ -31,8 +31,6 @@ if TYPE_CHECKING:
 NAMESPACE = "ros_namespace"
 
 _ABSENT: Final = object()
-
-_new_variable = maker(Variable)
 
 _Names: TypeAlias = set[str]
 
@@ -130,7 +128,7 @@ class Scope:
 
     def set(self, name: str, value: Evaluated, location: Location, setter: Setter = "let") -> None:
         """Set a variable."""
-        self._put(self.variables, name, _new_variable(value, location, setter=setter))
+        self._put(self.variables, name, new_variable(value, location, setter=setter))
 
     def settle(self, name: str, location: Location) -> None:
         """Note where a variable is declared or set with no condition around that."""
@@ -282,7 +280,7 @@ class Tracing:
 
 
 def _changed(variable: Variable, leaked_from: Span | None, settled: Location | None) -> Variable:
-    return _new_variable(
+    return new_variable(
         variable.value, variable.location, leaked_from, variable.setter, settled, variable.noted
     )
 

@@ -9,7 +9,6 @@ from functools import wraps
 from types import CodeType
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
-from orchestra.dataclass import unguard
 from orchestra.witness import looking, origins, unknowable
 from orchestra.witness.contents import Contents
 from orchestra.witness.origins import INSTALLED, is_python, source_of
@@ -64,7 +63,6 @@ class Observer:
         """Begin to watch this process, which cannot be undone."""
         if not self.installed:
             self.installed = True
-            unguard()
             sys.addaudithook(unknowable.sifted(self._heard, self._harmless))
             looking.wrap(self._wrapped)
             environ: Any = os.environ
