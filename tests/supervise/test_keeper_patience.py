@@ -14,7 +14,7 @@ from orchestra.supervise.keeping import keeper, proc
 from orchestra.supervise.keeping import patience as patiences
 from orchestra.supervise.keeping.patience import USUAL, Effort, Patience
 from orchestra.values import Stop
-from tests.supervise.plans import launched, plan, process, wait_for
+from tests.supervise.plans import launched, plan, process
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -47,6 +47,11 @@ class Clock:
         for module in (keeper, patiences):
             monkeypatch.setattr(module, "time", SimpleNamespace(monotonic=lambda: self.now))
         monkeypatch.setattr(proc, "run_time", self._run_time)
+
+    def wait(self, seconds: float | None) -> None:
+        """Let time pass without a signal."""
+        assert seconds is not None
+        self.now += seconds
 
     def _run_time(self, _pid: int) -> float | None:
         return None if self._rate is None else self.now * self._rate
@@ -81,9 +86,9 @@ def test_time_in_which_the_keeper_stood_still_does_not_count(monkeypatch: pytest
     waits: list[float] = []
 
     def fetch(seconds: float | None) -> None:
-        assert seconds is not None
-        clock.now += seconds + (0.0 if waits else 600.0)
-        waits.append(seconds)
+        clock.wait(seconds)
+        clock.now += 0.0 if waits else 600.0
+        waits.append(seconds or 0.0)
 
     monkeypatch.setattr(keeper, "_fetch", fetch)
     monkeypatch.setattr(os, "kill", lambda *_: None)
@@ -105,30 +110,25 @@ def test_a_run_may_take_longer_where_its_description_says_so(tmp_path: Path) -> 
         assert "does not answer" not in run.stderr
 
 
-@pytest.mark.long
-def test_the_third_ctrl_c_takes_the_time_back(tmp_path: Path) -> None:
+@pytest.mark.parametrize(("presses", "waited"), [(1, 603.0), (2, 603.0), (3, USUAL)])
+def test_the_third_ctrl_c_takes_the_time_back(
+    monkeypatch: pytest.MonkeyPatch, presses: int, waited: float
+) -> None:
     """A supervisor that has asked for ten minutes and is stuck is not waited for so long."""
-    patient = Stop(timeout=600.0, kill_timeout=0.3)
-    with launched(tmp_path, plan(process("a", *STUBBORN, stop=patient))) as run:
-        run.await_line("a", "up")
-        run.send(signal.SIGINT)
-        run.await_event("signal_sent", "a")
-        supervisor = run.own("orc-supervisor")
-        begin = time.monotonic()
-        for _ in range(2):
-            run.send(signal.SIGINT)
-            wait_for(lambda: not pending(run.popen.pid, signal.SIGINT), "the keeper to hear it")
-            os.kill(supervisor, signal.SIGSTOP)
-        assert run.wait() in (1, 130)
-        assert time.monotonic() - begin < 2 * USUAL
-        run.assert_gone()
-
-
-def pending(pid: int, number: int) -> bool:
-    """Tell whether a signal has not been fetched yet (proc(5), ShdPnd)."""
-    with open(f"/proc/{pid}/status") as status:  # noqa: PTH123
-        mask = next(line.split()[1] for line in status if line.startswith("ShdPnd:"))
-    return bool(int(mask, 16) >> (number - 1) & 1)
+    clock = Clock(monkeypatch, 0.0)
+    sent: list[int] = []
+    monkeypatch.setattr(os, "kill", lambda _pid, number: sent.append(number))
+    monkeypatch.setattr(keeper, "_fetch", clock.wait)
+    patience = Patience()
+    patience.grant(600.0)
+    stacks = SimpleNamespace(read=lambda _patience: "")
+    watch = keeper._Watch(os.getpid(), None, patience, stacks, None)  # type: ignore[arg-type]
+    for _ in range(presses):
+        watch._stop(signal.SIGINT)
+    while signal.SIGKILL not in sent:
+        assert watch._next() is None
+        watch._lose_patience()
+    assert clock.now - 100.0 == pytest.approx(waited, abs=1.0)
 
 
 @pytest.mark.parametrize(
