@@ -39,6 +39,18 @@ def has_idle_actions(module: ModuleType, source: bytes) -> bool:
     return any(_keeps_action(code, idle.get(id(code)), lines) for code in every)
 
 
+def may_have_idle_actions(code: CodeType, source: bytes) -> bool:
+    """Return whether that may be so of whatever the code of a file comes to."""
+    lines: list[bytes] = []
+    for inner in _with_inner(code):
+        idle = _idle_names(inner)
+        if idle:
+            lines = lines or source.splitlines()
+            if _keeps_action(inner, idle, lines):
+                return True
+    return False
+
+
 def _codes(values: Iterable[object]) -> Iterator[CodeType]:
     return (value.__code__ for value in values if type(value) is FunctionType)
 

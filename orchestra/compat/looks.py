@@ -7,7 +7,10 @@ from functools import cache
 from types import CodeType, FunctionType
 from typing import TYPE_CHECKING, Final
 
+from orchestra.compat.idle_names import may_have_idle_actions
+
 if TYPE_CHECKING:
+    from collections.abc import Callable
     from types import ModuleType
 
 _PIECE: Final = 16  # names of a dictionary that are one constant, at most
@@ -25,13 +28,42 @@ _OPTIONS: Final = (b"'-", b'"-')
 _TOPICS: Final = (b"'/", b'"/')
 
 
+class Compiled:
+    """The code of a file, its text, and what short looks at both have told: it is kept with the code.
+
+    A look that a file's functions are needed for is longer; what is told of the code as a whole may be more than that.
+    """
+
+    __slots__ = ("code", "source", "told")
+
+    def __init__(self, code: CodeType, source: bytes, told: dict[str, bool]) -> None:
+        self.code = code
+        self.source = source
+        self.told = told
+
+    def may(self, look: str) -> bool:
+        """Return what one of the `LOOKS` tells."""
+        known = self.told.get(look)
+        if known is None:
+            known = self.told[look] = LOOKS[look](self.code, self.source)
+        return known
+
+
+def has_foreign(source: bytes) -> bool:
+    """Return whether a substitution of another language may stand in the text of a file."""
+    return b"$(" in source or b"'LaunchConfiguration(" in source or b'"LaunchConfiguration(' in source
+
+
 def has_doubled_keys(module: ModuleType, source: bytes) -> bool:
     """Return whether a name may stand twice in a dictionary of a file, of which this is the text.
 
     The names of a short dictionary are one constant; those of a long one are added to it one after the other.
     """
     codes = (item.__code__ for item in vars(module).values() if type(item) is FunctionType)
-    own = [code for code in codes if code.co_filename == module.__file__]
+    return _may_double([code for code in codes if code.co_filename == module.__file__], source)
+
+
+def _may_double(own: list[CodeType], source: bytes) -> bool:
     if any(map(_repeats, own)):
         return True
     may_stand = any(map(_lists_names, own)) or _OUTSIDE.search(b"\n" + source) is not None
@@ -111,3 +143,21 @@ def _is_behind_text(source: bytes, sign: bytes) -> bool:
             return True
         place = source.find(sign, place + 2)
     return False
+
+
+def _changes_nothing(code: CodeType, _source: bytes) -> bool:
+    # Here, because it is kept with the code.
+    from orchestra.witness.harmless import changes_nothing  # noqa: PLC0415
+
+    return changes_nothing(code)
+
+
+# Each look by its name: whether a file may change something, or have mistakes of a kind.
+LOOKS: Final[dict[str, Callable[[CodeType, bytes], bool]]] = {
+    "harmless": _changes_nothing,
+    "idle": may_have_idle_actions,
+    "foreign": lambda _, source: has_foreign(source),
+    "doubled": lambda code, source: _may_double([code], source),
+    "roots": lambda _, source: has_late_roots(source),
+    "joined": lambda _, source: has_joined_words(source),
+}

@@ -10,10 +10,10 @@ from typing import TYPE_CHECKING, Any, TypeVar
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Iterator, Mapping, MutableMapping, Sequence
-    from types import CodeType
     from typing import Protocol
 
     from orchestra.compat.exposures import Exposures
+    from orchestra.compat.looks import Compiled
     from orchestra.description.entity import Action, Entity
     from orchestra.description.source import Keyed, Written
     from orchestra.description.text import Template
@@ -125,10 +125,10 @@ class Connection(Protocol):
     def debug(self) -> bool:
         """Whether what code of launch files raises is told with all calls on the way."""
 
-    def prepare(self, code: CodeType | None = None) -> None:
+    def prepare(self, code: Compiled | None = None) -> None:
         """Get ready for code of a launch file, for this one where it is known."""
 
-    def code(self, path: str, source: bytes) -> CodeType:
+    def code(self, path: str, source: bytes) -> Compiled:
         """Return the code of a launch file in Python with this content. Raises what `compile` does."""
 
     def close(self) -> None:

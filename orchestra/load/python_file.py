@@ -16,7 +16,7 @@ from orchestra.compat.explanation import told
 from orchestra.compat.idle_names import has_idle_actions
 from orchestra.compat.launch.launch_description import LaunchDescription
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
-from orchestra.compat.looks import has_doubled_keys, has_joined_words, has_late_roots
+from orchestra.compat.looks import Compiled, has_doubled_keys
 from orchestra.compat.place import show
 from orchestra.compat.refusing import collecting, is_lost
 from orchestra.compat.reported import CARRYING
@@ -30,6 +30,7 @@ from orchestra.fields import replace
 from orchestra.load.tested import description_in
 from orchestra.location import Location, displayed, point
 from orchestra.nearest import nearest
+from orchestra.witness.looking import read as content
 from orchestra.witness.observing import observer
 from orchestra.witness.once import real
 
@@ -60,11 +61,11 @@ def read(path: str, problems: Problems, included_from: tuple[Span, ...]) -> Desc
     ran = _ran(path, source, at, problems, included_from)
     if ran is None:
         return None
-    module, made, at = ran
+    module, made, at, compiled = ran
     if is_lost(made):
         return None
     if isinstance(made, LaunchDescription):
-        _look_for_slips(module, source, path, problems, included_from)
+        _look_for_slips(module, compiled, path, problems, included_from)
         return _described(path, file, made)
     if getattr(vars(module).get(CARRYING), "has_guessed", False):
         return None
@@ -120,20 +121,23 @@ def _unreturned(module: ModuleType) -> Any:  # noqa: ANN401 - whatever the user'
 
 def _ran(
     path: str, source: bytes, at: Span, problems: Problems, included_from: tuple[Span, ...]
-) -> tuple[ModuleType, Any, Span] | None:
-    """Return the module of a file, what it describes, and where; None where it is not known how to go on."""
+) -> tuple[ModuleType, Any, Span, Compiled] | None:
+    """Return the module of a file, what it describes, and where, and its code.
+
+    None where it is not known how to go on.
+    """
     carrying: CarryingOn | None = None
-    code: CodeType | None = None
+    code: Compiled | None = None
     known: dict[str, Any] = {}
     while True:
         try:
             with collecting(problems, included_from):
                 code = connection().code(path, source) if code is None else code
                 _get_ready(path, at, code)
-                module = load_module(path, code, known)
+                module = load_module(path, code.code, known)
                 at = _definition(module, at)
                 with _in_place(module):
-                    return module, _made(module), at
+                    return module, _made(module), at, code
         except KeyboardInterrupt:
             raise
         except BaseException as error:  # noqa: BLE001 - the boundary of user code
@@ -145,7 +149,8 @@ def _ran(
             carrying = carrying or CarryingOn(path, included_from, at)
             found = carrying.problems(error)
             problems.extend(found if included_from else map(_grave, found))
-            code, known = carrying.code(error), {CARRYING: carrying}
+            mended, known = carrying.code(error), {CARRYING: carrying}
+            code = None if mended is None else Compiled(mended, source, {})
             if code is None:
                 from orchestra.compat.calls_behind import tell_keywords  # noqa: PLC0415 - as above
 
@@ -153,33 +158,34 @@ def _ran(
                 return None
 
 
-def _get_ready(path: str, at: Span, code: CodeType | None = None) -> None:
+def _get_ready(path: str, at: Span, code: Compiled | None = None) -> None:
     connection().prepare(code)
     show(path, at.file)
 
 
 def _look_for_slips(
-    module: ModuleType, source: bytes, path: str, problems: Problems, included_from: tuple[Span, ...]
+    module: ModuleType, compiled: Compiled, path: str, problems: Problems, included_from: tuple[Span, ...]
 ) -> None:
     """Warn of what code does in vain: actions that are added to nothing, substitutions of other languages."""
     # Here, because only what may be a mistake needs them.
-    if has_idle_actions(module, source):
+    may, source = compiled.may, compiled.source
+    if may("idle") and has_idle_actions(module, source):
         from orchestra.compat.unadded import tell_unadded  # noqa: PLC0415
 
         tell_unadded(path, problems, included_from)
-    if b"$(" in source or b"'LaunchConfiguration(" in source or b'"LaunchConfiguration(' in source:
+    if may("foreign"):
         from orchestra.compat.foreign_substitutions import tell_foreign  # noqa: PLC0415
 
         tell_foreign(path, problems, included_from)
-    if has_doubled_keys(module, source):
+    if may("doubled") and has_doubled_keys(module, source):
         from orchestra.compat.doubled_keys import tell_doubled_keys  # noqa: PLC0415
 
         tell_doubled_keys(path, problems, included_from)
-    if has_late_roots(source):
+    if may("roots"):
         from orchestra.compat.late_roots import tell_late_roots  # noqa: PLC0415
 
         tell_late_roots(path, problems, included_from)
-    if has_joined_words(source):
+    if may("joined"):
         from orchestra.compat.joined_words import tell_joined_words  # noqa: PLC0415
 
         tell_joined_words(path, problems, included_from)
@@ -211,8 +217,7 @@ def _meant(module: ModuleType) -> FunctionType | None:
 
 def _source(path: str) -> bytes:
     """Return what is in a file."""
-    with open(path, "rb", buffering=0) as stream:  # noqa: PTH123 - no object is wanted
-        source = stream.read()
+    source = content(path)
     observer().read(path, source)
     return source
 

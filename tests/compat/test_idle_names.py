@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from orchestra.compat.idle_names import has_idle_actions
+from orchestra.compat.idle_names import has_idle_actions, may_have_idle_actions
 from tests.compat.modules import loaded
 
 IDLE = {
@@ -29,3 +29,5 @@ READ = {
 def test_only_actions_that_nobody_reads_are_looked_for(name: str) -> None:
     module, source = loaded({**IDLE, **READ}[name])
     assert has_idle_actions(module, source) == (name in IDLE)
+    code = compile(source, "file.launch.py", "exec")
+    assert may_have_idle_actions(code, source) == (name in IDLE)

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 import pytest
 
 from orchestra.compat import syntax_trees
-from orchestra.compat.looks import has_doubled_keys, has_joined_words
+from orchestra.compat.looks import Compiled, has_doubled_keys, has_joined_words
 from orchestra.errors import Problems
 from orchestra.pipeline import collect, inputs_from
 from tests.compat.modules import loaded
@@ -38,6 +38,8 @@ SOUND = {
 def test_names_that_may_stand_twice_are_looked_for(name: str) -> None:
     module, source = loaded({**DOUBLED, **SOUND}[name])
     assert has_doubled_keys(module, source) == (name in DOUBLED)
+    compiled = Compiled(compile(source, "file.launch.py", "exec"), source, {})
+    assert compiled.may("doubled") or name in SOUND
 
 
 @pytest.mark.parametrize(

@@ -2,9 +2,9 @@
 
 A plan of the same words is kept as a whole; this is for those after a change of an argument or of a few files, where
 to compile takes a quarter of the time. A code counts for the content that it was compiled from, at its path, by this
-interpreter. All codes of a tree are in one file, named by the file at its top: fifty files take as long to write as
-half of the tree takes to compile. Rejected: `__pycache__` beside launch files, where nobody expects it, and where many
-may not write.
+interpreter. What short looks at it have told is kept with it, and counts as long as they look for the same. All codes
+of a tree are in one file, named by the file at its top: fifty files take as long to write as half of the tree takes to
+compile. Rejected: `__pycache__` beside launch files, where nobody expects it, and where many may not write.
 """
 
 from __future__ import annotations
@@ -18,17 +18,23 @@ from functools import lru_cache
 from importlib.util import MAGIC_NUMBER
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.compat.looks import Compiled
 from orchestra.witness.digest import digest_of
-from orchestra.witness.looking import read
+from orchestra.witness.looking import read, signature
 from orchestra.witness.observing import observer
 from orchestra.witness.store import Store
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import CodeType
+    from typing import TypeAlias
+
+    _Kept: TypeAlias = tuple[str, bytes, dict[str, bool]]  # digest, code, and what looks have told
 
 _MOST: Final = 32 * 1024 * 1024  # bytes that all trees may take together
 _MOST_OF_A_TREE: Final = 8 * 1024 * 1024
+_OURS: Final = os.path.dirname(os.path.dirname(os.path.dirname(__file__)))  # noqa: PTH120 - pathlib is slow
+_LOOKING: Final = ("compat/looks.py", "compat/idle_names.py", "witness/harmless.py")
 _WORTH: Final = 1 << 14  # bytes of source: to compile less takes as long as to write a file
 
 
@@ -43,22 +49,22 @@ class Codes:
         self._key = _key(top)
         with observer().aside():  # they decide nothing: a code is what its source comes to
             self._kept = {} if self._store is None else _unpacked(self._store, self._key)
-        self._used: dict[str, tuple[str, bytes]] = {}
-        self._new: dict[str, tuple[str, CodeType]] = {}
+        self._used: dict[str, _Kept] = {}
+        self._new: dict[str, tuple[str, Compiled]] = {}
         self._compiled = 0
 
-    def code(self, path: str, source: bytes) -> CodeType:
+    def code(self, path: str, source: bytes) -> Compiled:
         """Return the code of a file with this content. Raises what `compile` does."""
         known = self._kept.get(path)
         if known is not None and known[0] == digest_of(source):
             code: CodeType = marshal.loads(known[1])  # noqa: S302 - ours, as what is in `__pycache__`
             self._used[path] = known
-            return code
-        code, lasting = _compiled(path, source)
+            return Compiled(code, source, known[2])
+        compiled, lasting = _compiled(path, source)
         if lasting and path not in self._new:
-            self._new[path] = digest_of(source), code
+            self._new[path] = digest_of(source), compiled
             self._compiled += len(source)
-        return code
+        return compiled
 
     @property
     def are_to_be_kept(self) -> bool:
@@ -69,7 +75,9 @@ class Codes:
         """Keep what was compiled beside what was kept, if there is a place for it."""
         if self._store is None:
             return
-        new = {path: (digest, marshal.dumps(code)) for path, (digest, code) in self._new.items()}
+        new = {
+            path: (digest, marshal.dumps(made.code), made.told) for path, (digest, made) in self._new.items()
+        }
         with observer().aside():
             for codes in (self._kept | new, self._used | new):
                 packed = marshal.dumps((self._key, codes))
@@ -82,10 +90,12 @@ class Codes:
 def _key(top: str) -> str:
     """Return what tells the codes of one tree and interpreter from those of others."""
     ranges = sys._xoptions.get("no_debug_ranges"), os.environ.get("PYTHONNODEBUGRANGES")
-    return repr((os.path.abspath(top), sys.version, MAGIC_NUMBER, sys.flags, sys.warnoptions, ranges))  # noqa: PTH100
+    told_by = [signature(f"{_OURS}/{file}") for file in _LOOKING]
+    interpreter = sys.version, MAGIC_NUMBER, sys.flags, sys.warnoptions, ranges
+    return repr((os.path.abspath(top), *interpreter, told_by))  # noqa: PTH100
 
 
-def _unpacked(store: Store, key: str) -> dict[str, tuple[str, bytes]]:
+def _unpacked(store: Store, key: str) -> dict[str, _Kept]:
     packed = store.content(key)
     if packed is None or len(packed) > _MOST_OF_A_TREE:
         return {}
@@ -97,11 +107,11 @@ def _unpacked(store: Store, key: str) -> dict[str, tuple[str, bytes]]:
 
 
 @lru_cache(maxsize=256)
-def _compiled(path: str, source: bytes) -> tuple[CodeType, bool]:
+def _compiled(path: str, source: bytes) -> tuple[Compiled, bool]:
     """Return the code of a file, and whether to compile it again would tell nobody anything."""
     with _told() as told:
         code = compile(source, path, "exec", dont_inherit=True)
-    return code, not told
+    return Compiled(code, source, {}), not told
 
 
 def compile_ahead(path: str) -> None:

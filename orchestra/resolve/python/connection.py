@@ -12,8 +12,8 @@ from orchestra.resolve.refusals import missing_package, unset_environment
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
-    from types import CodeType
 
+    from orchestra.compat.looks import Compiled
     from orchestra.compat.seam import Engine, FrontEnd
     from orchestra.errors import Severity
     from orchestra.resolve.packages import InstalledPackages
@@ -36,7 +36,7 @@ class LoadingConnection:
         self,
         packages: InstalledPackages,
         begin: Callable[[Problems], Resolution],
-        prepare: Callable[[CodeType | None], None] = lambda _: None,
+        prepare: Callable[[Compiled | None], None] = lambda _: None,
         *,
         problems: Problems | None = None,
         inputs: Inputs = _INPUTS,
@@ -52,7 +52,7 @@ class LoadingConnection:
         self._postponed = postponed
         self._problems = Problems() if problems is None else problems
 
-    def prepare(self, code: CodeType | None = None) -> None:
+    def prepare(self, code: Compiled | None = None) -> None:
         """Get ready for code of a launch file, for this one where it is known."""
         self._prepare(code)
 
@@ -72,7 +72,7 @@ class LoadingConnection:
 
         return Codes(*self._place)
 
-    def code(self, path: str, source: bytes) -> CodeType:
+    def code(self, path: str, source: bytes) -> Compiled:
         """Return the code of a launch file in Python with this content. Raises what `compile` does."""
         return self._codes.code(path, source)
 

@@ -17,8 +17,8 @@ from orchestra.witness.observing import observer
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
-    from types import CodeType
 
+    from orchestra.compat.looks import Compiled
     from orchestra.resolve.python.interpreter import Interpreter
     from orchestra.resolve.python.libraries import Libraries
     from orchestra.resolve.python.remaining import Remaining
@@ -41,19 +41,18 @@ class Isolation:
         self._zone = time.tzname
         self._has_begun = False
 
-    def prepare(self, code: CodeType | None = None) -> None:
+    def prepare(self, code: Compiled | None = None) -> None:
         """Get ready for code of launch files, which may do anything unless it can be seen to change nothing."""
         if self.remaining is not None:
             return
         # Here, because only such code needs it, and what it imports.
         from orchestra.compat.place import forget  # noqa: PLC0415
-        from orchestra.witness.harmless import changes_nothing  # noqa: PLC0415
 
         if not self._has_begun:
             forget()
             self._has_begun = True
-        if code is not None and changes_nothing(code):
-            observer().harmless = code
+        if code is not None and code.may("harmless"):
+            observer().harmless = code.code
             return
         from orchestra.resolve.python.interpreter import Interpreter  # noqa: PLC0415
         from orchestra.resolve.python.libraries import Libraries  # noqa: PLC0415

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from orchestra.compat import looks
 from orchestra.errors import Problems, Severity
 from orchestra.pipeline import collect, inputs_from
 from orchestra.plan.codec import dumps
@@ -252,10 +253,39 @@ def test_positions_in_kept_code_are_those_of_the_file(tree: Tree) -> None:
     assert line[problem.span.column - 1 :].startswith("defualt")
 
 
+_SLIPS = {
+    "idle": "    forgotten = ExecuteProcess(cmd=['true'])\n",
+    "foreign": "    written = '$(var rate)'\n",
+    "roots": "    path = PathJoinSubstitution([rate, '/maps'])\n",
+}
+
+
+def test_what_looks_have_told_is_kept_with_the_code(tree: Tree, monkeypatch: pytest.MonkeyPatch) -> None:
+    for part, slip in zip(tree.parts, _SLIPS.values(), strict=False):
+        text = part.read_text().replace("    return", f"{slip}    return")
+        part.write_text(text.replace("LaunchConfiguration\n", "LaunchConfiguration, PathJoinSubstitution\n"))
+    first = tree.plan()
+    assert all(f"part{number}.launch.py" in first for number in range(len(_SLIPS)))
+    module._compiled.cache_clear()
+    looked: list[str] = []
+    for name, look in list(looks.LOOKS.items()):
+
+        def noted(*given: Any, name: str = name, look: Any = look) -> bool:
+            looked.append(name)
+            return bool(look(*given))
+
+        monkeypatch.setitem(looks.LOOKS, name, noted)
+    assert tree.plan() == first
+    assert not looked
+    monkeypatch.setattr(module, "_LOOKING", ("compat/place.py",))
+    assert tree.plan() == first
+    assert set(looked) >= {*_SLIPS, "harmless"}
+
+
 def test_codes_are_nowhere_without_a_folder(tmp_path: Path) -> None:
     codes = Codes(None, str(tmp_path / "a.launch.py"))
     space: dict[str, Any] = {}
-    exec(codes.code("a.launch.py", b"answer = 42\n" + b"#" * 100_000), space)  # noqa: S102 - code of ours
+    exec(codes.code("a.launch.py", b"answer = 42\n" + b"#" * 100_000).code, space)  # noqa: S102 - code of ours
     assert space["answer"] == 42
     assert not codes.are_to_be_kept
     codes.keep()
