@@ -215,7 +215,10 @@ def _tell(process: ResolvedProcess, run: Resolution) -> None:
     origin = process.origin
     if origin is None or process.faulty or not hasattr(origin, "_prepared_by"):
         return
-    environment = copied(run.scope.environment) if process.inherit_environment else {}
+    scope = run.scope
+    if scope.environment_copy is None:  # most processes are started with the same
+        scope.environment_copy = copied(scope.environment)
+    environment = scope.environment_copy if process.inherit_environment else {}
     origin._prepared_by(partial(_prepared, process, len(run.found.processes) - 1, environment))  # noqa: SLF001 - a class of ours
 
 
@@ -223,8 +226,9 @@ def _prepared(
     process: ResolvedProcess, index: int, environment: dict[str, str]
 ) -> tuple[str, list[str], str | None, dict[str, str]]:
     changed = {name: changes[-1].value for name, changes in process.environment.items()}
-    environment |= {name: value for name, value in changed.items() if value is not None}
-    return name_in_launch(process, index), words_of(process), process.cwd, environment
+    own = copied(environment)
+    own |= {name: value for name, value in changed.items() if value is not None}
+    return name_in_launch(process, index), words_of(process), process.cwd, own
 
 
 def _stdin(action: Running, run: Resolution) -> Location | Poison | None:

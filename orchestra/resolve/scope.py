@@ -67,6 +67,7 @@ class Scope:
     remaps: tuple[ResolvedRemap, ...] = ()
     saved_environments: list[SavedEnvironment] = field(default_factory=list)
     saved_settings: list[SavedSettings] = field(default_factory=list)
+    environment_copy: dict[str, str] | None = None  # where somebody has made one, until that is changed
     _journal: list[tuple[dict[str, Any], str, Any]] = field(default_factory=list)
     _reads: list[Read] | None = None
 
@@ -189,7 +190,7 @@ class Scope:
             yield
         finally:
             while len(self._journal) > mark:
-                _write(*self._journal.pop())
+                self._write(*self._journal.pop())
             self.parameters, self.remaps = parameters, remaps
             del self.saved_environments[heights[0] :], self.saved_settings[heights[1] :]
 
@@ -232,7 +233,15 @@ class Scope:
 
     def _put(self, table: dict[str, Any], name: str, value: object) -> None:
         self._journal.append((table, name, table.get(name, _ABSENT)))
-        _write(table, name, value)
+        self._write(table, name, value)
+
+    def _write(self, table: dict[str, Any], name: str, value: object) -> None:
+        if table is self.environment:
+            self.environment_copy = None
+        if value is _ABSENT:
+            table.pop(name, None)
+        else:
+            table[name] = value
 
     def _fill(self, table: dict[str, Any], content: Mapping[str, Any]) -> None:
         """Make a table hold nothing but this."""
@@ -283,13 +292,6 @@ def _changed(variable: Variable, leaked_from: Span | None, settled: Location | N
     return new_variable(
         variable.value, variable.location, leaked_from, variable.setter, settled, variable.noted
     )
-
-
-def _write(table: dict[str, Any], name: str, value: object) -> None:
-    if value is _ABSENT:
-        table.pop(name, None)
-    else:
-        table[name] = value
 
 
 def _comparable(value: object) -> object:

@@ -371,3 +371,25 @@ def generate_launch_description():
     assert said(tmp_path, text, "hidden:=1") == ["1"]
     found = faults(tmp_path, text, "hidden:=1", "hiden:=2")
     assert [code for code, _, _ in found] == [Code.UNKNOWN_ARGUMENT]
+
+
+def test_each_process_has_the_environment_of_its_place(tmp_path: Path) -> None:
+    """Also where many have the same, and code changes what it is given of one."""
+    text = """
+first, again, other, outer = (ExecuteProcess(cmd=['true', name]) for name in ('first', 'again', 'other', 'outer'))
+
+def look(context):
+    first.env['A'] = 'changed'
+    found = [process.env.get('A', '-') for process in (again, other, outer)]
+    return [LogInfo(msg=' '.join(found))]
+
+def generate_launch_description():
+    inside = GroupAction([SetEnvironmentVariable('A', '2'), other])
+    before = SetEnvironmentVariable('A', '1')
+    return LaunchDescription([before, first, again, inside, outer, OpaqueFunction(function=look)])
+"""
+    plan, problems = planned(tmp_path, {"a.launch.py": text})
+    assert plan is not None, list(problems)
+    assert [action["message"] for trigger in encode(plan)["triggers"] for action in trigger["do"]] == [
+        "1 2 1"
+    ]
