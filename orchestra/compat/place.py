@@ -26,6 +26,8 @@ _names: dict[str, str] = {}
 _standing: list[Place] = []
 _OWN = os.path.join(os.path.dirname(os.path.dirname(__file__)), "")  # noqa: PTH118, PTH120 - compared with file names of code
 OURS: Final = f"{__name__.partition('.')[0]}."
+# How deep whoever calls a constructor stands below `here`: above are ours, that and what reports wrong arguments.
+IN_CONSTRUCTOR: Final = 3
 _Positions: TypeAlias = tuple[int | None, int | None, int | None, int | None]
 
 
@@ -179,11 +181,11 @@ def standing(place: Place) -> Iterator[None]:
         _standing.pop()
 
 
-def here(made: object = None) -> Place:
+def here(made: object = None, depth: int = 1) -> Place:
     """Return the place in the user's code that led to this call: where `made` was made, by whatever subclass."""
     if _standing:
         return _standing[-1].of(made)
-    frame: FrameType | None = sys._getframe(1)
+    frame: FrameType | None = sys._getframe(depth)
     while frame is not None:
         found = frame
         name = frame.f_globals.get("__name__")  # as `is_ours` does, without a call for each frame

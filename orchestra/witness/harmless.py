@@ -4,6 +4,7 @@ Most launch files in Python are no more than that. What code can do is decided b
 it uses is one of the words below, which are harmless whatever they are asked of, or one of its own, and no instruction
 changes what is not its own. So it has nothing but its own functions, what launch files are made with, and a few
 functions that only look. With what is not listed, an instruction of a later interpreter included, it may do anything.
+What the text of an expression does is seen where that is evaluated: until then it is a text.
 
 Rejected: to watch what code does, which tells it too late; to list what is harmful, of which there is always more.
 """
@@ -44,7 +45,8 @@ _OF_LAUNCH: Final = """
     UnregisterEventHandler UnsetEnvironmentVariable UnsetLaunchConfiguration
     AllSubstitution AndSubstitution AnonName AnySubstitution Command EnvironmentVariable EqualsSubstitution FileContent
     FindExecutable IfElseSubstitution LaunchConfiguration LaunchLogDir LocalSubstitution NotEqualsSubstitution
-    NotSubstitution OrSubstitution PathJoinSubstitution PathSubstitution StringJoinSubstitution TextSubstitution
+    NotSubstitution OrSubstitution PathJoinSubstitution PathSubstitution PythonExpression StringJoinSubstitution
+    TextSubstitution
     ThisLaunchFile ThisLaunchFileDir
     IfCondition UnlessCondition LaunchConfigurationEquals LaunchConfigurationNotEquals
     OnExecutionComplete OnProcessExit OnProcessIO OnProcessStart OnShutdown

@@ -53,6 +53,7 @@ def generate_launch_description():
     return made
 """,
     "paths": "from pathlib import Path\nhere = Path(__file__).parent / 'x'\nthere = here.exists() and str(here)",
+    "an expression": "from launch.substitutions import PythonExpression as P\nP('__import__(\"os\").umask(0)')",
     "a generator": "names = []\nnames.extend(str(n) for n in (1, 2))",
     "many names": "\n".join(f"a{n} = a{n - 1 if n else n} = {n}" for n in range(300)),
 }
@@ -107,11 +108,7 @@ _MAY_DO_ANYTHING = [
         "match 1:\n    case int(x):\n        pass",
     ),
     *("def f():\n    def g():\n        def h():\n            return exec('x')", "[exec('x') for y in ()]"),
-    *(
-        "lambda: exec",
-        "from launch.substitutions import PythonExpression",
-        "from launch import LaunchService",
-    ),
+    *("lambda: exec", "from launch import LaunchService"),
     *("from launch import logging", "import launch\nlaunch.logging.get_logger()", "x = 1\nx.real"),
     "\n".join([*(f"a{n} = {n}" for n in range(300)), "import os", "os.a299", "os.system"]),
 ]

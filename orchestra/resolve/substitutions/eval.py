@@ -10,6 +10,7 @@ import warnings
 from typing import TYPE_CHECKING
 
 from orchestra.compat.expressions import visible
+from orchestra.compat.seam import connection, is_connected
 from orchestra.errors import Code
 from orchestra.location import is_python
 from orchestra.resolve.context import POISON
@@ -35,6 +36,8 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
     if known is not None:
         return made(call, context, known)
     names: dict[str, object] = {}
+    if is_connected() and is_python(call.span):
+        connection().prepare()  # the code that it stands in may be known to change nothing
     try:
         with warnings.catch_warnings(record=True) as doubts:
             warnings.simplefilter("always")

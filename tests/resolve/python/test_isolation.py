@@ -214,6 +214,41 @@ def test_a_second_resolution_gives_the_same_plan(tmp_path: Path, what: str) -> N
     assert _resolve(path)[0] == _resolve(path)[0]
 
 
+_EXPRESSION = """\
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess, OpaqueFunction
+from launch.substitutions import PythonExpression
+
+def expression():
+    return PythonExpression(["str(__import__('os').umask(0o77)) + str(__import__('os').chdir('/'))"])
+
+def late(context):
+    return [ExecuteProcess(cmd=['true', expression().perform(context)])]
+
+def generate_launch_description():
+    return LaunchDescription([MADE])
+"""
+
+
+@pytest.mark.parametrize(
+    "made", ["ExecuteProcess(cmd=['true', expression()])", "OpaqueFunction(function=late)"]
+)
+def test_what_an_expression_changes_is_undone_too(tmp_path: Path, made: str) -> None:
+    """Code that makes it is known to change nothing itself."""
+    path = tmp_path / "a.launch.py"
+    path.write_text(_EXPRESSION.replace("MADE", made), "utf-8")
+
+    def look() -> tuple[Path, int]:
+        return Path.cwd(), os.umask(os.umask(0o22))
+
+    before = look()
+    _resolve(path)
+    assert look() == before
+    with _standing() as resolve:
+        first = resolve(path)
+        assert (look(), resolve(path)) == (before, first)
+
+
 # Code that would be noticed by the next file that is resolved, and what that one checks.
 INFLUENCES = {
     "a class of ours": (

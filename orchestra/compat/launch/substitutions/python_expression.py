@@ -9,7 +9,8 @@ from orchestra.compat.expressions import visible
 from orchestra.compat.launch.utilities.perform_substitutions_impl import perform_substitutions
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.performed import Concatenated
-from orchestra.compat.place import here
+from orchestra.compat.place import IN_CONSTRUCTOR, here
+from orchestra.compat.seam import connection, is_connected
 from orchestra.compat.text import normalized
 
 if TYPE_CHECKING:
@@ -29,7 +30,7 @@ class PythonExpression(ParsedSubstitution):
     _parameters = ("expression", "python_modules")
 
     def __init__(self, expression: Sub, python_modules: Sub = _MATH) -> None:
-        self._place = here(self)
+        self._place = here(self, IN_CONSTRUCTOR)
         self.__expression = normalized(expression)
         self.__python_modules = normalized(python_modules)
         self.__is_default = python_modules in (_MATH, list(_MATH), "math")
@@ -62,6 +63,8 @@ class PythonExpression(ParsedSubstitution):
         """Return the result. Raises whatever the expression does, as upstream."""
         expression = perform_substitutions(context, self.expression).strip()
         modules = perform_substitutions(context, self._listed())
+        if is_connected():
+            connection().prepare()  # code that only makes expressions is known to change nothing
         return str(eval(expression, visible(modules)))  # noqa: S307 - unrestricted Python is what it is
 
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
