@@ -39,7 +39,7 @@ def report(error: BaseException, problems: Problems, chain: tuple[Span, ...], fa
     if isinstance(error, SyntaxError) and not (error.filename or "<").startswith("<"):
         span, instead, missing = span_of_syntax(error)
         spans.append(span)
-    explanation = _explained(error, calls[-1] if calls else None)
+    explanation = _of_what_is_not_here(error, calls) or _explained(error, calls[-1] if calls else None)
     at = explanation.span or (spans[-1] if spans else fallback)
     callers = list(dict.fromkeys(f"called at {span}" for span in spans[-2::-1]))
     notes = (*explanation.notes, *missing, *callers[:_MOST_CALLS])
@@ -96,6 +96,13 @@ def _explained(error: BaseException, call: TracebackType | None) -> Explanation:
         return Explanation(message, error.code, span, meant)
     code = Code.SYNTAX if isinstance(error, SyntaxError) else Code.USER_CODE
     return Explanation(_message(error), code)
+
+
+def _of_what_is_not_here(error: BaseException, calls: list[TracebackType]) -> Explanation | None:
+    # Here, because only mistakes need it, and what it imports.
+    from orchestra.compat import done_without  # noqa: PLC0415
+
+    return done_without.explained(error, calls, _message(error)) if calls else None
 
 
 def _of_unset(error: BaseException, call: TracebackType) -> Explanation | None:

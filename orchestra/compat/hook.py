@@ -17,6 +17,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.compat.asked import keep_module
 from orchestra.compat.place import is_own
 from orchestra.witness.observing import observer
 from orchestra.witness.origins import INSTALLED, PYTHON
@@ -79,6 +80,19 @@ class _Finder(MetaPathFinder):
         return ModuleSpec(fullname, _Alias(name), is_package=found.submodule_search_locations is not None)
 
 
+class _Asked(MetaPathFinder):
+    """Finds nothing: it is asked last, and keeps what nobody has."""
+
+    def find_spec(
+        self,
+        fullname: str,
+        path: Sequence[str] | None = None,  # noqa: ARG002 - the protocol
+        target: ModuleType | None = None,  # noqa: ARG002 - the protocol
+    ) -> ModuleSpec | None:
+        keep_module(fullname)
+        return None
+
+
 class _Compiling(MetaPathFinder):
     """Finds modules of ours that nobody has compiled yet, and lets what they are compiled to be kept beside them.
 
@@ -137,13 +151,14 @@ def served(untouched: Callable[[], bool] = lambda: False) -> Iterator[Serving]:
     What launch files have imported is forgotten where it is the users' own: the next one begins anew. `untouched` tells
     whether no code of theirs has run.
     """
-    finder, compiling = _Finder(), _Compiling()
+    finder, compiling, asked = _Finder(), _Compiling(), _Asked()
     before = dict(sys.modules)
     bytecode, sys.dont_write_bytecode = sys.dont_write_bytecode, True
     if any(map(before.__contains__, SERVED)):
         for name in [name for name in before if name.partition(".")[0] in SERVED]:
             del sys.modules[name]
     sys.meta_path.insert(0, finder)
+    sys.meta_path.append(asked)
     if not bytecode and PathFinder in sys.meta_path:
         sys.meta_path.insert(sys.meta_path.index(PathFinder), compiling)
     watching = observer()
@@ -154,6 +169,8 @@ def served(untouched: Callable[[], bool] = lambda: False) -> Iterator[Serving]:
         yield Serving(dict(sys.modules))
     finally:
         sys.meta_path.remove(finder)
+        if asked in sys.meta_path:
+            sys.meta_path.remove(asked)
         if compiling in sys.meta_path:
             sys.meta_path.remove(compiling)
         sys.dont_write_bytecode = bytecode

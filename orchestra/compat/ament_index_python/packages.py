@@ -6,6 +6,7 @@ import warnings
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from orchestra.compat.asked import keep_package
 from orchestra.compat.seam import connection
 from orchestra.nearest import nearest
 from orchestra.patterns import pattern
@@ -91,6 +92,7 @@ def _missing(package_name: str) -> PackageNotFoundError:
     hint = f", did you mean {meant!r}?" if meant is not None else ""
     error = PackageNotFoundError(f"there is no package {package_name!r} here{hint}")
     error.package = package_name
+    keep_package(error)
     return error
 
 
