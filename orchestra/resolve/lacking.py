@@ -16,6 +16,8 @@ from orchestra.resolve.refusals import Missing
 if TYPE_CHECKING:
     from collections.abc import Iterator, Mapping, Sequence
 
+    from orchestra.resolve.context import Packages
+
 _SHORT: Final = 4  # letters
 
 
@@ -61,23 +63,33 @@ def missing_file(path: str, file: str, environment: Mapping[str, str], weight: S
     return Missing(weight, f"there is no file {displayed(path)} {HERE}", None)
 
 
-def is_another(package: str, share: str | None, file: str | None) -> bool:
-    """Return whether a launch file is of the source of a package that an importable one here only shares its name with.
+def is_another(package: str, packages: Packages, file: str | None) -> bool:
+    """Return whether an importable package is not what has the executables of the package of that name.
 
-    A workspace may have a package `bringup` or `serial`, and the interpreter a module of that name.
+    It may only share the name: a workspace may have a package `bringup` or `serial`, and the interpreter a module of
+    that name. Or it is the source of a package that nobody has built, which a launch file imports from.
     """
+    share = packages.share(package)
     if share is None or file is None or Path(share).parent.name == "share":
         return False  # what ament has installed is the package itself
     here = Path(share).absolute()
+    if not packages.executables(package) and any(_is_of(package, place) for place in (here, here.parent)):
+        return True
     for folder in Path(file).absolute().parents:
         if folder == here:
             return False
         manifest = folder / "package.xml"
         if is_file(manifest):
-            return f"<name>{package}</name>" in manifest.read_text("utf-8", "replace")
+            return _is_of(package, folder)
         if folder.name == package:
             return not is_file(folder / "__init__.py")
     return False
+
+
+def _is_of(package: str, folder: Path) -> bool:
+    """Return whether a folder holds the source of a package."""
+    manifest = folder / "package.xml"
+    return is_file(manifest) and f"<name>{package}</name>" in manifest.read_text("utf-8", "replace")
 
 
 def is_certain(changes: Sequence[tuple[str, str]]) -> bool:

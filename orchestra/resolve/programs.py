@@ -94,7 +94,7 @@ def packaged_words(
         # Here, because most executables are there.
         from orchestra.resolve.lacking import is_another  # noqa: PLC0415
 
-        if is_another(package.text, packages.share(package.text), run.context.file):
+        if is_another(package.text, packages, run.context.file):
             return _elsewhere(package, executable, written, run)
         return report_missing_executable(executable.text, package.text, written[1], run.context, executable)
     if not _is_runnable(words[0], executable.location, run):

@@ -167,3 +167,13 @@ def test_a_module_is_not_the_package_whose_source_holds_the_launch_file(
     files = {"walkers/launch/main.yaml": _OF_THE_NAME, **beside}
     found = outcome(folder, files, launching=False)
     assert {problem.code for problem in found.problems} == {code}
+
+
+@pytest.mark.parametrize("beside", [{"resource/walkers": ""}, {}], ids=["ament_python", "ament_cmake"])
+def test_a_source_that_nobody_has_built_has_no_executables_yet(folder: Path, beside: dict[str, str]) -> None:
+    """A launch file may import from it, as from its own package: on a robot it is built."""
+    for name, text in {"package.xml": "<package><name>walkers</name></package>", **beside}.items():
+        (folder / "path" / name).parent.mkdir(exist_ok=True)
+        (folder / "path" / name).write_text(text)
+    found = outcome(folder, {"launch/main.yaml": _OF_THE_NAME}, launching=False)
+    assert {problem.code for problem in found.problems} == {Code.MISSING_PACKAGE}

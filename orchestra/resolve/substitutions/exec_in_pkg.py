@@ -31,7 +31,7 @@ def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
             # Here, because most executables are there.
             from orchestra.resolve.lacking import is_another  # noqa: PLC0415
 
-            if is_another(package, context.packages.share(package), context.file):
+            if is_another(package, context.packages, context.file):
                 return report_missing_package(package, written_package, context)
             return report_missing_executable(executable, package, written, context)
         case (path,):
