@@ -55,6 +55,12 @@ def birth(pid: int) -> int | None:
     return None if state in (b"Z", b"X") else int(facts[_BIRTH])
 
 
+def is_runnable(pid: int) -> bool:
+    """Tell whether a process runs, waits for nothing but a processor, or has ended and is to be reaped."""
+    facts = stat(pid)
+    return facts is not None and facts.state in "RZX"
+
+
 def run_time(pid: int) -> float | None:
     """Return for how long the first thread of a process has had a processor, in seconds; None where that is not told.
 

@@ -6,6 +6,7 @@ import signal
 from functools import partial
 from typing import TYPE_CHECKING
 
+from orchestra.supervise.keeping import proc
 from orchestra.supervise.process import life, order
 from orchestra.supervise.process.ending import signal_name
 from orchestra.supervise.process.life import LIVE, Phase
@@ -19,6 +20,9 @@ if TYPE_CHECKING:
 
 # What the kernel has not ended this long after SIGKILL, in seconds, it will not end soon (an uninterruptible wait).
 _GIVE_UP_AFTER = 0.7
+
+# What has been killed and waits for a processor to end on, it will have ended at some time; in seconds.
+_MOST_FOR_A_PROCESSOR = 10.0
 
 # How often Ctrl-C was pressed.
 _ONCE, _TWICE = 1, 2
@@ -145,7 +149,13 @@ class Stopping:
 
     def _deadline(self) -> None:
         self._escalate(life.KILL, f"{self._deadline_after:g} s are over: SIGKILL to everything that is left")
-        self._around.loop.call_later(_GIVE_UP_AFTER, self._give_up)
+        latest = self._around.loop.clock() + _MOST_FOR_A_PROCESSOR
+        self._around.loop.call_later(_GIVE_UP_AFTER, partial(self._give_up, latest))
 
-    def _give_up(self) -> None:
-        self.given_up = True
+    def _give_up(self, latest: float) -> None:
+        """Wait no more, unless what is left would end if it had a processor: a quota of a container may be used up."""
+        again = self._around.loop.clock() < latest and any(map(proc.is_runnable, self.stuck))
+        if again and self._around.more_time(_GIVE_UP_AFTER):
+            self._around.loop.call_later(_GIVE_UP_AFTER, partial(self._give_up, latest))
+        else:
+            self.given_up = True
