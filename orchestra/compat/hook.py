@@ -17,7 +17,6 @@ from pathlib import Path
 from types import ModuleType
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.compat.asked import keep_module
 from orchestra.compat.place import is_own
 from orchestra.witness.observing import observer
 from orchestra.witness.origins import INSTALLED, PYTHON
@@ -89,6 +88,8 @@ class _Asked(MetaPathFinder):
         path: Sequence[str] | None = None,  # noqa: ARG002 - the protocol
         target: ModuleType | None = None,  # noqa: ARG002 - the protocol
     ) -> ModuleSpec | None:
+        from orchestra.compat.asked import keep_module  # noqa: PLC0415 - few modules are not there
+
         keep_module(fullname)
         return None
 
