@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
-from orchestra.compat.place import Instructions, argument, here
+from orchestra.compat.place import IN_CONSTRUCTOR, Instructions, argument, here
 from orchestra.compat.text import template
 from orchestra.dataclass import maker
 from orchestra.description.text import (
@@ -45,7 +45,7 @@ class CallSubstitution(Substitution):
     _kept: tuple[tuple[list[Substitution], ...], Template, Place] | None = None
 
     def __init__(self) -> None:
-        self._place = here(self)
+        self._place = here(self, IN_CONSTRUCTOR)
 
     def _arguments(self) -> Sequence[Sequence[Substitution]]:
         """Return the arguments of the call."""

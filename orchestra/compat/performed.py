@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.described import described
 from orchestra.compat.launch.substitution import Substitution
-from orchestra.compat.place import here
+from orchestra.compat.place import IN_CONSTRUCTOR, here
 from orchestra.compat.text import template
 from orchestra.description.text import Opaque
 
@@ -27,7 +27,7 @@ class PerformedSubstitution(Substitution):
     _of_the_moment = False
 
     def __init__(self) -> None:
-        self._place = here(self)
+        self._place = here(self, IN_CONSTRUCTOR)
 
     def _made_of(self) -> Sequence[Sequence[Substitution]]:
         """Return the texts that performing it evaluates."""

@@ -6,7 +6,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
-from orchestra.compat.place import here
+from orchestra.compat.place import IN_CONSTRUCTOR, here
 
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
@@ -24,7 +24,7 @@ class Action(LaunchDescriptionEntity):
 
     def __init__(self, *, condition: Condition | None = None) -> None:
         self.__condition = condition
-        self._place = here(self)
+        self._place = here(self, IN_CONSTRUCTOR)
 
     @classmethod
     def parse(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.explanation import told
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
-from orchestra.compat.place import here
+from orchestra.compat.place import IN_CONSTRUCTOR, here
 from orchestra.compat.refusing import collector
 from orchestra.compat.wrong import WrongType
 
@@ -30,7 +30,7 @@ class LaunchDescription(LaunchDescriptionEntity):
             raise WrongType(told_so, path=("initial_entities",))
         self.__entities = list(initial_entities) if initial_entities is not None else []
         self.__deprecated_reason = deprecated_reason
-        self._place = here(self)
+        self._place = here(self, IN_CONSTRUCTOR)
         self._lacks_entities = initial_entities is None
 
     @property

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from orchestra.compat.launch.event_handler import is_of_ours
 from orchestra.compat.launch.launch_context import LaunchContext
-from orchestra.compat.place import here
+from orchestra.compat.place import IN_CONSTRUCTOR, here
 from orchestra.compat.refusing import Refusing
 from orchestra.compat.text import Sub, normalized, template
 
@@ -35,7 +35,7 @@ class LaunchDescriptionSource(Refusing):
         location: Sub = "<string>",
         method: str = "unspecified mechanism from a script",
     ) -> None:
-        self._place = here(self)
+        self._place = here(self, IN_CONSTRUCTOR)
         self.__launch_description = launch_description
         self.__location: list[Substitution] = normalized(location)
         self.__expanded: str | None = None

@@ -14,7 +14,7 @@ from orchestra.compat.launch.utilities.type_utils import (
     normalize_typed_substitution,
     perform_typed_substitution,
 )
-from orchestra.compat.place import here
+from orchestra.compat.place import IN_CONSTRUCTOR, here
 from orchestra.compat.refusing import Refusing
 from orchestra.compat.text import normalized
 from orchestra.compat.wrong import WrongNumber, WrongType
@@ -31,7 +31,7 @@ class ParameterValue(Refusing):
     """
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
-        self._place = here(self)
+        self._place = here(self, IN_CONSTRUCTOR)
         if isinstance(value_type, str):
             told = f"value_type is a type, this is the text {value_type!r}"
             raise WrongNumber(told, path=("value_type",))
@@ -69,7 +69,7 @@ class Parameter(Refusing):
     """A name and a value."""
 
     def __init__(self, name: Sub, value: Any, *, value_type: Any = None) -> None:
-        self._place = here(self)
+        self._place = here(self, IN_CONSTRUCTOR)
         self.__name = normalized(name)
         self.__parameter_value = ParameterValue(value, value_type=value_type)
         self.__evaluated_name: str | None = None
@@ -114,7 +114,7 @@ class ParameterFile(Refusing):
     ) -> None:
         self.__evaluated: Path | None = None
         self.__made: Path | None = None
-        self._place = here(self)
+        self._place = here(self, IN_CONSTRUCTOR)
         if not isinstance(param_file, str | Substitution | bytes | os.PathLike | Iterable):
             raise WrongType(f"a parameter file is a path, not {param_file!r}", path=("param_file",))
         if not isinstance(allow_substs, bool):

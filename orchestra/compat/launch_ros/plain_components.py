@@ -7,14 +7,14 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.compat.building import condition_fields
 from orchestra.compat.launch_ros.made_later import Made, MadeLater
 from orchestra.compat.launch_ros.plain_parameters import parameters, remaps
-from orchestra.compat.launch_ros.plain_texts import entity, left, read, word
+from orchestra.compat.launch_ros.plain_texts import entity, left, read
 from orchestra.compat.place import Place
 from orchestra.description.components import ComposableNode
 
 if TYPE_CHECKING:
     from types import FrameType
 
-    from orchestra.compat.launch_ros.plain_texts import Reader
+    from orchestra.compat.launch_ros.plain_texts import Readers
 
 
 class PlainComponent(MadeLater):
@@ -58,11 +58,11 @@ class PlainComponent(MadeLater):
 _OF_PLAIN: Final = 2
 _CONDITIONS: Final = {"if": "if_", "unless": "unless"}
 _NOTHING: Final = ComposableNode._unwritten()
-_READ: Final[dict[str, Reader]] = {
-    "package": word("pkg"),
-    "plugin": word("plugin"),
-    "name": word("name"),
-    "namespace": word("namespace"),
+_READ: Final[Readers] = {
+    "package": "pkg",
+    "plugin": "plugin",
+    "name": "name",
+    "namespace": "namespace",
     "parameters": parameters("param"),
     "remappings": remaps,
     "extra_arguments": parameters("extra_arg"),

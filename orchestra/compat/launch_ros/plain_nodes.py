@@ -39,7 +39,11 @@ if TYPE_CHECKING:
 
 
 class Plain(Made):
-    """What a node is made of; `resolved` and `prepared` give what a visit has come to."""
+    """What a node is made of; `resolved` and `prepared` give what a visit has come to.
+
+    The fields are for the first visit. They take more room than all that is left of it, and few nodes have another one:
+    then the arguments are read again.
+    """
 
     __slots__ = ("prepared", "resolved")
 
@@ -49,8 +53,14 @@ class Plain(Made):
         self.prepared: Callable[[], tuple[Any, ...]] | None = None
 
     def model(self, place: Place, common: Mapping[str, Any]) -> Any:
-        """Return the model; `common` are the fields that every action has."""
+        """Return the model; `common` are the fields that every action has. None where an argument is usual no more."""
         origin, fields = common["origin"], self.fields
+        if fields:
+            self.fields = {}
+        else:
+            fields = _NOTHING.copy()
+            if read(self.given, place, _READ, fields) is None:
+                return None
         if len(common) == 1:
             return entity(NodeModel, fields, place.span, origin)
         condition = unchecked(common)
@@ -117,9 +127,11 @@ class PlainNode(MadeLater, ExecuteProcess):
 
     def _to_model(self, common: Mapping[str, Any]) -> Model:
         made = self._plainly()
-        if made is None:
+        model: Model | None = None if made is None else made.model(self._place, common)
+        if model is None:
+            if made is not None:
+                self._construct()
             return super()._to_model(common)
-        model: Model = made.model(self._place, common)
         return model
 
 
@@ -143,7 +155,7 @@ def _prefix(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept
     if type(value) is str:
         fields["launch_prefix"] = divisible(value, call.span((name,)))
     else:
-        _read_prefix(name, value, call, fields, kept)
+        word("launch_prefix", name, value, call, fields, kept)
 
 
 def _words(field: str, *, empty: Any) -> Callable[..., None]:
@@ -208,20 +220,19 @@ def _environment(
     kept[name] = {key: copied(text) for key, text in value.items()}
 
 
-_read_prefix: Final = word("launch_prefix")
 _OVERRIDE: Final = OVERRIDE.encode()
 # What a node has as long as it is plain: its place, its condition, and what it is made of.
 _OF_PLAIN: Final = 3
 _NUMBERS: Final = (int, float)
 _NOTHING: Final = NodeModel._unwritten()
-_READ: Final[dict[str, Callable[..., None]]] = {
-    "package": word("pkg"),
-    "executable": word("exec"),
-    "name": word("name"),
-    "namespace": word("namespace"),
-    "exec_name": word("exec_name"),
+_READ: Final[dict[str, Callable[..., None] | str]] = {
+    "package": "pkg",
+    "executable": "exec",
+    "name": "name",
+    "namespace": "namespace",
+    "exec_name": "exec_name",
     "prefix": _prefix,
-    "cwd": word("cwd"),
+    "cwd": "cwd",
     "parameters": parameters("param"),
     "remappings": remaps,
     "arguments": _words("args", empty=None),

@@ -56,7 +56,10 @@ def remaps(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept:
         if type(rule) is not tuple or len(rule) != _SIDES:
             raise UnusualError
         source, target = rule
-        from_ = plain_text(source, call, (name, index, 0))
+        if type(source) is str and "$" not in source and "\\" not in source:  # as `plain_text` does, at once
+            from_ = matched_words(source, False, call, (name, index, 0))  # type: ignore[arg-type] # its groups are paths
+        else:
+            from_ = plain_text(source, call, (name, index, 0))
         to = plain_text(target, call, (name, index, 1))
         made.append(entity(Remap, {"from_": from_, "to": to}, span))
         own.append(rule if type(source) is type(target) is str else copied(rule))

@@ -30,11 +30,13 @@ class UnusualError(Exception):
     """An argument is none of the usual ones."""
 
 
+# What reads an argument into fields; where that is a text, the field.
 Reader: TypeAlias = "Callable[[str, Any, Arguments, dict[str, Any], dict[str, Any]], None]"
+Readers: TypeAlias = "Mapping[str, Reader | str]"
 
 
 def read(
-    given: dict[str, Any], place: Place, readers: Mapping[str, Reader], fields: dict[str, Any]
+    given: dict[str, Any], place: Place, readers: Readers, fields: dict[str, Any]
 ) -> dict[str, Any] | None:
     """Read the keywords of a call at a place into the fields of a model, which are all there, each as it is unwritten.
 
@@ -43,27 +45,31 @@ def read(
     call, kept = Arguments(place), given.copy()
     try:
         for name, value in given.items():
-            if value is not None:
-                readers[name](name, value, call, fields, kept)
-            elif name not in _OPTIONAL:
-                return None
+            if value is None:
+                if name not in _OPTIONAL:
+                    return None
+                continue
+            reader = readers[name]
+            if not isinstance(reader, str):
+                reader(name, value, call, fields, kept)
+            elif (
+                type(value) is str and "$" not in value and "\\" not in value
+            ):  # as `plain_text` does, at once
+                fields[reader] = matched_words(value, False, call, (name,))  # type: ignore[arg-type] # its groups are paths
+            else:
+                word(reader, name, value, call, fields, kept)
     except (KeyError, UnusualError):
         return None
     return kept
 
 
-def word(field: str) -> Reader:
-    """Return what reads a text."""
-
-    def reader(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:
-        if type(value) is str and "$" not in value and "\\" not in value:  # as `plain_text` does, at once
-            fields[field] = matched_words(value, False, call, (name,))  # type: ignore[arg-type] # its groups are paths
-            return
-        fields[field] = plain_text(value, call, (name,))
-        if type(value) is list:
-            kept[name] = list(value)
-
-    return reader
+def word(
+    field: str, name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]
+) -> None:
+    """Read a text into a field."""
+    fields[field] = plain_text(value, call, (name,))
+    if type(value) is list:
+        kept[name] = list(value)
 
 
 def left(name: str, value: Any, call: Arguments, fields: dict[str, Any], kept: dict[str, Any]) -> None:

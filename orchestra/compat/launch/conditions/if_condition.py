@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.described import described
 from orchestra.compat.launch.condition import Condition
-from orchestra.compat.place import here
+from orchestra.compat.place import IN_CONSTRUCTOR, here
 from orchestra.compat.text import normalized, template
 
 if TYPE_CHECKING:
@@ -23,7 +23,7 @@ class IfCondition(Condition):
 
     def __init__(self, predicate_expression: Sub) -> None:
         self.__expression = normalized(predicate_expression)
-        self._place = here(self)
+        self._place = here(self, IN_CONSTRUCTOR)
         self._predicate = self._predicate_func
 
     def describe(self) -> str:

@@ -9,7 +9,7 @@ from orchestra.compat.calls import variable
 from orchestra.compat.described import described
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.parsed import ParsedSubstitution
-from orchestra.compat.place import here
+from orchestra.compat.place import IN_CONSTRUCTOR, here
 from orchestra.compat.text import normalized
 
 if TYPE_CHECKING:
@@ -27,7 +27,7 @@ class LaunchConfiguration(ParsedSubstitution):
     _parameters = ("variable_name", "default")
 
     def __init__(self, variable_name: Sub, *, default: Any = None) -> None:
-        self._place = here(self)
+        self._place = here(self, IN_CONSTRUCTOR)
         self.__variable_name = normalized(variable_name)
         self.__default = None if default is None else normalized(_texts(default))
 

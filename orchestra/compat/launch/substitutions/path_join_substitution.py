@@ -9,7 +9,7 @@ from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.parsed import ParsedSubstitution
 from orchestra.compat.performed import Concatenated
-from orchestra.compat.place import here
+from orchestra.compat.place import IN_CONSTRUCTOR, here
 from orchestra.compat.text import normalized
 from orchestra.compat.wrong import WrongType
 from orchestra.description.written import escaped
@@ -33,7 +33,7 @@ class PathJoinSubstitution(ParsedSubstitution):
     _name = "path-join"
 
     def __init__(self, substitutions: Iterable[Sub]) -> None:
-        self._place = here(self)
+        self._place = here(self, IN_CONSTRUCTOR)
         components = [_component(item) for item in _listed(substitutions)]
         if not components:
             raise WrongType("a PathJoinSubstitution needs at least one component", path=("substitutions",))

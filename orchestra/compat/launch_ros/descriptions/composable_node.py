@@ -12,7 +12,7 @@ from orchestra.compat.launch_ros.models import params, remaps
 from orchestra.compat.launch_ros.plain_components import PlainComponent
 from orchestra.compat.launch_ros.utilities.normalize_parameters import normalize_parameters
 from orchestra.compat.launch_ros.utilities.normalize_remap_rule import normalize_remap_rules
-from orchestra.compat.place import here, within
+from orchestra.compat.place import IN_CONSTRUCTOR, here, within
 from orchestra.compat.text import normalized, template
 from orchestra.compat.values import optional
 from orchestra.compat.wrong import WrongType
@@ -45,7 +45,7 @@ class ComposableNode(PlainComponent):
         condition: Condition | None = None,
         params_schema: Sub | None = None,
     ) -> None:
-        self._place = here(self)
+        self._place = here(self, IN_CONSTRUCTOR)
         self.__params_schema = None if params_schema is None else normalized(params_schema)
         self.__package = normalized(package)
         self.__node_plugin = normalized(plugin)
