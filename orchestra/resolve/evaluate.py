@@ -17,6 +17,7 @@ if TYPE_CHECKING:
     from orchestra.resolve.context import Context, Evaluated, Value
 
 _VARIABLE: Final = "var"
+_FOLDER: Final = "dirname"
 
 
 def evaluate(template: Template, context: Context) -> Evaluated:
@@ -38,14 +39,21 @@ def evaluate(template: Template, context: Context) -> Evaluated:
 
 
 def _at_once(template: Template, parts: Sequence[Part], context: Context) -> Value | None:
-    """Return what a text comes to whose calls, if any, are variables without anything to tell of; else None."""
+    """Return what a text comes to that calls nothing but `$(dirname)` and variables with nothing to tell; else None."""
     pieces: list[str | None] = []
     names = []
+    verbatim = True
     for part in parts:
         if type(part) is Words:
             pieces.append(part.text)
             continue
-        if type(part) is not Call or part.name != _VARIABLE:
+        if type(part) is not Call:
+            return None
+        verbatim = False
+        if part.name == _FOLDER and not part.arguments and context.file is not None:
+            pieces.append(os.path.dirname(context.file))  # noqa: PTH120 - as `$(dirname)` does
+            continue
+        if part.name != _VARIABLE:
             return None
         name = part.arguments[0]
         if len(name.parts) != 1 or type(name.parts[0]) is not Words or name.faulty:
@@ -54,7 +62,8 @@ def _at_once(template: Template, parts: Sequence[Part], context: Context) -> Val
         pieces.append(None)
     at = new_location(template.span, context.included_from)
     if not names:
-        return new_value("".join(filter(None, pieces)), at, verbatim=True)
+        text = "".join(filter(None, pieces))
+        return new_value(text, at, verbatim=True) if verbatim else new_value(text, at, raw=template.raw)
     known = context.variables.known(names)
     if known is None:
         return None

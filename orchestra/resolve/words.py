@@ -50,6 +50,8 @@ def _split(template: Template, context: Context) -> tuple[Value, ...] | Poison:
         bare = _bare(template, context)
         if bare is not None:
             return bare
+    if all(type(part) is not Words or _BARE.fullmatch(part.text) for part in template.parts):
+        return _at_blanks(template, context)
     splitter = _Splitter()
     poisoned = template.faulty
     for part in template.parts:
@@ -69,10 +71,45 @@ def _split(template: Template, context: Context) -> tuple[Value, ...] | Poison:
         _report(told, span, context)
     if splitter.faults:
         return POISON
+    return _values(splitter.words, context)
+
+
+def _values(words: Sequence[_Word], context: Context) -> tuple[Value, ...]:
     return tuple(
-        Value(word.text, context.at(word.span), through=tuple(word.reads), raw=word.raw)
-        for word in splitter.words
+        new_value(word.text, context.at(word.span), through=word.reads, raw=word.raw) for word in words
     )
+
+
+def _at_blanks(template: Template, context: Context) -> tuple[Value, ...] | Poison:
+    """Return the words of a text in which nothing escapes."""
+    words: list[_Word] = []
+    goes_on, poisoned = False, template.faulty
+    for part in template.parts:
+        begins = ends = True
+        if isinstance(part, Words):
+            text = part.text
+            if not text:
+                continue
+            found = [_Word(word[0], _place(part, *word.span()), (), word[0]) for word in _WORD.finditer(text)]
+            begins, ends = text[0] not in _BLANKS, text[-1] not in _BLANKS
+        else:
+            with context.variables.tracing() as reads:
+                value = perform(part, context)
+            if isinstance(value, Poison):
+                poisoned = True
+                continue
+            found = [_Word(value.text, part.span, tuple(reads), _as_written(part))]
+        if goes_on and begins:
+            found[0] = _both(words.pop(), found[0])
+        words += found
+        goes_on = ends
+    return POISON if poisoned else _values(words, context)
+
+
+def _both(word: _Word, more: _Word) -> _Word:
+    """Return the word that two are without a blank between them."""
+    raw = None if word.raw is None or more.raw is None else word.raw + more.raw
+    return _Word(word.text + more.text, _joined(word.span, more.span), word.reads + more.reads, raw)
 
 
 def _bare(template: MatchedTemplate, context: Context) -> tuple[Value, ...] | None:

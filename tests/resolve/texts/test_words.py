@@ -17,6 +17,7 @@ from orchestra.resolve.context import Poison
 from orchestra.resolve.words import split
 
 if TYPE_CHECKING:
+    from orchestra.resolve.context import Value
     from tests.resolve.texts.conftest import Place
 
 _PROBES = [
@@ -115,6 +116,22 @@ def test_a_text_over_several_lines_points_at_its_lines(place: Place) -> None:
         ("a", Span("f", 1, 1, 2, 2)),
         ("b", Span("f", 1, 1, 2, 2)),
     ]
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture, HealthCheck.too_slow], max_examples=50)
+@given(st.lists(st.sampled_from(["a", "é.", " ", "\t", "\n", "$(var a)", "$(var two)", "$(var empty)"])))
+def test_words_are_the_same_where_quotes_are_about(place: Place, pieces: list[str]) -> None:
+    place.set("two", "two words")
+    place.set("empty", "")
+    text = "".join(pieces)
+    plain, quoted = (split(place.write(item), place.context) for item in (text, f"{text} ''"))
+    assert not isinstance(plain, Poison)
+    assert not isinstance(quoted, Poison)
+    assert [_told(word) for word in plain] == [_told(word) for word in quoted[:-1]]
+
+
+def _told(word: Value) -> tuple[object, ...]:
+    return word.text, word.location, word.raw, word.verbatim, [read.name for read in word.through]
 
 
 def test_faults_inside_substitutions_make_the_whole_poison(place: Place) -> None:
