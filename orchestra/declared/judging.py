@@ -13,7 +13,7 @@ from orchestra.declared.model import Declarations, Fault, Parameter
 from orchestra.declared.rules import objections
 from orchestra.declared.texts import shown, types_of
 from orchestra.declared.typing_of_values import is_taken, rewritten, type_of
-from orchestra.fields import replace
+from orchestra.fields import field, replace
 from orchestra.nearest import is_slip, nearest
 
 if TYPE_CHECKING:
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from orchestra.values import ParameterValue
 
 _EMPTY_PARAMETER = Parameter("")
+_MOST: Final = 1000  # names that are remembered
 # Words of a regular expression, what begins with a backslash in it, and parts of a name.
 _WORD: Final = re.compile(r"[A-Za-z]{3,}")
 _ESCAPE: Final = re.compile(r"\\.")
@@ -33,6 +34,7 @@ class DeclaredParameters:
     """The schema of a node whose parameters are all known."""
 
     declared: Declarations
+    _matching: dict[str, list[Parameter]] = field(default_factory=dict, init=False, repr=False, compare=False)
 
     def faults(self, values: Mapping[str, ParameterValue]) -> Iterator[Fault]:
         """Yield what is wrong with values by dotted name."""
@@ -59,7 +61,14 @@ class DeclaredParameters:
                 yield missing(name, refused=parameter.default is not None)
 
     def _by_pattern(self, name: str) -> list[Parameter]:
-        return [item for pattern, item in self.declared.patterns if re.search(pattern, name)]
+        """Return what patterns declare of a name. Nodes of a kind are given the same names again and again."""
+        found = self._matching.get(name)
+        if found is None:
+            if len(self._matching) >= _MOST:
+                self._matching.clear()
+            found = [item for pattern, item in self.declared.patterns if re.search(pattern, name)]
+            self._matching[name] = found
+        return found
 
     def _meant_by_pattern(self, name: str) -> str | None:
         """Return a name that a pattern takes and this one is a slip for, word by word: `imu0_config`."""
