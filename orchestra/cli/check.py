@@ -110,7 +110,8 @@ def run(options: Namespace) -> int:
     if options.notes == "none":
         problems = tuple(problem for problem in problems if problem.severity is not Severity.NOTE)
     shown = "brief" if (options.format, options.notes) == ("text", "brief") else options.format
-    boundary.show_problems(problems, shown, sys.stdout, command_line=" ".join(words))
+    if problems or options.format != "text":
+        boundary.show_problems(problems, shown, sys.stdout, command_line=" ".join(words))
     if options.format == "text":
         sys.stdout.write(_summary(checked))
     faulty = any(problem.severity is Severity.ERROR for problem in problems)

@@ -5,13 +5,13 @@ from __future__ import annotations
 import gc
 import os
 from contextlib import contextmanager
-from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
 
 from orchestra.cli.look.finding import Finding
 from orchestra.cli.look.garbage import Garbage
 from orchestra.cli.look.kept import Kept
 from orchestra.cli.look.pool import Lost, Pool
+from orchestra.cli.look.scratch import scratch
 from orchestra.cli.look.sources import NOWHERE, is_source, shared
 from orchestra.cli.look.worker import Done
 from orchestra.cli.targets import Target
@@ -89,7 +89,9 @@ def _findings(
     targets: Sequence[Target], inputs: Inputs, manner: Manner, kept: Kept
 ) -> tuple[list[Finding], int]:
     """Return what is found in each file, and how much of that was known."""
-    findings = {number: known for number, target in enumerate(targets) if (known := kept.finding(target))}
+    findings: dict[int, Finding] = {}
+    if not kept.is_empty:
+        findings = {number: known for number, target in enumerate(targets) if (known := kept.finding(target))}
     unchanged = len(findings)
     missing = [number for number in range(len(targets)) if number not in findings]
     if missing:
@@ -107,10 +109,10 @@ def _looks(targets: Sequence[Target], inputs: Inputs, manner: Manner, kept: Kept
         return [looker.look(target)[0] for target in targets]
     # What is written alike stands together: whoever looks at it has read its like before.
     order = sorted(range(len(targets)), key=lambda number: _kind(targets[number]))
-    with TemporaryDirectory(prefix="orchestra-check-") as scratch, _frozen():
+    with scratch() as folder, _frozen():
         ordered = [targets[number] for number in order]
         pool = Pool(
-            lambda: _Looking(ordered, Looker(inputs), kept, scratch),
+            lambda: _Looking(ordered, Looker(inputs), kept, folder),
             max(1, min(manner.jobs, len(targets))),
             manner.patience,
         )
@@ -130,10 +132,10 @@ def get_ready() -> None:
 class _Looking:
     """Looks at files in a process of its own, and keeps what is found."""
 
-    def __init__(self, targets: Sequence[Target], looker: Looker, kept: Kept, scratch: str) -> None:
+    def __init__(self, targets: Sequence[Target], looker: Looker, kept: Kept, folder: str) -> None:
         self._targets, self._looker, self._kept = targets, looker, kept
         self._garbage = Garbage()
-        looker.watch(os.path.realpath(scratch))
+        looker.watch(folder)
 
     def foresee(self, piece: int) -> None:
         """Read one of the files, which is looked at soon."""
@@ -164,7 +166,7 @@ def _frozen() -> Iterator[None]:
 
 
 def _kind(target: Target) -> tuple[str, str]:
-    return target.kind, os.path.splitext(target.path)[1]  # noqa: PTH122 - pathlib is slow
+    return target.kind, target.path.rpartition(".")[2]
 
 
 def _finding(target: Target, result: Any) -> Finding:  # noqa: ANN401 - JSON data

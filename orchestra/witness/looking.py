@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 _stat, _lstat, _readlink, _access, _scandir = os.stat, os.lstat, os.readlink, os.access, os.scandir
 _CHUNK: Final = 1 << 16
 
-_FEW: Final = 4
+_FEW: Final = 128
 _LATELY: Final[dict[str, bytes]] = {}
 
 # Nanoseconds in which a file may be changed twice without a sign: clocks of file systems tick slowly.

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import sys
 from typing import Final
 
 _MANY: Final = (
@@ -15,9 +16,13 @@ class Garbage:
 
     def __init__(self) -> None:
         self._files = 0
+        self._modules = len(sys.modules)
 
     def left_by(self, *, code: bool) -> None:
         """Take note of a file that has been looked at; `code` tells whether it has any that has run."""
+        if len(sys.modules) > self._modules:
+            self._modules = len(sys.modules)
+            gc.freeze()  # what has been imported stays, and is far more than files leave: nobody walks through it
         self._files += code
         if self._files >= _MANY:
             self._files = 0

@@ -64,9 +64,14 @@ class Kept:
                 )
             )
 
+    @property
+    def is_empty(self) -> bool:
+        """Whether no earlier check has left anything that can be read."""
+        return self._store is None or self._store.is_empty
+
     def finding(self, target: Target) -> Finding | None:
         """Return what was found in a file if nothing has changed that it depends on."""
-        if self._store is None or self._store.is_empty:
+        if self._store is None:
             return None
         found = self._store.read(self._key(target))
         if found is None or not self._world.holds(found[0]):

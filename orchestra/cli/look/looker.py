@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import gc
 import os
-import tempfile
 from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -23,6 +22,7 @@ from orchestra.load.files import PYTHON
 from orchestra.location import Location, displayed, point
 from orchestra.resolve.mentions import files_named
 from orchestra.resolve.python.environ import put_environment
+from orchestra.resolve.python.files import Files
 from orchestra.resolve.python.isolation import isolated
 from orchestra.resolve.rcl.files import read_parameter_file
 from orchestra.settings.comments import MARK
@@ -75,7 +75,7 @@ class Looker:
         """
         self._isolating = Standing().isolated
         put_environment(self._environment)  # so that none has to be put there and back for each file
-        tempfile.tempdir = scratch
+        Files.above = scratch
         observer().scratch = scratch
         observer().install()
         gc.disable()

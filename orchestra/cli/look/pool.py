@@ -38,12 +38,16 @@ class Lost:
 
 @dataclass(slots=True)
 class _Worker:
-    """A process; `pieces` are those that it was given, of which nothing has been heard yet."""
+    """A process; `pieces` are those that it was given, of which nothing has been heard yet.
+
+    One that `is_ending` takes no more.
+    """
 
     number: int
     pid: int
     channels: Channels
     pieces: list[int] = field(default_factory=list)
+    is_ending: bool = False
     since: float = 0.0
     received: bytearray = field(default_factory=bytearray)
 
@@ -77,16 +81,18 @@ class Pool:
             while shares.left or any(worker.pieces for worker in self._workers.values()):
                 self._share_out(shares)
                 yield from self._gathered(shares)
-            self._let_go()
+            self._wait()
         finally:
             self._end(*self._workers.values())
             self._selector.close()
 
     def _share_out(self, shares: Shares) -> None:
-        there = {worker.number: worker for worker in self._workers.values()}
+        there = {worker.number: worker for worker in self._workers.values() if not worker.is_ending}
         for number in range(self._most):
             worker = there.get(number)
-            if (worker is None or not worker.pieces) and shares.left:
+            if worker is not None and not worker.pieces and not shares.left:
+                _let_go(worker)
+            elif (worker is None or not worker.pieces) and shares.left:
                 worker = worker or self._start(number)
                 worker.pieces, worker.since = shares.take(number), time.monotonic()
                 worker.channels.progress[0], worker.channels.progress[1] = 0, worker.since
@@ -140,11 +146,11 @@ class Pool:
             self._end(worker)
         return zip(pieces, results, strict=False)
 
-    def _let_go(self) -> None:
+    def _wait(self) -> None:
         """Let processes do what is left, and end by themselves."""
         for worker in self._workers.values():
-            with suppress(BrokenPipeError):  # it is dead, and there is nothing left for it
-                send(worker.channels.orders, [])
+            if not worker.is_ending:
+                _let_go(worker)
         deadline = time.monotonic() + _PATIENCE
         while self._workers and (seconds := deadline - time.monotonic()) > 0:
             for key, _ in self._selector.select(seconds):
@@ -180,6 +186,13 @@ class Pool:
         for pid in left:
             _, status = os.waitpid(pid, 0)
         return status
+
+
+def _let_go(worker: _Worker) -> None:
+    """Let a process do what it has left, and end by itself."""
+    worker.is_ending = True
+    with suppress(BrokenPipeError):  # it is dead, and there is nothing left for it
+        send(worker.channels.orders, [])
 
 
 def _hears(worker: _Worker) -> bool:

@@ -5,7 +5,6 @@ A plan has parameters in one file per node instead, with the same effect.
 
 from __future__ import annotations
 
-import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -61,6 +60,8 @@ def parameter_words(own: Iterable[Any], node: str | None, context: LaunchContext
 
 def _file(values: Mapping[str, Any], section: str) -> str:
     """Write a parameter file; the resolution removes those of user code."""
+    import tempfile  # noqa: PLC0415 - slow, and only user code that asks for the words comes here
+
     plain = {name: list(value) if isinstance(value, tuple) else value for name, value in values.items()}
     with tempfile.NamedTemporaryFile("w", prefix="launch_params_", delete=False) as file:
         file.write(_yaml({section: {"ros__parameters": plain}}))

@@ -3,10 +3,16 @@
 from __future__ import annotations
 
 import os
+from typing import ClassVar
 
 
 class Files:
-    """The folder for temporary files; it is there when code of a launch file runs for the first time."""
+    """The folder for temporary files; it is there when code of a launch file runs for the first time.
+
+    It is made in the folder `above`, None where it goes to the usual place.
+    """
+
+    above: ClassVar[str | None] = None
 
     def __init__(self) -> None:
         self.folder: str | None = None

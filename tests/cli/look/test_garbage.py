@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import sys
 import weakref
 from typing import TYPE_CHECKING
 
@@ -61,3 +62,17 @@ def test_descriptions_are_kept_that_were_used_last(tmp_path: Path, monkeypatch: 
     assert load("a") is first
     assert load("b") is not second
     assert load("b") == second
+
+
+@pytest.mark.usefixtures("_no_collector")
+def test_what_has_been_imported_is_not_walked_through(monkeypatch: pytest.MonkeyPatch) -> None:
+    garbage, frozen = Garbage(), gc.get_freeze_count()
+    try:
+        garbage.left_by(code=True)
+        assert gc.get_freeze_count() == frozen
+        monkeypatch.setitem(sys.modules, "one_more", sys)
+        kept = [[number] for number in range(1000)]
+        garbage.left_by(code=True)
+        assert gc.get_freeze_count() >= frozen + len(kept)
+    finally:
+        gc.unfreeze()
