@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -38,11 +40,35 @@ def scarce():
 os.fork = scarce
 raise SystemExit(run(lambda _stream: 0))
 """
+_WITHOUT_A_THREAD = """
+import threading
+from orchestra.supervise.options import RunOptions
+from orchestra.supervise.resolver.document import dumps
+from orchestra.supervise.run import run
+from tests.supervise.plans import plan
+
+def none(_thread):
+    raise RuntimeError("can't start new thread")
+
+def prepare(stream):
+    stream.write(dumps(plan(), RunOptions()))
+    return 0
+
+threading.Thread.start = none
+raise SystemExit(run(prepare))
+"""
 
 
-def ended(program: str) -> tuple[int, str]:
+def ended(program: str, **environment: str) -> tuple[int, str]:
     """Carry out a program and return its status and what it has told."""
-    done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True, check=False)
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        capture_output=True,
+        text=True,
+        check=False,
+        env={**os.environ, **environment},
+        cwd=Path(__file__).parents[2],
+    )
     return done.returncode, done.stderr
 
 
@@ -61,4 +87,11 @@ def test_a_run_that_finds_no_room_for_a_process_says_so(room: int) -> None:
     assert ended(_WITHOUT_ROOM.replace("ROOM", str(room))) == (
         1,
         "[orchestra] the run cannot begin, for no process can be started: Resource temporarily unavailable\n",
+    )
+
+
+def test_a_run_that_finds_no_room_for_a_thread_says_so(tmp_path: Path) -> None:
+    assert ended(_WITHOUT_A_THREAD, ORCHESTRA_HOME=str(tmp_path)) == (
+        1,
+        "[orchestra] the run cannot begin: can't start new thread\n",
     )

@@ -12,8 +12,10 @@ from orchestra.logs.journal import Journal
 from orchestra.logs.outputs import OVERRIDE, forced_output
 from orchestra.logs.rotation import ENDLESS, Rotation
 from orchestra.logs.writer import STUCK_AFTER, Writer
+from orchestra.supervise.outcome import FAILED
 from orchestra.supervise.output.intake import Intake
 from orchestra.supervise.output.recorder import Recorder
+from orchestra.supervise.resolver.resolving import Refused
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -42,7 +44,7 @@ def books(
     """Open what a run writes to; at the end it is all on the disk, unless that hangs."""
     with ExitStack() as opened:
         warn = _Warning()
-        writer = Writer(warn)
+        writer = _writer(warn)
         opened.callback(writer.close)
         recorder = Recorder(writer.file(directory.events, ENDLESS, forms.EVENTS))
         opened.callback(recorder.close)
@@ -64,6 +66,13 @@ def books(
         intake = Intake(loop, writer, warn.stuck)
         opened.callback(intake.close)
         yield Books(recorder, journal, intake)
+
+
+def _writer(warn: _Warning) -> Writer:
+    try:
+        return Writer(warn)
+    except RuntimeError as error:  # where there is no room for one more thread
+        raise Refused(FAILED, f"the run cannot begin: {error}") from error
 
 
 def _forced(options: RunOptions) -> tuple[str | None, str | None]:
