@@ -47,10 +47,13 @@ _WANTED = {
 }
 _QUOTES = ("'", '"')
 _HALF_QUOTED = pattern(r"""[^\s"']*[^\s"'0-9]["']""")
-# Substitutions without their '$': of names that nobody puts in brackets for anything else.
+# Substitutions without their '$', of names that nobody puts in brackets for anything else, or with their name before
+# the bracket, as `$env(HOME)`.
 _BARE = pattern(
-    r"(?<![$\\\w])(?:\$[ ])?\((var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|path-join)[ ]"
+    r"(?<![$\\\w])(?:(?:\$[ ])?\((var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|path-join)[ ]"
     r"(?:[^()]|\$\([^()]*\))+\)"
+    r"|\$(env|var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|dirname|eval|command)\("
+    r"((?:[^()]|\$\([^()]*\))*)\))"
 )
 _LISTS = ("list_type", "tuple_type")
 
@@ -109,7 +112,13 @@ class Reader:
         return template
 
     def _is_lost(self, bare: re.Match[str], written: Written) -> bool:
-        """Report a substitution without its '$'; return whether nothing else can be meant."""
+        """Report a substitution without its '$', or before its bracket; return whether nothing else is meant."""
+        if bare[2] is not None:
+            told = f"{bare[0]} is no substitution: the name stands behind the bracket"
+            instead = f"$({f'{bare[2]} {bare[3]}'.strip()})"
+            at = written.spans(*bare.span())
+            self.warning(Code.SUBSTITUTION_SYNTAX, told, at, suggestion=instead)
+            return False
         certain = bare[1] != "var"
         report = self.error if certain else self.warning
         told = f"{bare[0]} is no substitution: a '$' is missing before it"

@@ -102,7 +102,7 @@ def _without_tabs(text: str, at: int) -> Iterator[Mend]:
     tabs, line = list[tuple[int, int]](), text.rfind("\n", 0, at) + 1
     while (found := _TABS.match(text, line)) is not None:
         tabs.append(found.span(1))
-        line = _line_end(text, line) + 1
+        line = (text.find("\n", line) + 1) or len(text)
     for width in (4, 2, 8):
         yield Mend(tuple((begin, end, text[begin:end].replace("\t", " " * width)) for begin, end in tabs))
 

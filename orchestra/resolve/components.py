@@ -69,7 +69,7 @@ def _component(
 ) -> ResolvedComponent:
     package, plugin = _package(written, run), run.evaluate(written.plugin)
     if isinstance(package, str) and isinstance(plugin, Value) and not written.faulty:
-        plugin = check_plugin(package, plugin, run)
+        plugin = check_plugin(package, plugin, written.pkg, run)
     name, namespace = named(written.name, run), namespace_at(written.namespace, written, run)
     own, whole = parameters(written.param, run, component=True)
     extra, told = parameters(written.extra_arg, run, component=True, quotes=False)

@@ -215,7 +215,13 @@ def _stem(name: str) -> str:
 def _replaced(written: str, name: str, near: str) -> str:
     """Return a path with the last part of this name replaced."""
     before, found, after = written.rpartition(name)
-    return f"{before}{near}{after}" if found else written
+    if found:
+        return f"{before}{near}{after}"
+    start, slash, end = near.rpartition("/")
+    if slash and end and start + end == name:  # behind a substitution, as in `$(dirname)config`
+        before, found, after = written.rpartition(f"){end}")
+        return f"{before})/{end}{after}" if found else written
+    return written
 
 
 def exists(path: Path) -> bool:

@@ -13,12 +13,13 @@ from orchestra.resolve.containers import known_components
 from orchestra.resolve.packages.components import is_named_by_module, registered_by, target_of
 from orchestra.resolve.packages.modules import Unrunnable, source_of, unimportable
 from orchestra.resolve.python_programs import PATHS
-from orchestra.resolve.refusals import refuse_value
+from orchestra.resolve.refusals import refuse, refuse_value
 from orchestra.witness.once import once
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from orchestra.description.text import Template
     from orchestra.resolve.context import Poison, Value
     from orchestra.resolve.resolution import Resolution
 
@@ -26,14 +27,15 @@ if TYPE_CHECKING:
 _OWN_WAY: Final = frozenset({"__getattr__", "*"})
 
 
-def check_plugin(package: str, plugin: Value, run: Resolution) -> Value | Poison:
-    """Return a plugin; one that must be in Python and is not here is reported.
+def check_plugin(package: str, plugin: Value, pkg: Template, run: Resolution) -> Value | Poison:
+    """Return a plugin; one that must be in Python and is not here is reported, and one that its package has not.
 
-    Where nothing is started another environment may have it: then it is no error, unless its name is a slip.
+    Where nothing is started another environment may have what is in Python: then it is no error, unless its name is a
+    slip. `pkg` is the package as it is written.
     """
     fault = _fault(package, plugin.text, run)
     if fault is None:
-        return plugin
+        return _check_registered(package, plugin, pkg, run)
     slip = fault.meant is not None and is_slip(_top(plugin.text), _top(fault.meant))
     weight = run.inputs.weights.package
     if fault.certain or weight is Severity.ERROR or slip:
@@ -63,12 +65,29 @@ def _fault(package: str, plugin: str, run: Resolution) -> Unrunnable | None:
 
 def _registered(package: str, plugin: str, run: Resolution) -> str | None:
     """Return the component in C++ of a package that a name is a slip for, None where it has one of that name."""
-    prefix = run.context.packages.prefix(package)
-    if prefix is None:
-        return None
-    names = once(("registered", package, str(prefix)), lambda: registered_by(package, Path(prefix)))
+    names = _components_of(package, run)
     meant = None if plugin in names else nearest(plugin, names)
     return meant if meant is not None and is_slip(plugin, meant) else None
+
+
+def _components_of(package: str, run: Resolution) -> list[str]:
+    """Return the names of the components in C++ that a package registers; none where it is not here."""
+    prefix = run.context.packages.prefix(package)
+    if prefix is None:
+        return []
+    return once(("registered", package, str(prefix)), lambda: registered_by(package, Path(prefix)))
+
+
+def _check_registered(package: str, plugin: Value, pkg: Template, run: Resolution) -> Value | Poison:
+    """Return a plugin in C++; one that another package registers, and not the one that is named, is reported."""
+    name = plugin.text
+    owner = name.partition("::")[0]
+    if owner == package or target_of(package, name, known_components(run)) is not None:
+        return plugin
+    if name in _components_of(package, run) or name not in _components_of(owner, run):
+        return plugin
+    told = f"package {package!r} has no component {name!r}: {owner!r} has it"
+    return refuse(pkg, run.context, Code.MISSING_EXECUTABLE, told, meant=owner)
 
 
 def _fault_in(plugin: str, folder: str) -> Unrunnable | None:

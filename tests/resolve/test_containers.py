@@ -136,6 +136,21 @@ def test_a_component_that_is_not_there_is_told(
     assert marked(problem.span).strip("'") == plugin
 
 
+def test_a_component_that_another_package_registers_is_told_at_the_package(folder: Path) -> None:
+    index = folder / "prefix/share/ament_index/resource_index"
+    names = {"demo": "demo::Camera", "depth_demo": "depth_demo::Cloud"}
+    for package, name in names.items():
+        for kind, text in (("packages", ""), ("rclcpp_components", f"{name};lib/lib{package}.so\n")):
+            (index / kind).mkdir(parents=True, exist_ok=True)
+            (index / kind / package).write_text(text, "utf-8")
+    found = _planned(folder, "demo::Camera", "depth_demo::Cloud", "other::Cloud", prefix=folder / "prefix")
+    (problem,) = [item for item in found.problems if item.code is Code.MISSING_EXECUTABLE]
+    assert problem.message == "package 'demo' has no component 'depth_demo::Cloud': 'depth_demo' has it"
+    assert problem.suggestion == "depth_demo"
+    assert problem.span is not None
+    assert marked(problem.span) == "demo"
+
+
 def test_a_module_that_another_machine_may_have_is_a_warning_where_nothing_is_started(folder: Path) -> None:
     (problem,) = _planned(folder, "elsewhere.parts:Part", launching=False).problems
     assert problem.message == "there is no module 'elsewhere' on this machine"

@@ -23,6 +23,7 @@ if TYPE_CHECKING:
     _Planned: TypeAlias = Process | Component
     _Written: TypeAlias = ResolvedProcess | ResolvedComponent
 
+_PAIR: Final = 2
 _GLOBAL: Final = frozenset({"tf", "tf_static", "clock", "rosout", "parameter_events", "diagnostics"})
 # What is told where nodes say which topics they have.
 _KNOWN: Final = frozenset({Code.TOPIC_TYPE, Code.UNFED_TOPIC})
@@ -73,16 +74,26 @@ def _check(uses: Iterable[_Use], users: dict[str, set[str]], told: set[object], 
 
 
 def _alike(uses: Iterable[_Use]) -> Iterator[list[_Use]]:
-    """Yield the uses of names that differ only in case or in a slash, where there are several names."""
+    """Yield the uses of names that differ only in case or in a slash, where there are several names.
+
+    Of nodes in different namespaces these are names of several levels, one with a slash before it, one without: a
+    single level, as `scan`, is often the same for each of several robots and for none.
+    """
     groups: dict[object, list[_Use]] = {}
+    apart: dict[str, list[_Use]] = {}
     for use in uses:
         groups.setdefault(use.name.replace("/", "").lower(), []).append(use)
         bare = use.written.text.removeprefix("/")
         plain = use.name in (f"/{bare}", f"{use.namespace}/{bare}")
         if plain and use.namespace != "/" and bare not in _GLOBAL:
             groups.setdefault((use.namespace, bare), []).append(use)
+        if plain and "/" in bare:
+            apart.setdefault(bare, []).append(use)
     for group in groups.values():
         if len({use.name for use in group}) > 1:
+            yield group
+    for bare, group in apart.items():
+        if {f"/{bare}"} < {use.name for use in group} and len({use.name for use in group}) == _PAIR:
             yield group
 
 

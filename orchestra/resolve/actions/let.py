@@ -17,6 +17,11 @@ def visit(action: Let, run: Resolution) -> None:
     """Set a variable."""
     name, value = run.evaluate(action.name), run.evaluate(action.value)
     if isinstance(name, Value) and value is not None:
+        ledger = run.scope.ledger
+        if name.text in ledger.declared and name.text not in ledger.read and not is_python(name.location):
+            from orchestra.resolve.impossible.overwritten import check_overwritten  # noqa: PLC0415 - hardly ever
+
+            check_overwritten(action, name, run)
         run.scope.set(name.text, value, run.place(action.value))
         settle(name.text, action.span, run)
         if name.verbatim and not is_python(name.location):

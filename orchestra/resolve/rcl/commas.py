@@ -34,7 +34,7 @@ def without_slip(text: str) -> tuple[str, str] | None:
     if commented := _COMMENTED.fullmatch(text):
         return "a comment begins with a blank and '#'", f"{commented[1]} # {commented[2]}"
     if meant := SLIPS.get(text.lower()) or (text.lower() if text.lower() in _BOOLEANS else None):
-        return f"the boolean is {meant}", meant
+        return f"the boolean is {meant}", meant.capitalize() if text.istitle() else meant
     if suffixed := _SUFFIXED.fullmatch(text):
         return "a number has no letter behind it", suffixed[1]
     if _DECIMAL.fullmatch(text):

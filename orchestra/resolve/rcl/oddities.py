@@ -13,6 +13,7 @@ from orchestra.description.source import shortened
 from orchestra.errors import Code
 from orchestra.fields import replace
 from orchestra.patterns import pattern
+from orchestra.resolve.rcl.listed import report_unlisted
 from orchestra.resolve.rcl.odd_names import may_be_odd, odd_name
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ _UNIT: Final = pattern(
 )
 # Neither leaves open where a part of it ends: a text takes time in proportion to its length.
 _NUMBERS: Final = pattern(r"{0}(?:\s+{0})+".format(r"[-+]?(?:[0-9]+(?:\.[0-9]+)?|\.[0-9]+)"))
+_NAMES: Final = pattern(r"[A-Za-z]\w*(?: +[A-Za-z]\w*)+")
 _TAG: Final = pattern(r"!\S*")
 _KINDS: Final = {"!!str": str, "!!int": int, "!!float": float, "!!bool": bool, "!!seq": tuple}
 # What a float does not keep: digits around an `e`, a zero behind all others; and names of what is no quantity.
@@ -39,6 +41,7 @@ _NAMING: Final = pattern(
     r"(?:$|_)|(?:^|[_.])(?:code|id|label|model|name|sn|tag)$"
 )
 _DASHED: Final = pattern(r"-[A-Za-z_/]")
+_AN_ITEM: Final = pattern(r"-[\sA-Za-z_/]")
 _ITEM: Final = pattern(r"\s*(-\s\S*(?:\s+\S+)*)\s*")
 
 
@@ -46,6 +49,7 @@ def report_oddities(sections: Sequence[Section], lines: Sequence[str], problems:
     """Report such names and values in the lines of a file."""
     numbers: set[str] | None = None
     tagged = any("!" in line for line in lines)
+    report_unlisted(sections, problems)
     for section in sections:
         for entry in section.entries:
             if entry.value is not None and may_be_odd(entry.name):
@@ -120,23 +124,30 @@ def _report_list(entry: Entry, lines: Sequence[str], problems: Problems) -> None
 
 
 def _report_blanks(entry: Entry, lines: Sequence[str], problems: Problems) -> None:
-    """Report numbers in brackets without commas, as `[0.5 0.3]`: a list of one text."""
+    """Report what stands in brackets without commas, as `[0.5 0.3]` or `[map_server amcl]`: a list of one text."""
     text = entry.value[0] if isinstance(entry.value, tuple) and len(entry.items) == 1 else None
-    if not isinstance(text, str) or not _NUMBERS.fullmatch(text):
+    if not isinstance(text, str) or " " not in text:
         return
-    if "." in text or _text_at(entry.items[0], lines)[:1] not in ("'", '"'):
+    quoted = _text_at(entry.items[0], lines)[:1] in ("'", '"')
+    names = not quoted and "_" in text and _NAMES.fullmatch(text) and _is_in_brackets(entry, lines)
+    if names or (_NUMBERS.fullmatch(text) and ("." in text or not quoted)):
         told = f"'{shortened(text)}' is one text: commas stand between the items of a list"
         at, instead = entry.items[0], ", ".join(text.split())
         problems.warning(Code.SURPRISING_SCALAR, told, at, suggestion=instead)
 
 
+def _is_in_brackets(entry: Entry, lines: Sequence[str]) -> bool:
+    return _text_at(entry.location, lines)[:1] == "["
+
+
 def _report_items(at: Location, value: str, lines: Sequence[str], problems: Problems) -> None:
     """Report a line of a plain text that is an item of a list but for its indentation."""
     span = at.span
-    if span.line == span.end_line or " - " not in value or _text_at(at, lines)[:1] in ("'", '"', "|", ">"):
+    if span.line == span.end_line or " -" not in value or _text_at(at, lines)[:1] in ("'", '"', "|", ">"):
         return
     first = _text_at(at, lines)
-    if _DASHED.match(first):
+    others = [line.lstrip() for line in lines[span.line : span.end_line] if line.strip()]
+    if _DASHED.match(first) and all(map(_AN_ITEM.match, others)):
         place = replace(span, end_line=span.line, end_column=span.column + len(first.rstrip()))
         told = f"a blank is missing behind the '-' of '{shortened(first.rstrip())}'"
         instead = f"- {first[1:].rstrip()}"

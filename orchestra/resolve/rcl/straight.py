@@ -68,8 +68,8 @@ class _Lines:
     """
 
     __slots__ = (
-        *("_dotted", "_end_line", "_entries", "_file", "_grouped", "_lines", "_patterns", "_taken"),
-        *("found", "next"),
+        *("_dotted", "_end_line", "_entries", "_file", "_grouped", "_lines", "_patterns", "_plugged"),
+        *("_taken", "found", "next"),
     )
 
     def __init__(self, file: str, lines: list[tuple[int, re.Match[str]]], end: int | None) -> None:
@@ -112,13 +112,19 @@ class _Lines:
         self._patterns.add(name)
         self._entries: list[Entry] = []
         self._taken: set[str] = set()
-        self._dotted = self._grouped = False
+        self._dotted = self._grouped = self._plugged = False
         self.next += 1
         self._parameters(self._deeper(column), "", 0)
         self._end(column - 1)
         if self._dotted and self._grouped:  # rcl takes names apart at their points
             raise Unlike
-        self.found.append(Section(name, tuple(self._entries), at))
+        section = Section(name, tuple(self._entries), at)
+        if self._plugged:
+            from orchestra.resolve.rcl.listed import unlisted  # noqa: PLC0415 - few nodes load plugins
+
+            if any(unlisted(section)):
+                raise Unlike
+        self.found.append(section)
 
     def _parameters(self, column: int, group: str, depth: int) -> None:
         lines, count = self._lines, len(self._lines)
@@ -163,6 +169,7 @@ class _Lines:
         self._taken.add(whole)
         self._dotted = self._dotted or "." in name
         self._grouped = self._grouped or value is None
+        self._plugged = self._plugged or name == "plugin"
         self._entries.append(new_entry(whole, value, at, key, group or whole, value is None, items))
         return whole
 

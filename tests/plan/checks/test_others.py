@@ -70,6 +70,10 @@ WRONG: dict[str, tuple[str, list[Told]]] = {
         node("a", namespace="r", remap=_to("cmd_vel")) + node("b", namespace="r", remap=_to("/cmd_vel")),
         [(Code.SPLIT_TOPIC, "/cmd_vel", "cmd_vel")],
     ),
+    "names of several levels, in a namespace and in the root, of nodes in different namespaces": (
+        node("a", remap=_to("/lidar/packets")) + node("b", namespace="r", remap=_to("lidar/packets")),
+        [(Code.SPLIT_TOPIC, "lidar/packets", "/lidar/packets")],
+    ),
     "a topic that is waited for under another case": (
         node("a", remap=_to("/front/scan")) + node("b", ready="{topic: /front/Scan}"),
         [(Code.SPLIT_TOPIC, "/front/Scan", "/front/scan")],
@@ -98,6 +102,13 @@ def test_what_can_never_work_is_told_once(case: str, tmp_path: Path) -> None:
 
 
 RIGHT: dict[str, str] = {
+    "names of several levels of two robots, and one of none": node("a", remap=_to("/lidar/packets"))
+    + node("b", namespace="r", remap=_to("lidar/packets"))
+    + node("c", namespace="s", remap=_to("lidar/packets")),
+    "a name of one level in a namespace and in the root, of nodes in different namespaces": node(
+        "a", remap=_to("/scan")
+    )
+    + node("b", namespace="r", remap=_to("scan")),
     "components without a name in namespaces, or renamed": _container(
         "{pkg: p, plugin: A}",
         "{pkg: p, plugin: A, namespace: x}",
