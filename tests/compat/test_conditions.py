@@ -128,6 +128,13 @@ def test_a_configuration_is_compared_as_text(
         assert _holds_in_a_plan(condition, context) is holds
 
 
+def test_no_configuration_has_the_name_that_a_substitution_gives(context: LaunchContext) -> None:
+    """Upstream looks for the object itself."""
+    name: Any = LaunchConfiguration("yes")
+    assert not LaunchConfigurationEquals(name, "true").evaluate(context)
+    assert LaunchConfigurationNotEquals(name, "true").evaluate(context)
+
+
 def test_it_is_known_what_a_comparison_reads() -> None:
     condition = LaunchConfigurationEquals("yes", LaunchConfiguration("one"))
     (part,) = condition._fields(_SPAN)["if"].parts

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 from orchestra.compat.described import described
 from orchestra.compat.launch.condition import Condition
+from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.launch.utilities.perform_substitutions_impl import perform_substitutions
 from orchestra.compat.place import here
 from orchestra.compat.refusing import collector
@@ -42,7 +43,9 @@ class LaunchConfigurationEquals(Condition):
 
     def _predicate_func(self, context: LaunchContext) -> bool:
         value: Any = context.launch_configurations.get(self.__name)
-        if value is None and self.__expected is not None:
+        if not isinstance(self.__name, str):
+            self.__report_value()
+        elif value is None and self.__expected is not None:
             self.__report_slip(context)
         expected = None if self.__expected is None else perform_substitutions(context, self.__expected)
         return (value == expected) is self._wanted
@@ -56,6 +59,22 @@ class LaunchConfigurationEquals(Condition):
         told = f"no launch argument or variable '{self.__name}' is set here: the condition is always the same"
         at = Location(self.__place.at("launch_configuration_name"), chain)
         problems.warning(Code.UNDEFINED_VARIABLE, told, at, suggestion=meant)
+
+    def __report_value(self) -> None:
+        """Warn of what gives the value of a configuration where its name is meant: none is called like that object."""
+        # Here, because only mistakes need it, and what it imports.
+        from orchestra.compat.rewritten import Rewritten  # noqa: PLC0415
+
+        collecting = collector()
+        if collecting is None:
+            return
+        problems, chain = collecting
+        argument = self.__place.at("launch_configuration_name")
+        parts = getattr(self.__name, "variable_name", ())
+        name = parts[0].text if len(parts) == 1 and isinstance(parts[0], TextSubstitution) else None
+        told = "the name of a launch argument or variable is wanted here: the condition is always the same"
+        meant = None if name is None else Rewritten(repr(name))
+        problems.warning(Code.UNDEFINED_VARIABLE, told, Location(argument, chain), suggestion=meant)
 
     def _fields(self, span: Span) -> dict[str, Any]:
         """Return an opaque text, of which it is known what it reads: equality of booleans is another thing."""
