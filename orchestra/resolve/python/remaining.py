@@ -27,6 +27,7 @@ _PYTHON: Final = tuple(
     os.path.realpath(sysconfig.get_path(name)) for name in ("stdlib", "platstdlib", "purelib", "platlib")
 )
 _PATIENCE: Final = 0.2
+_PAUSE: Final = 0.001
 
 
 class Remaining:
@@ -184,8 +185,22 @@ def _words(child: int) -> str | None:
     try:
         with open(f"/proc/{child}/stat", "rb") as file:  # noqa: PTH123 - pathlib is slow
             name, _, rest = file.read().decode(errors="replace").rpartition(")")
-        with open(f"/proc/{child}/cmdline", "rb") as file:  # noqa: PTH123 - as above
-            words = file.read().replace(b"\0", b" ").decode(errors="replace").strip()
+        words = _command_line(child)
     except OSError:
         return None
     return None if rest.split()[0] == "Z" else words or name.partition("(")[2]
+
+
+def _command_line(child: int) -> str:
+    """Return it with blanks, empty where there is none.
+
+    It is empty for a moment, too, where a program begins: the kernel tells whoever started it before it has put the
+    words in their place (execve(2)).
+    """
+    until = time.monotonic() + _PATIENCE
+    while True:
+        with open(f"/proc/{child}/cmdline", "rb") as file:  # noqa: PTH123 - as above
+            words = file.read().replace(b"\0", b" ").decode(errors="replace").strip()
+        if words or not os.path.exists(f"/proc/{child}/exe") or time.monotonic() > until:  # noqa: PTH110 - as above
+            return words
+        time.sleep(_PAUSE)

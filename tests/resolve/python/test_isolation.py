@@ -7,6 +7,7 @@ import atexit
 import builtins
 import decimal
 import gc
+import io
 import locale
 import logging
 import multiprocessing
@@ -32,6 +33,7 @@ from orchestra.errors import Code, Problems, Severity
 from orchestra.location import point
 from orchestra.pipeline import collect, inputs_from, opened
 from orchestra.plan.codec import encode
+from orchestra.resolve.python import remaining
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -338,6 +340,13 @@ def test_where_a_process_goes_on_a_file_knows_nothing_of_another_one_either(
         for _ in range(2):
             resolve(_write(tmp_path, here + first))
             assert resolve(_write(tmp_path, here + second)) == alone
+
+
+def test_a_program_that_is_only_beginning_is_told_with_its_words(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The kernel lets its parent go on before the words of the program can be read."""
+    read = iter([b"", b"", b"sleep\x00600\x00"])
+    monkeypatch.setattr(remaining, "open", lambda *_: io.BytesIO(next(read)), raising=False)
+    assert remaining._command_line(os.getpid()) == "sleep 600"
 
 
 def _resolve_anyhow(path: Path) -> None:
