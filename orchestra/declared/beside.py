@@ -2,14 +2,19 @@
 
 from __future__ import annotations
 
-from orchestra.declared.convention import definition_beside, names_of_class, schema_beside
+from orchestra.declared.convention import SCHEMAS, definition_beside, names_of_class, schema_beside
 from orchestra.declared.kinds import is_definition
 from orchestra.errors import Problems
 from orchestra.witness.once import once
 
 
-def schema_of_package(share: str, called: str) -> str | None:
-    """Return the path of the schema for an executable, or for a class `pkg::Class`, of a package."""
+def schema_of_package(share: str, called: str, endings: frozenset[str] | None) -> str | None:
+    """Return the path of the schema for an executable, or for a class `pkg::Class`, of a package.
+
+    `endings` are those of the files that it may be, as `endings_beside` tells them.
+    """
+    if endings is not None and endings.isdisjoint(SCHEMAS):
+        return None
     return once(("schema", share, called), lambda: _schema(share, called))
 
 

@@ -8,18 +8,48 @@ are nodes' are not looked for: the launch file gives them, and may give any.
 
 from __future__ import annotations
 
+import os
 from typing import TYPE_CHECKING, Final
 
 from orchestra.location import is_file
 from orchestra.patterns import pattern
+from orchestra.witness.once import once
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
 FOLDERS: Final = ("params", "config")
+NODL_FOLDERS: Final = ("nodl", "")
 _ENDINGS: Final = (".schema.json", ".schema.yaml", ".schema.yml")
 _DEFINITION: Final = "_parameters.yaml"
+SCHEMAS: Final = (*_ENDINGS, _DEFINITION)
+INTERFACES: Final = (".interface.yaml", ".interface.yml", ".interface.json")
+NODL: Final = (".nodl.yaml", ".nodl.yml", ".nodl.json")
+NODL_XML: Final = ".nodl.xml"
 _HUMP: Final = pattern(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])")
+
+
+def endings_beside(share: str) -> frozenset[str] | None:
+    """Return how the files of a package end that may declare something, for any executable; None where nobody can tell.
+
+    Most packages have none: then nothing is looked for by the names of their executables.
+    """
+    return once(("endings", share), lambda: _endings(share))
+
+
+def _endings(share: str) -> frozenset[str] | None:
+    found: set[str] = set()
+    known = (*SCHEMAS, *INTERFACES, *NODL, NODL_XML)
+    for folder in dict.fromkeys((*FOLDERS, *NODL_FOLDERS)):
+        try:
+            names = os.listdir(f"{share}/{folder}")  # noqa: PTH208 - pathlib is slow
+        except (FileNotFoundError, NotADirectoryError):
+            continue
+        except OSError:  # what cannot be listed may be read
+            return None
+        for name in names:
+            found.update(ending for ending in known if name.endswith(ending))
+    return frozenset(found)
 
 
 def schema_beside(share: str, names: tuple[str, ...]) -> str | None:

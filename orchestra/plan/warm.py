@@ -86,8 +86,9 @@ def _of(
         return Warm(False, reason)
     own = process.environment
     path = (own["PATH"] if "PATH" in own else search_path()) or os.defpath
-    # As many words as may say which program it is.
-    key = (path, process.cwd or "", *process.command[:3])
+    # As many words as may say which program it is: those behind an interpreter do.
+    words = 3 if _is_python(process.command[0]) else 1
+    key = (path, process.cwd or "", *process.command[:words])
     program = programs.get(key)
     if program is None:
         found = once(("warm", os.getcwd(), *key), lambda: _program(process.command, process.cwd, path))  # noqa: PTH109 - a word
@@ -205,9 +206,14 @@ def _script(word: str | None, path: str, search_path: str) -> Program | str:
     )
 
 
+def _is_python(executable: str) -> bool:
+    """Tell whether a program is called as interpreters of Python are."""
+    return executable.rpartition("/")[2].startswith("python")
+
+
 def _is_ours(executable: str) -> bool:
     """Tell whether a path leads to the interpreter that runs us: the same file, in the same environment."""
-    if not os.path.basename(executable).startswith("python"):  # noqa: PTH119 - as above
+    if not _is_python(executable):
         return False
     if os.path.realpath(executable) != os.path.realpath(sys.executable):
         return False

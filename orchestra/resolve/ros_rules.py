@@ -107,10 +107,12 @@ def _check_joined(words: Sequence[Value], problems: Problems) -> None:
     What an option for further arguments takes is one word: `['--controller-ros-args', '-r a:=b']`. So it is where the
     comma before the option is missing, which is told: `['/manager' '--controller-ros-args', '-r a:=b']`.
     """
+    if not words or not is_python(words[0].location):  # all of them stand in one file
+        return
     before = ""
     for word in words:
         passed_on, before = _PASSED_ON.fullmatch(before), word.text
-        if _SEVERAL.fullmatch(word.text) and is_python(word.location) and not passed_on:
+        if _SEVERAL.fullmatch(word.text) and not passed_on:
             # Here, because only mistakes need it.
             from orchestra.compat.rewritten import Rewritten  # noqa: PLC0415
 

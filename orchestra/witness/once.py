@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import os
+from functools import lru_cache
 from typing import TYPE_CHECKING, Any, Final, TypeVar
 
+from orchestra.nearest import renewals
 from orchestra.witness.observing import observer
 
 if TYPE_CHECKING:
@@ -44,13 +46,26 @@ def _remembers() -> bool:
 
 
 def real(path: str) -> str:
-    """Return what `os.path.realpath` returns; what is above a file is looked at once for all files of its folder."""
-    if not path.startswith("/") or not _remembers():  # another working folder makes another one of it
+    """Return what `os.path.realpath` returns; what is above a file is looked at once for all files of its folder.
+
+    Where this process is not watched, it is for all that belong to one launch file.
+    """
+    if not path.startswith("/"):  # another working folder makes another one of it
         return os.path.realpath(path)
     folder, name = os.path.split(path)
     if name in ("", ".", "..") or "\0" in path:
         return once(("real", path), lambda: os.path.realpath(path))
+    if not _remembers():
+        whole = os.path.join(_folder(folder, renewals()), name)
+        return os.path.realpath(whole) if os.path.islink(whole) else whole
     return _seen(path) or _in(_real(folder), name, path)
+
+
+@lru_cache(maxsize=64)
+def _folder(folder: str, renewal: int) -> str:
+    """Return where a folder leads, as it was when so many launch files had been begun with."""
+    del renewal
+    return os.path.realpath(folder)
 
 
 def _real(folder: str) -> str:

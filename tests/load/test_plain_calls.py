@@ -32,7 +32,16 @@ def _closely(text: str) -> tuple[Template, int]:
     return template, len(found)
 
 
-@given(st.lists(_PIECES, max_size=8).map("".join))
+_TEXTS = st.lists(_PIECES, max_size=8).map("".join)
+_QUOTED = st.tuples(st.sampled_from(["$(eval ", "$(env ", "$(nobody "]), st.sampled_from("'\""), _TEXTS)
+
+
+@given(_TEXTS | _QUOTED.map(lambda parts: f"{parts[0]}{parts[1]}{parts[2]}{parts[1]})"))
+@example("$(eval \"'$(var mode)' == 'sim'\")")
+@example("$(eval '')")
+@example("$(eval '$(var)')")
+@example("$(eval '1' '2')")
+@example("$(dirname '')")
 @example("$(var a b)x")
 @example("$(var)")
 @example("$(if a b c d)")
@@ -55,6 +64,8 @@ def test_both_ways_give_the_same(text: str) -> None:
         "$(dirname)/a b.yaml",
         "$(find-pkg-share pkg)/x",
         "$(env A b)",
+        "$(eval \"'$(var mode)' == 'sim'\")",
+        "$(eval '3 >= $(var n)')",
     ],
 )
 def test_what_most_files_write_takes_no_closer_look(text: str) -> None:

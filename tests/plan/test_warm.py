@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from orchestra.plan import warm
 from orchestra.plan.model import Warm
 from orchestra.plan.portable import portable
 from orchestra.plan.startup import is_read_at_startup
@@ -53,6 +54,28 @@ def decided(*command: str, environment: dict[str, str] | None = None, **changes:
     (planned,) = warmed(plan(given), caller).processes
     assert planned.warm is not None
     return planned.warm
+
+
+def test_a_script_is_looked_at_once_whatever_its_arguments_are(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    looks: list[str] = []
+    look = warm._first_line
+
+    def counted(path: str) -> bytes:
+        looks.append(path)
+        return look(path)
+
+    monkeypatch.setattr(warm, "_first_line", counted)
+    script, other = str(folder / "direct.py"), str(folder / "plain.py")
+    commands = ((script, "a"), (script, "b", "c"), (PYTHON, script), (PYTHON, other), (other,))
+    nodes = [
+        replace(process(f"n{number}"), kind="node", command=command, shell=False)
+        for number, command in enumerate(commands)
+    ]
+    planned = warmed(replace(plan(nodes[0]), processes=tuple(nodes)), {"PATH": BESIDE}).processes
+    assert looks == [script, other]
+    assert [item.warm.target for item in planned if item.warm] == [script, script, script, other, other]
 
 
 def test_scripts_by_their_first_line(folder: Path) -> None:

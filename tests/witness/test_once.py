@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import pytest
 
+from orchestra.nearest import renew
 from orchestra.witness.once import real
 from orchestra.witness.unknowable import reaches_out
 
@@ -73,6 +74,17 @@ def test_where_a_path_leads_to_is_what_the_system_says(
     monkeypatch.chdir(tmp_path)
     for written in (path, f"{tmp_path}/{path}"):
         assert _told(real, written) == _told(os.path.realpath, written)
+
+
+def test_where_a_folder_leads_to_is_looked_at_anew_for_each_launch_file(tmp_path: Path) -> None:
+    (tmp_path / "one").mkdir()
+    (tmp_path / "two").mkdir()
+    link = tmp_path / "linked"
+    for name in ("one", "two"):
+        link.unlink(missing_ok=True)
+        link.symlink_to(name)
+        renew()
+        assert real(f"{link}/file") == os.path.realpath(tmp_path / name / "file")
 
 
 def _told(tell: Callable[[str], str], path: str) -> str:

@@ -10,21 +10,33 @@ from __future__ import annotations
 import os
 from typing import TYPE_CHECKING, Final
 
-from orchestra.declared.convention import FOLDERS, names_of_class
+from orchestra.declared.convention import (
+    FOLDERS,
+    INTERFACES,
+    NODL,
+    NODL_FOLDERS,
+    NODL_XML,
+    endings_beside,
+    names_of_class,
+)
 from orchestra.location import is_file
 from orchestra.witness.once import once
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
-_OWN: Final = (".interface.yaml", ".interface.yml", ".interface.json")
-_NODL: Final = (".nodl.yaml", ".nodl.yml", ".nodl.json")
-_NODL_FOLDERS: Final = ("nodl/", "")
-_NODL_XML: Final = ".nodl.xml"
+_ENDINGS: Final = frozenset({*INTERFACES, *NODL, NODL_XML})
 
 
-def may_be_declared(share: str, called: str) -> bool:
-    """Return whether there is a file that may declare an executable, or the class `pkg::Class`, of a package."""
+def may_be_declared(share: str, called: Iterable[str]) -> bool:
+    """Return whether a file may declare one of these executables, or classes `pkg::Class`, of a package."""
+    endings = endings_beside(share)
+    if endings is not None and endings.isdisjoint(_ENDINGS):
+        return False
+    return any(_may_be_declared(share, name) for name in called)
+
+
+def _may_be_declared(share: str, called: str) -> bool:
     return once(
         ("interfaces", share, called),
         lambda: own_file(share, called) is not None or next(nodl_files(share), None) is not None,
@@ -43,16 +55,18 @@ def own_file(share: str, called: str) -> str | None:
 
 def nodl_files(share: str) -> Iterator[str]:
     """Yield the paths of declarations that name their executables themselves."""
-    for folder in _NODL_FOLDERS:
+    for folder in NODL_FOLDERS:
         place = f"{share}/{folder}".rstrip("/")
         try:
             names = sorted(os.listdir(place))  # noqa: PTH208 - pathlib is slow
         except OSError:
             continue
-        yield from (f"{place}/{name}" for name in names if name.endswith(_NODL_XML))
+        yield from (f"{place}/{name}" for name in names if name.endswith(NODL_XML))
 
 
 def _by_name(share: str, names: tuple[str, ...]) -> Iterator[str]:
     for name in names:
-        yield from (f"{share}/{folder}/{name}{ending}" for folder in FOLDERS for ending in _OWN)
-        yield from (f"{share}/{folder}{name}{ending}" for folder in _NODL_FOLDERS for ending in _NODL)
+        yield from (f"{share}/{folder}/{name}{ending}" for folder in FOLDERS for ending in INTERFACES)
+        for folder in NODL_FOLDERS:
+            place = f"{share}/{folder}".rstrip("/")
+            yield from (f"{place}/{name}{ending}" for ending in NODL)

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import TYPE_CHECKING
 
 from orchestra.declared.beside import schema_of_package
 from orchestra.declared.common import COMMON, KNOWN, common_meant
+from orchestra.declared.convention import endings_beside
 from orchestra.errors import Code, Problem, Problems, Severity
 from orchestra.fields import replace
 from orchestra.location import is_python
@@ -70,6 +72,7 @@ class _Schemas:
     def __init__(self, problems: Problems) -> None:
         self._problems = problems
         self._read: dict[object, ParameterSchema | None] = {}
+        self._endings = cache(endings_beside)
 
     def of(self, node: ResolvedProcess | ResolvedComponent) -> tuple[ParameterSchema | None, bool]:
         """Return the schema of a node, and whether its description names it."""
@@ -77,11 +80,14 @@ class _Schemas:
             return self._named(node.params_schema), True
         called = node.plugin if isinstance(node, ResolvedComponent) else node.executable
         if (node.share, node.package, called) not in self._read:
-            path = None if node.share is None else schema_of_package(node.share, called)
+            path = self._beside(node.share, called)
             named = None if path is None else NamedSchema(path, node.location, path)
             found = _known(node.package, called) if named is None else self._named(named)
             self._read[node.share, node.package, called] = found
         return self._read[node.share, node.package, called], False
+
+    def _beside(self, share: str | None, called: str) -> str | None:
+        return None if share is None else schema_of_package(share, called, self._endings(share))
 
     def _named(self, named: NamedSchema) -> ParameterSchema | None:
         # Here, because few nodes have a schema, and for what it imports.

@@ -17,12 +17,12 @@ if TYPE_CHECKING:
 def check_interfaces(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Report what keeps nodes from talking with each other; nothing is known where no package declares interfaces."""
     nodes = list(nodes_of(resolved, plan))
-    called = {
-        (node.share, node.plugin if isinstance(node, ResolvedComponent) else node.executable)
-        for node, _ in nodes
-        if node.share is not None
-    }
-    if not any(may_be_declared(share, name) for share, name in called):
+    called: dict[str, set[str]] = {}
+    for node, _ in nodes:
+        if node.share is not None:
+            name = node.plugin if isinstance(node, ResolvedComponent) else node.executable
+            called.setdefault(node.share, set()).add(name)
+    if not any(may_be_declared(share, names) for share, names in called.items()):
         return
     # Here, because few packages declare interfaces, and for what it imports.
     from orchestra.plan.connections import check_connections  # noqa: PLC0415
