@@ -127,8 +127,7 @@ def changes_nothing(code: CodeType) -> bool:
         codes.append(seen)
         own.update(seen.names)
         waiting += [inner for inner in item.co_consts if type(inner) is CodeType]
-    own -= WORDS
-    own -= MODULES
+    own = own - WORDS - MODULES  # not in place: that goes through all of the words
     return _IS_KNOWN and (not own or _are_own(own, codes))
 
 
@@ -136,10 +135,25 @@ def _are_own(names: set[str], codes: list[_Code]) -> bool:
     """Tell whether these are names that a file gives to things, and asks nothing for."""
     if any(name.startswith("__") or hasattr(builtins, name) for name in names):
         return False
-    for code in codes:
-        if any(not names.isdisjoint(_names(code, asking, bits)) for asking, bits in _ASKING):
-            return False
-    return names.issubset(name for code in codes for name in _names(code, _STORE))
+    having = [code for code in codes if not names.isdisjoint(code.names)]
+    if any(_uses(code, asking, names, bits) for code in having for asking, bits in _ASKING):
+        return False
+    return all(any(_uses(code, _STORE, {name}) for code in having) for name in names)
+
+
+def _uses(code: _Code, instruction: int, names: set[str], bits: int = 0) -> bool:
+    """Tell whether an instruction has one of some names in a code."""
+    if _LONG in code.instructions:
+        return not names.isdisjoint(_names(code, instruction, bits))
+    for name in names.intersection(code.names):
+        index = code.names.index(name)
+        for number in range(index << bits, min((index + 1) << bits, 256)):
+            at = code.content.find(bytes((instruction, number)))
+            while at % 2 and at > 0:  # it begins in the middle of another one
+                at = code.content.find(bytes((instruction, number)), at + 1)
+            if at >= 0:
+                return True
+    return False
 
 
 def _names(code: _Code, instruction: int, bits: int = 0) -> list[str]:
