@@ -55,10 +55,10 @@ def real(path: str) -> str:
     folder, name = os.path.split(path)
     if name in ("", ".", "..") or "\0" in path:
         return once(("real", path), lambda: os.path.realpath(path))
-    if not _remembers():
+    if not _WATCHING.installed:
         whole = os.path.join(_folder(folder, renewals()), name)
         return os.path.realpath(whole) if os.path.islink(whole) else whole
-    return _seen(path) or _in(_real(folder), name, path)
+    return _seen(path) or _in(_real(folder), name, path) if _remembers() else os.path.realpath(path)
 
 
 @lru_cache(maxsize=64)
