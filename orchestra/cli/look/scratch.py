@@ -47,4 +47,5 @@ def _remove(folder: str) -> None:
         import tempfile  # noqa: PLC0415 - see above; it removes also what nobody may read or write
 
         with tempfile.TemporaryDirectory(prefix=_PREFIX, dir=os.path.dirname(folder)) as whole:  # noqa: PTH120
+            os.chmod(folder, 0o700)  # noqa: PTH101 - what cannot be written to cannot be moved
             os.rename(folder, f"{whole}/left")  # noqa: PTH104

@@ -22,6 +22,7 @@ def test_it_goes_away_with_all_that_is_in_it(tmp_path: Path, monkeypatch: pytest
         left = Path(folder, "left", "by")
         left.joinpath("code").mkdir(parents=True)
         left.chmod(0)
+        Path(folder).chmod(0)
     assert not [*tmp_path.iterdir()]
 
 
