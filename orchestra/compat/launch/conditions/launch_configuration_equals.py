@@ -70,7 +70,7 @@ class LaunchConfigurationEquals(Condition):
             return
         problems, chain = collecting
         argument = self.__place.at("launch_configuration_name")
-        parts = getattr(self.__name, "variable_name", ())
+        parts: Any = getattr(self.__name, "variable_name", ())
         name = parts[0].text if len(parts) == 1 and isinstance(parts[0], TextSubstitution) else None
         told = "the name of a launch argument or variable is wanted here: the condition is always the same"
         meant = None if name is None else Rewritten(repr(name))
