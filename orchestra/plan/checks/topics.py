@@ -45,11 +45,15 @@ _new_use = maker(_Use)
 def check_topics(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Report names that nobody else uses beside nearly the same one of another node."""
     uses = list(_uses(resolved, plan))
+    if not uses:
+        return
     users: dict[str, set[str]] = {}
     for use in uses:
         users.setdefault(use.name, set()).add(use.node)
     told: set[object] = {problem.span for problem in problems if problem.code in _KNOWN}
-    for alike in _alike(uses):
+    planned: tuple[_Planned, ...] = (*plan.processes, *plan.components)
+    nodes = {f"{item.namespace or ''}/{item.name}".replace("//", "/") for item in planned}
+    for alike in _alike(uses, nodes):
         _check(alike, users, told, problems)
 
 
@@ -73,11 +77,12 @@ def _check(uses: Iterable[_Use], users: dict[str, set[str]], told: set[object], 
         return
 
 
-def _alike(uses: Iterable[_Use]) -> Iterator[list[_Use]]:
+def _alike(uses: Iterable[_Use], nodes: set[str]) -> Iterator[list[_Use]]:
     """Yield the uses of names that differ only in case or in a slash, where there are several names.
 
     Of nodes in different namespaces these are names of several levels, one with a slash before it, one without: a
-    single level, as `scan`, is often the same for each of several robots and for none.
+    single level, as `scan`, is often the same for each of several robots and for none. What stands below the name of
+    one of the `nodes` is its own.
     """
     groups: dict[object, list[_Use]] = {}
     apart: dict[str, list[_Use]] = {}
@@ -87,7 +92,7 @@ def _alike(uses: Iterable[_Use]) -> Iterator[list[_Use]]:
         plain = use.name in (f"/{bare}", f"{use.namespace}/{bare}")
         if plain and use.namespace != "/" and bare not in _GLOBAL:
             groups.setdefault((use.namespace, bare), []).append(use)
-        if plain and "/" in bare:
+        if plain and "/" in bare and nodes.isdisjoint(_above(use.name)):
             apart.setdefault(bare, []).append(use)
     for group in groups.values():
         if len({use.name for use in group}) > 1:
@@ -95,6 +100,12 @@ def _alike(uses: Iterable[_Use]) -> Iterator[list[_Use]]:
     for bare, group in apart.items():
         if {f"/{bare}"} < {use.name for use in group} and len({use.name for use in group}) == _PAIR:
             yield group
+
+
+def _above(name: str) -> Iterator[str]:
+    """Yield the names that a name stands below, but for the root."""
+    while name := name.rpartition("/")[0]:
+        yield name
 
 
 def _uses(resolved: Resolved, plan: Plan) -> Iterator[_Use]:

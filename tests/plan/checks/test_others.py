@@ -105,6 +105,9 @@ RIGHT: dict[str, str] = {
     "names of several levels of two robots, and one of none": node("a", remap=_to("/lidar/packets"))
     + node("b", namespace="r", remap=_to("lidar/packets"))
     + node("c", namespace="s", remap=_to("lidar/packets")),
+    "names below those of nodes, which are theirs": node("a", remap=_to("/monitor/state"))
+    + node("b", namespace="r", remap=_to("monitor/state"))
+    + node("monitor", namespace="r"),
     "a name of one level in a namespace and in the root, of nodes in different namespaces": node(
         "a", remap=_to("/scan")
     )
