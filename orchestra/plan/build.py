@@ -62,7 +62,7 @@ def build(
     loaded = identities(resolved.components, ids)
     nodes: list[ResolvedProcess | ResolvedComponent] = [*resolved.processes, *resolved.components]
     new = [node for identity, node in zip((*ids, *loaded), nodes, strict=True) if identity not in known]
-    check_names(new, problems)
+    check_names(new, problems, resolved.processes)
     targets = Targets(resolved, ids)
     edges = {
         identity: dependencies(process, identity, targets, problems)

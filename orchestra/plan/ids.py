@@ -61,8 +61,12 @@ def node_name(process: ResolvedProcess | ResolvedComponent) -> str | None:
     return full_name("/" if namespace is None else namespace.text, name.text)
 
 
-def check_names(processes: Sequence[ResolvedProcess | ResolvedComponent], problems: Problems) -> None:
-    """Report nodes that were given the same full name.
+def check_names(
+    processes: Sequence[ResolvedProcess | ResolvedComponent],
+    problems: Problems,
+    containers: Sequence[ResolvedProcess] = (),
+) -> None:
+    """Report nodes that were given the same full name; those of two ROS domains never meet.
 
     It is only a warning where a condition stands on one of them, where one is a component, which its container may
     refuse, and where one is written in Python: files that exist already do this, and upstream starts both. So it is of
@@ -76,12 +80,15 @@ def check_names(processes: Sequence[ResolvedProcess | ResolvedComponent], proble
         if name is None or process.name is None:
             continue
         earlier = first.setdefault(name, process)
+        if earlier is process:
+            continue
+        domain = _domain(process, containers)
+        if domain != _domain(earlier, containers):
+            earlier = first.setdefault(f"{name} of {domain}", process)
+            if earlier is process:
+                continue
         mistake = _mistake(earlier, process)
-        if (
-            earlier is process
-            or mistake in told
-            or (earlier.origin is process.origin and id(process.origin) in twice)
-        ):
+        if mistake in told or (earlier.origin is process.origin and id(process.origin) in twice):
             continue
         told.add(mistake)
         # Here, because two nodes seldom have one name.
@@ -123,6 +130,25 @@ def _tell_twice(processes: Sequence[ResolvedProcess | ResolvedComponent], proble
             at, notes = replace(process.location, span=span), (f"it is made at {process.location.span}",)
             problems.warning(Code.DUPLICATE_NODE, message, at, notes=notes)
     return found
+
+
+def _domain(
+    process: ResolvedProcess | ResolvedComponent | None, containers: Sequence[ResolvedProcess]
+) -> str | None:
+    """Return the ROS domain that a node is given, where it is; a component has that of its container."""
+    if isinstance(process, ResolvedComponent):
+        index, name, origin = process.container_process, process.container, process.container_origin
+        if index is not None:
+            process = containers[index]
+        else:
+            there = (
+                item
+                for item in containers
+                if (item.origin is origin if name is None else node_name(item) == name.text)
+            )
+            process = next(there, None)
+    changes = () if process is None else process.environment.get("ROS_DOMAIN_ID", ())
+    return changes[-1].value if changes else None
 
 
 def _is_refused(process: ResolvedProcess | ResolvedComponent) -> bool:

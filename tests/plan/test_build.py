@@ -81,6 +81,37 @@ def test_two_nodes_with_one_name_are_refused_where_the_second_is(tmp_path: Path)
     assert outcome(tmp_path, text).faults == [(Code.DUPLICATE_NODE, "main.yaml", 4, 25)]
 
 
+def test_nodes_of_two_ros_domains_may_have_one_name(tmp_path: Path) -> None:
+    def group(domain: str, actions: str) -> str:
+        return f"- group: [{{set_env: {{name: ROS_DOMAIN_ID, value: '{domain}'}}}}, {actions}]\n"
+
+    node, own = (
+        "{node: {exec: a, name: n}}",
+        "{node: {exec: a, name: n, env: [{name: ROS_DOMAIN_ID, value: '3'}]}}",
+    )
+    apart = f"launch:\n- node: {{exec: a, name: n}}\n{group('1', node)}{group('2', f'{node}, {own}')}"
+    assert outcome(tmp_path, apart).faults == []
+    assert outcome(tmp_path, apart + group("1", node)).faults == [(Code.DUPLICATE_NODE, "main.yaml", 5, 80)]
+
+
+def test_components_are_in_the_domain_of_their_container(tmp_path: Path) -> None:
+    def container(name: str, domain: str) -> str:
+        component = "{pkg: p, plugin: 'p::A', name: n}"
+        keys = (
+            f"pkg: c, exec: component_container, name: {name}, namespace: '', composable_node: [{component}]"
+        )
+        return f"- node_container: {{{keys}, env: [{{name: ROS_DOMAIN_ID, value: '{domain}'}}]}}\n"
+
+    def told(text: str) -> list[Code]:
+        return [found.code for found in outcome(tmp_path, f"launch:\n{text}").problems]
+
+    load = "- load_composable_node: {target: %s, composable_node: [{pkg: p, plugin: 'p::A', name: n}]}\n"
+    assert Code.DUPLICATE_NODE not in told(container("one", "1") + container("two", "2"))
+    assert Code.DUPLICATE_NODE in told(container("one", "1") + container("two", "1"))
+    assert Code.DUPLICATE_NODE in told(container("one", "1") + load % "one")
+    assert Code.DUPLICATE_NODE not in told(container("one", "1") + load % "elsewhere")
+
+
 def test_publishers_of_static_transforms_may_have_one_name(tmp_path: Path) -> None:
     node = "- node: {pkg: tf2_ros, exec: static_transform_publisher, name: n}\n"
     problems = outcome(tmp_path, f"launch:\n{node}{node}").problems
