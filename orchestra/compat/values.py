@@ -61,3 +61,16 @@ def _pair(item: tuple[Sub, Sub], span: Span, index: int) -> Pair:
     except TypeError as error:
         told_so = f"{name if isinstance(name, str) else 'a name'}: {error}"
         raise WrongType(told_so, value, at=within(span, ValueOf(index))) from None
+
+
+def output_field(output: Any, span: Span) -> Any:
+    """Return where the output goes: a word, or places by stream."""
+    if not isinstance(output, dict):
+        return template(output, span)
+    made = {stream: _places(places, within(span, stream)) for stream, places in output.items()}
+    return made or {"both": ()}  # without any it goes nowhere
+
+
+def _places(places: Any, span: Span) -> Any:
+    words = [places] if isinstance(places, str) else sorted(places)
+    return tuple(template(word, span) for word in words)

@@ -12,6 +12,7 @@ from importlib.machinery import ModuleSpec
 from types import CoroutineType, FunctionType, ModuleType
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.compat.columns import keep_plain
 from orchestra.compat.explanation import told
 from orchestra.compat.idle_names import has_idle_actions
 from orchestra.compat.launch.launch_description import LaunchDescription
@@ -218,6 +219,7 @@ def _meant(module: ModuleType) -> FunctionType | None:
 def _source(path: str) -> bytes:
     """Return what is in a file."""
     source = content(path)
+    keep_plain(path, source)
     observer().read(path, source)
     return source
 

@@ -18,8 +18,20 @@ _PROGRAM = "#!/bin/sh\nuntil ls cache/plans | grep -qv '[.]'; do sleep 0.02; don
 _COUNTING = Path(__file__).with_name("counting.py")
 # Of ours and of the interpreter's library, in the supervisor when it starts its first program.
 _OURS, _ALL = 143, 242
-# The same in the process that makes the first plan of a YAML file with one executable.
+# The same in the process that makes the first plan of a file with one executable, or with one node in Python.
 _OURS_OF_A_PLAN, _ALL_OF_A_PLAN = 300, 420
+_OURS_OF_PYTHON, _ALL_OF_PYTHON = 385, 515
+_NODE = """\
+from launch import LaunchDescription
+from launch.actions import DeclareLaunchArgument
+from launch.substitutions import LaunchConfiguration
+from launch_ros.actions import Node
+
+def generate_launch_description():
+    rate = LaunchConfiguration("rate")
+    node = Node(executable="./true", name="first", parameters=[{"rate": rate}])
+    return LaunchDescription([DeclareLaunchArgument("rate", default_value="1"), node])
+"""
 # What only some runs need, and none for its first program.
 _UNWANTED = (
     *(
@@ -115,7 +127,7 @@ _UNWANTED_IN_A_PLAN = (
 _PLANNING = """
 import io, sys
 from orchestra.__main__ import _resolve
-_resolve(["launch", "one.launch.yaml"], io.BytesIO())
+_resolve(["launch", sys.argv[1]], io.BytesIO())
 print(*sorted(sys.modules), sep="\\n")
 """
 
@@ -165,9 +177,19 @@ def test_a_second_launch_makes_no_plan(tmp_path: Path, environment: dict[str, st
         assert len(names) <= _ALL
 
 
-def test_a_first_plan_imports_only_what_it_needs(tmp_path: Path, environment: dict[str, str]) -> None:
+@pytest.mark.parametrize(
+    ("name", "ours", "every"),
+    [
+        ("one.launch.yaml", _OURS_OF_A_PLAN, _ALL_OF_A_PLAN),
+        ("one.launch.py", _OURS_OF_PYTHON, _ALL_OF_PYTHON),
+    ],
+)
+def test_a_first_plan_imports_only_what_it_needs(
+    tmp_path: Path, environment: dict[str, str], name: str, ours: int, every: int
+) -> None:
+    (tmp_path / "one.launch.py").write_text(_NODE)
     done = subprocess.run(
-        [sys.executable, "-P", "-c", _PLANNING],
+        [sys.executable, "-P", "-c", _PLANNING, name],
         cwd=tmp_path,
         env=environment,
         check=True,
@@ -183,8 +205,8 @@ def test_a_first_plan_imports_only_what_it_needs(tmp_path: Path, environment: di
     assert not {
         name for name in names for what in _UNWANTED_IN_A_PLAN if name == what or name.startswith(f"{what}.")
     }
-    assert len([name for name in names if name.startswith("orchestra")]) <= _OURS_OF_A_PLAN
-    assert len(names) <= _ALL_OF_A_PLAN
+    assert len([name for name in names if name.startswith("orchestra")]) <= ours
+    assert len(names) <= every
 
 
 def test_a_change_makes_another_plan(tmp_path: Path, environment: dict[str, str]) -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import tempfile
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -173,7 +172,9 @@ class ParameterFile(Refusing):
 
 def _evaluated(path: Path, context: LaunchContext) -> Path:
     """Write what a file comes to into a temporary file: the resolution removes those of user code, too."""
-    import yaml  # noqa: PLC0415 - only user code that evaluates a file by hand comes here
+    import tempfile  # noqa: PLC0415 - only user code that evaluates a file by hand comes here
+
+    import yaml  # noqa: PLC0415 - the same
 
     from orchestra.compat.launch.frontend.parse_substitution import parse_substitution  # noqa: PLC0415 - the same
 

@@ -6,14 +6,11 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from orchestra.compat import faults
 from orchestra.compat.building import model_of
 from orchestra.compat.explanation import told
 from orchestra.compat.launch.action import Action, ModelledAction
-from orchestra.compat.launch.actions.opaque_function import OpaqueFunction
 from orchestra.compat.launch.launch_description import LaunchDescription
 from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
-from orchestra.compat.misplaced import is_list_at, misplaced
 from orchestra.compat.place import Argument
 from orchestra.compat.refusing import is_lost
 from orchestra.compat.wrong import WrongType
@@ -22,11 +19,11 @@ from orchestra.errors import Code
 from orchestra.location import displayed, point
 from orchestra.resolve.context import POISON
 from orchestra.resolve.python.calling import user_code
-from orchestra.resolve.python.deferral import Deferred, put_off
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from orchestra.compat.launch.actions.opaque_function import OpaqueFunction
     from orchestra.compat.place import Place
     from orchestra.description.actions.opaque import OpaqueAction
     from orchestra.description.entity import Action as Model
@@ -77,6 +74,8 @@ def _model(entity: Any, run: Resolution, place: Place | None) -> Model | None:
     except Exception as error:  # what users have given it is only looked at here
         if isinstance(error, RecursionError) and run.is_deep:
             raise
+        from orchestra.compat import faults  # noqa: PLC0415 - as above
+
         faults.report(error, run.problems, run.context.included_from, _span(entity, run, place))
         run.scope.ledger.incomplete = True
         if entity._role == "declaration":  # what reads it is not to be told of it
@@ -96,6 +95,8 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
     """Visit an entity that only its own code can carry out; its condition, where it has one, holds."""
     entity = action.target
     if not _is_entity(entity):
+        from orchestra.compat.misplaced import is_list_at  # noqa: PLC0415 - as above
+
         is_list = isinstance(entity, list | tuple)
         _refuse_other(entity, action.span, run, is_written=is_list and is_list_at(action.span))
         return
@@ -114,6 +115,8 @@ def visit_opaque(action: OpaqueAction, run: Resolution) -> None:
         visit_entities(entity.entities, run, getattr(entity, "_place", None))
         return
     if run.later:
+        from orchestra.resolve.python.deferral import Deferred, put_off  # noqa: PLC0415 - few wait for something
+
         put_off(Deferred("entity", entity), run.at(action.span), run)
         return
     _carry_out(entity, action.span, run)
@@ -147,8 +150,11 @@ def _carry_out(entity: Any, span: Span, run: Resolution) -> None:
         following = made
     if following is not None:
         _visit_returned(entity, following, run)
-    elif isinstance(entity, OpaqueFunction):
-        _tell_thrown_away(entity, run)
+    else:
+        from orchestra.compat.launch.actions.opaque_function import OpaqueFunction  # noqa: PLC0415 - many files have none
+
+        if isinstance(entity, OpaqueFunction):
+            _tell_thrown_away(entity, run)
 
 
 def _executed(entity: Any, context: Any, span: Span, run: Resolution) -> Any:
@@ -222,6 +228,7 @@ def _is_entity(value: Any) -> bool:
 def _refuse_other(value: Any, span: Span, run: Resolution, *, is_written: bool = False) -> None:
     """Report something that is no entity; `is_written`: it is just that which is written at the place."""
     # Here, because only mistakes need it, and what it imports.
+    from orchestra.compat.misplaced import misplaced  # noqa: PLC0415
     from orchestra.compat.rewritten import last_comma, rewritten  # noqa: PLC0415
 
     message, notes = misplaced(value)

@@ -8,26 +8,21 @@ from typing import TYPE_CHECKING, Any
 from orchestra.compat.explanation import told
 from orchestra.compat.extensions import RUNNING, extension_fields, taken
 from orchestra.compat.launch.action import Action, ModelledAction
-from orchestra.compat.launch.actions.shutdown_action import Shutdown
 from orchestra.compat.launch.event_handler import entities_of, is_of_ours
-from orchestra.compat.launch.event_handlers.on_action_event_base import OnActionEventBase
-from orchestra.compat.launch.events.process.process_exited import ProcessExited
-from orchestra.compat.launch.events.process.process_io import ProcessIO
 from orchestra.compat.launch.substitutions.launch_configuration import LaunchConfiguration
-from orchestra.compat.place import within
 from orchestra.compat.text import normalized, template
-from orchestra.compat.values import optional, scalar, written
+from orchestra.compat.values import optional, output_field, scalar, written
 from orchestra.compat.wrong import WrongType
 from orchestra.description.actions.executable import Executable as ExecutableModel
-from orchestra.description.actions.group import Group
-from orchestra.description.actions.register_event_handler import RegisterEventHandler
 from orchestra.description.running import Running
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
 
+    from orchestra.compat.launch.actions.shutdown_action import Shutdown
     from orchestra.compat.launch.descriptions.executable import Executable
     from orchestra.compat.launch.event import Event
+    from orchestra.compat.launch.event_handlers.on_action_event_base import OnActionEventBase
     from orchestra.compat.launch.events.process.running_process_event import RunningProcessEvent
     from orchestra.compat.launch.launch_context import LaunchContext
     from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
@@ -35,7 +30,6 @@ if TYPE_CHECKING:
     from orchestra.compat.text import Sub
     from orchestra.description.entity import Action as Model
     from orchestra.description.handlers import Handler
-    from orchestra.location import Span
 
 OVERRIDE = "OVERRIDE_LAUNCH_PROCESS_OUTPUT"
 _TRUTHS, _NUMBERS = frozenset({bool, type(None)}), frozenset({float, int, type(None)})
@@ -182,6 +176,10 @@ class ExecuteLocal(ModelledAction):
         handlers = tuple(self._handlers())
         if not handlers:
             return self._process_model(common)
+        # Here, because few processes have any.
+        from orchestra.description.actions.group import Group  # noqa: PLC0415
+        from orchestra.description.actions.register_event_handler import RegisterEventHandler  # noqa: PLC0415
+
         span = self._place.span
         children = (RegisterEventHandler.at(span, handlers=handlers), self._process_model({"origin": self}))
         condition = {name: value for name, value in common.items() if name != "origin"}
@@ -209,7 +207,7 @@ class ExecuteLocal(ModelledAction):
         found = self.process_description._fields(self._place)
         found |= {name: scalar(value, at(name)) for name, value in given.items() if value is not None}
         if self.__output is not None:
-            found["output"] = _output_field(self.__output, at("output"))
+            found["output"] = output_field(self.__output, at("output"))
         if explained:
             found["required"] = scalar(value=True, span=span)
         elif ending is not None:
@@ -222,6 +220,12 @@ class ExecuteLocal(ModelledAction):
 
     def _handlers(self) -> list[Handler]:
         """Return what is done about the events of this process."""
+        if self.__on_exit is None and not self.__cached_output:
+            return []
+        # Here, as above.
+        from orchestra.compat.launch.events.process.process_exited import ProcessExited  # noqa: PLC0415
+        from orchestra.compat.launch.events.process.process_io import ProcessIO  # noqa: PLC0415
+
         handlers, ending = [], self.__ending()
         if self.__on_exit is not None and (ending is None or ending._has_reason):
             handlers.append(self.__handler(ProcessExited, self.__on_exit))
@@ -232,6 +236,10 @@ class ExecuteLocal(ModelledAction):
         return [model for handler in handlers for model in handler._to_models()]
 
     def __handler(self, event: type[Event], done: Any) -> OnActionEventBase:
+        from orchestra.compat.launch.event_handlers.on_action_event_base import (  # noqa: PLC0415 - as above
+            OnActionEventBase,
+        )
+
         handler = OnActionEventBase(
             action_matcher=self, on_event=done, target_event_cls=event, target_action_cls=ExecuteLocal
         )
@@ -252,7 +260,7 @@ class ExecuteLocal(ModelledAction):
             "env": event.env,
             "pid": event.pid,
         }
-        self._return_code = event.returncode if isinstance(event, ProcessExited) else None
+        self._return_code = getattr(event, "returncode", None)
 
     def __cached(self, stream: str) -> str:
         if not self.__cached_output:
@@ -261,6 +269,10 @@ class ExecuteLocal(ModelledAction):
 
     def __ending(self) -> Shutdown | None:
         """Return the action that ends the run where `on_exit` is nothing else."""
+        if self.__on_exit is None:
+            return None
+        from orchestra.compat.launch.actions.shutdown_action import Shutdown  # noqa: PLC0415 - as above
+
         entities = self.__on_exit if isinstance(self.__on_exit, list | tuple) else [self.__on_exit]
         if len(entities) != 1 or not isinstance(entities[0], Shutdown):
             return None
@@ -285,16 +297,3 @@ def _checked_exit(done: Any) -> Any:
 def _delay(delay: Sub | float | None) -> Sub | float | None:
     """Return a delay: upstream does not wait for one below zero."""
     return max(delay, 0) if isinstance(delay, int | float) else delay
-
-
-def _output_field(output: Any, span: Span) -> Any:
-    """Return where the output goes: a word, or places by stream."""
-    if not isinstance(output, dict):
-        return template(output, span)
-    made = {stream: _places(places, within(span, stream)) for stream, places in output.items()}
-    return made or {"both": ()}  # without any it goes nowhere
-
-
-def _places(places: Any, span: Span) -> Any:
-    words = [places] if isinstance(places, str) else sorted(places)
-    return tuple(template(word, span) for word in words)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import shlex
 from pathlib import PurePath
 from typing import TYPE_CHECKING, Any, TypeAlias
 
@@ -136,6 +135,8 @@ class Executable(Refusing):
             chosen = LaunchConfiguration("launch-prefix-filter", default="").perform(context)
             if re.match(chosen, program) is None:
                 return []
+        import shlex  # noqa: PLC0415 - only code that prepares a process by itself needs it
+
         return shlex.split(_performed(self.prefix, context))
 
     def __environment(self, context: LaunchContext) -> dict[str, str]:
