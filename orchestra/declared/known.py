@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 
 _FRAMES: Final = {"map_frame": "map", "odom_frame": "odom"}
 _WORLD: Final = "world_frame"
+_ROBOT: Final = "robot_description"
+_OF_FILES: Final = pattern(r"[^<\s]+\.(?:urdf|xacro|sdf|xml)")
 _WORD: Final = pattern(r"[a-z]+(?=_|$)")
 _BETWEEN: Final = pattern(r"[_.-]+")
 _LONG_WORD: Final = 6
@@ -65,6 +67,8 @@ class _Known:
                 yield replace(fault, meant=meant)
         if _WORLD in self.known.texts:
             yield from _of_frames(values)
+        if _ROBOT in self.known.texts:
+            yield from _of_robot(values)
 
     def _is_read(self, name: str, values: Mapping[str, ParameterValue]) -> bool:
         """Return whether the node declares a name, given the parameters that decide whether it does."""
@@ -139,3 +143,11 @@ def _of_frames(values: Mapping[str, ParameterValue]) -> Iterator[Fault]:
     if isinstance(world, str) and world not in frames:
         told = f"'{_WORLD}' must be the value of map_frame or of odom_frame, not '{world}'"
         yield Fault("value", _WORLD, told, str(frames[-1]), whole=True)
+
+
+def _of_robot(values: Mapping[str, ParameterValue]) -> Iterator[Fault]:
+    """Yield that the description of a robot is the path of a file: the node parses what it is given, and ends."""
+    given = values.get(_ROBOT)
+    if isinstance(given, str) and _OF_FILES.fullmatch(given):
+        told = f"'{_ROBOT}' is the description itself, not the path of a file that has it"
+        yield Fault("value", _ROBOT, told)

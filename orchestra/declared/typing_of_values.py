@@ -86,8 +86,10 @@ def _scalar(value: ParameterValue, kind: str) -> str | None:
 def _unquoted(text: str, kind: str) -> str | None:
     """Return a text in quotes as what it says."""
     if kind == "bool":
-        meant = _TRUTHS.get(text.lower()) or nearest(text, ("true", "false"))
-        return meant.capitalize() if meant is not None and text.istitle() else meant
+        near = nearest(text, ("true", "false"))
+        return _TRUTHS.get(text.lower()) or (
+            near.capitalize() if near is not None and text.istitle() else near
+        )
     try:
         return str(int(text)) if kind == "integer" else written(float(text)) if kind == "double" else None
     except ValueError:

@@ -57,7 +57,7 @@ def check_rules(words: Sequence[Value], problems: Problems, *, for_ros: bool) ->
     for option, word in _rules(words, for_ros=for_ros):
         if ":=" in word.text:
             continue
-        joined = _JOINED.fullmatch(word.text) if _is_written(word) else None
+        joined = _JOINED.fullmatch(word.text) if is_written(word) else None
         message = f"'{word.text}' is no rule: behind {option} stands {OPTIONS[option]}"
         instead = f"{joined[1]}:={joined[2]}" if joined is not None else None
         problems.error(Code.BAD_VALUE, message, word.location, suggestion=instead)
@@ -78,7 +78,7 @@ def _check_in_vain(words: Sequence[Value], problems: Problems) -> None:
         instead = _for_ros(word.text, following)
         if instead is not None:
             told = f"'{word.text}' is read by ROS only behind {_FOR_ROS}"
-            whole = _is_written(word) and not is_python(word.location)
+            whole = is_written(word) and not is_python(word.location)
             problems.warning(Code.BAD_VALUE, told, word.location, suggestion=instead if whole else None)
             return
 
@@ -96,7 +96,7 @@ def _check_unknown(words: Sequence[Value], problems: Problems, *, for_ros: bool)
             rule = f"-r {text}" if _RULE.fullmatch(text) else None
             instead = rule or (nearest(text, _TAKING | _SWITCHES) if text[:1] == "-" else None)
             told = f"'{text}' is nothing that ROS knows behind {_FOR_ROS}: the node ends at once"
-            whole = _is_written(word) and not (rule and is_python(word.location))
+            whole = is_written(word) and not (rule and is_python(word.location))
             problems.error(Code.BAD_VALUE, told, word.location, suggestion=instead if whole else None)
             return
 
@@ -134,7 +134,7 @@ def _for_ros(text: str, following: str) -> str | None:
     return f"{_FOR_ROS} {option} {found[2]}" if option else f"{_FOR_ROS} -p {found[1]}:={found[2]}"
 
 
-def _is_written(word: Value) -> bool:
+def is_written(word: Value) -> bool:
     """Return whether a word stands at its place as it is."""
     span = word.location.span
     width = span.end_column - span.column

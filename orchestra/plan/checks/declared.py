@@ -31,6 +31,7 @@ _CODES: dict[FaultKind, Code] = {
     "value": Code.REFUSED_VALUE,
     "missing": Code.REQUIRED_PARAMETER,
 }
+_MANAGERS = "nav2_lifecycle_manager"
 
 
 def check_declared(resolved: Resolved, plan: Plan, problems: Problems) -> None:
@@ -39,6 +40,11 @@ def check_declared(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     surprises = {problem.span for problem in problems if problem.code is Code.SURPRISING_SCALAR}
     broken = {_line(item) for item in problems if item.severity is Severity.ERROR and item.span is not None}
     for node, planned in nodes_of(resolved, plan):
+        if node.package == _MANAGERS and not node.faulty:
+            # Here, because few descriptions have such.
+            from orchestra.plan.checks.managed import check_managed  # noqa: PLC0415
+
+            check_managed(planned, places.of("node_names", node, planned), plan, problems)
         schema, named = schemas.of(node)
         faults = _of_every_node(planned.parameters) if schema is None else schema.faults(planned.parameters)
         for fault in faults:

@@ -1,4 +1,4 @@
-"""Groups of parameters that are each for one of a list of plugins, as the nodes of Nav2 have them.
+"""Groups of parameters that are each for one of a list of plugins, as the nodes of Nav2 have them, and costmaps.
 
 `controller_plugins: [FollowPath]` names the group `FollowPath`, which says in `FollowPath.plugin` what to load. A
 group that no list names is read by nobody; it is told of where a list names one nearly so called that is not there.
@@ -18,6 +18,10 @@ if TYPE_CHECKING:
     from orchestra.resolve.rcl.sections import Entry, Section
 
 _LOADED: Final = ".plugin"
+_COSTMAPS: Final = ("local_costmap", "global_costmap")
+_OF_COSTMAPS: Final = frozenset(
+    {"footprint", "plugins", "publish_frequency", "robot_radius", "update_frequency"}
+)
 _LISTS: Final = ("plugins", "plugin", "filters", "navigators")
 
 
@@ -28,6 +32,22 @@ def report_unlisted(sections: Sequence[Section], problems: Problems) -> None:
             name = group.name.rpartition(".")[2]
             message = f"nothing names '{name}': '{lists}' names '{meant}', for which there are no parameters"
             problems.warning(Code.SURPRISING_SCALAR, message, group.key, suggestion=meant)
+
+
+def report_shallow(sections: Sequence[Section], problems: Problems) -> None:
+    """Report parameters of a costmap at the name of its namespace alone: the node is `/local_costmap/local_costmap`."""
+    for section in sections:
+        if is_shallow(section):
+            name = section.pattern.strip("/")
+            message = f"the costmap is called '/{name}/{name}': '{name}' is to stand below '{name}' once more"
+            problems.warning(Code.UNMATCHED_SECTION, message, section.location)
+
+
+def is_shallow(section: Section) -> bool:
+    """Return whether a section is meant for a costmap of Nav2 and for no node that there is."""
+    if section.pattern.strip("/") not in _COSTMAPS:
+        return False
+    return any(entry.name.partition(".")[0] in _OF_COSTMAPS for entry in section.entries)
 
 
 def unlisted(section: Section) -> Iterator[tuple[Entry, str, str]]:

@@ -13,7 +13,7 @@ from orchestra.description.source import shortened
 from orchestra.errors import Code
 from orchestra.fields import replace
 from orchestra.patterns import pattern
-from orchestra.resolve.rcl.listed import report_unlisted
+from orchestra.resolve.rcl.listed import report_shallow, report_unlisted
 from orchestra.resolve.rcl.odd_names import may_be_odd, odd_name
 
 if TYPE_CHECKING:
@@ -50,6 +50,7 @@ def report_oddities(sections: Sequence[Section], lines: Sequence[str], problems:
     numbers: set[str] | None = None
     tagged = any("!" in line for line in lines)
     report_unlisted(sections, problems)
+    report_shallow(sections, problems)
     for section in sections:
         for entry in section.entries:
             if entry.value is not None and may_be_odd(entry.name):

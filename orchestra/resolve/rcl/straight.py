@@ -119,10 +119,10 @@ class _Lines:
         if self._dotted and self._grouped:  # rcl takes names apart at their points
             raise Unlike
         section = Section(name, tuple(self._entries), at)
-        if self._plugged:
-            from orchestra.resolve.rcl.listed import unlisted  # noqa: PLC0415 - few nodes load plugins
+        if self._plugged or name.endswith("_costmap"):
+            from orchestra.resolve.rcl.listed import is_shallow, unlisted  # noqa: PLC0415 - only Nav2 has such
 
-            if any(unlisted(section)):
+            if any(unlisted(section)) or is_shallow(section):
                 raise Unlike
         self.found.append(section)
 
