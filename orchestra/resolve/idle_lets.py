@@ -25,6 +25,6 @@ def warn_of_idle_lets(ledger: Ledger, run: Resolution) -> None:
     known = sorted((ledger.declared | run.found.lets.keys()) - idle.keys())
     hidden = names_in(part.action for part in ledger.hidden)
     for name, at in idle.items():
-        meant = one_slip(name, known)
-        if meant is not None and name not in hidden:
+        meant = None if name in hidden else one_slip(name, known)
+        if meant is not None:
             run.problems.warning(Code.UNREAD_ARGUMENT, f"nothing reads '{name}'", at, suggestion=meant)

@@ -69,6 +69,7 @@ def _aside(run: Resolution, variables: Mapping[str, Variable], found: Problems) 
         anonymous=dict(run.context.anonymous),
         elsewhere=set(),
         parameters={},
+        lost=run.context.lost | run.scope.variables.keys(),
     )
     return Resolution(run.inputs, found, run.load, _visit_nothing, context, scope, Found(), run.frames)
 

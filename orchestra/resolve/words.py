@@ -15,7 +15,8 @@ from orchestra.dataclass import dataclass
 from orchestra.description.text import MatchedTemplate, Opaque, Pieces, Words
 from orchestra.errors import Code
 from orchestra.fields import field
-from orchestra.location import Span, inside, is_within
+from orchestra.load.offsets import Source, is_on_one_line
+from orchestra.location import Span, inside, is_within, offsets_of, stretch, whole_of
 from orchestra.patterns import pattern
 from orchestra.resolve.context import POISON, Poison, Read, Value, new_value
 from orchestra.resolve.evaluate import evaluate, perform
@@ -69,9 +70,7 @@ def _split(template: Template, context: Context) -> tuple[Value, ...] | Poison:
     splitter.end()
     for span, told in splitter.faults:
         _report(told, span, context)
-    if splitter.faults:
-        return POISON
-    return _values(splitter.words, context)
+    return POISON if splitter.faults else _values(splitter.words, context)
 
 
 def _values(words: Sequence[_Word], context: Context) -> tuple[Value, ...]:
@@ -87,8 +86,7 @@ def _at_blanks(template: Template, context: Context) -> tuple[Value, ...] | Pois
     for part in template.parts:
         begins = ends = True
         if isinstance(part, Words):
-            text = part.text
-            if not text:
+            if not (text := part.text):
                 continue
             found = [_Word(word[0], _place(part, *word.span()), (), word[0]) for word in _WORD.finditer(text)]
             begins, ends = text[0] not in _BLANKS, text[-1] not in _BLANKS
@@ -125,11 +123,10 @@ def _bare(template: MatchedTemplate, context: Context) -> tuple[Value, ...] | No
     known = context.variables.known(pieces.variables)
     if known is None:
         return None
-    words: list[Value] = []
-    for text, begin, end, reads in _words_of(pieces.pieces, *known):
-        at = context.at(inside(span, begin, end))
-        words.append(new_value(text, at, through=reads, raw=raw[begin:end]))
-    return tuple(words)
+    return tuple(
+        new_value(text, context.at(inside(span, begin, end)), through=reads, raw=raw[begin:end])
+        for text, begin, end, reads in _words_of(pieces.pieces, *known)
+    )
 
 
 def _words_of(
@@ -282,10 +279,22 @@ class _Splitter:
 def _place(words: Words, begin: int, end: int) -> Span:
     """Return the place of characters: exact where the text is written as it reads, else that of the whole piece."""
     span = words.span
-    if span.line != span.end_line or span.end_column - span.column != len(words.text):
+    if not is_on_one_line(span):
         return span
-    return Span(span.file, span.line, span.column + begin, span.line, span.column + end)
+    offsets = _offsets(span)
+    if offsets is not None:  # the lines of the file need not be counted
+        return inside(span, begin, end) if offsets[1] - offsets[0] == len(words.text) else span
+    exact = span.end_column - span.column == len(words.text)
+    return Span(span.file, span.line, span.column + begin, span.line, span.column + end) if exact else span
 
 
 def _joined(first: Span, last: Span) -> Span:
+    whole, begin, end = whole_of(first), _offsets(first), _offsets(last)
+    if whole is not None and begin is not None and end is not None and whole_of(last) is whole:
+        return stretch(whole, begin[0], end[1])
     return Span(first.file, first.line, first.column, last.end_line, last.end_column)
+
+
+def _offsets(span: Span) -> tuple[int, int] | None:
+    """Return the two offsets of a span that has some in the text of a file as it is."""
+    return offsets_of(span) if type(whole_of(span)) is Source else None

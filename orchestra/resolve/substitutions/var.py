@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 from orchestra.description.text import Words
 from orchestra.errors import Code
 from orchestra.nearest import nearest, one_slip
-from orchestra.resolve.context import Value, new_value
+from orchestra.resolve.context import POISON, Value, new_value
 from orchestra.resolve.refusals import refuse
 from orchestra.resolve.substitutions.lookup import looked_up
 
@@ -51,6 +51,8 @@ def _check_default(name: str, written: Template, context: Context) -> None:
 
 
 def _report(name: str, written: Template, context: Context) -> Poison:
+    if written.constant in context.lost:  # nothing is told of it: its slips need not be looked for
+        return POISON
     told = f"no launch argument or variable {name!r} is set here"
     return refuse(
         written, context, Code.UNDEFINED_VARIABLE, told, meant=nearest(name, context.variables.names())
