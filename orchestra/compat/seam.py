@@ -49,6 +49,9 @@ class Engine(Protocol):
     def visit(self, entities: Iterable[Any]) -> None:
         """Visit Python entities depth-first, at once."""
 
+    def loop(self) -> Any:
+        """Return the event loop that runs, else one that keeps for the run what it is given."""
+
     def parameters(self) -> Sequence[tuple[str, Any]]:
         """Return what set_parameter put in scope, in order."""
 

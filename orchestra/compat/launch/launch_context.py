@@ -28,6 +28,7 @@ class LaunchContext:
     ) -> None:
         self.__argv = list(argv) if argv is not None else []
         self.__noninteractive = noninteractive
+        self.__is_of_run = _engine is not None
         self._engine = _engine if _engine is not None else connection().engine(self.__argv)
         self.__globals: dict[str, Any] = {}
         self.__locals: dict[str, Any] = {}
@@ -52,8 +53,8 @@ class LaunchContext:
 
     @property
     def asyncio_loop(self) -> Any:
-        """None: nothing runs while launch files are resolved."""
-        return None
+        """The event loop that runs, else one that keeps for the run what it is given; None in one built by users."""
+        return self._engine.loop() if self.__is_of_run else None
 
     @property
     def launch_configurations(self) -> MutableMapping[str, Any]:

@@ -91,6 +91,18 @@ class ResolvingEngine:
         with self._refusing():
             visit_entities(entities, self._run)
 
+    def loop(self) -> Any:
+        """Return the event loop that runs, else one that keeps for the run what it is given."""
+        # Here, because few actions of users ask for it.
+        import asyncio  # noqa: PLC0415
+
+        from orchestra.compat.later_loop import LaterLoop  # noqa: PLC0415
+
+        try:
+            return asyncio.get_running_loop()
+        except RuntimeError:
+            return LaterLoop(self.visit)
+
     def parameters(self) -> Sequence[tuple[str, Any]]:
         """Return what set_parameter put in scope."""
         set_here = self._run.scope.parameters
