@@ -91,18 +91,25 @@ def generate_test_description():
 
 
 @pytest.mark.conforms("1.18 parametrize", "D60")
-def test_of_several_values_the_first_counts(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("above", "below"),
+    [("", ""), ("@launch_testing.markers.keep_alive", ""), ("", "@launch_testing.markers.keep_alive")],
+)
+def test_of_several_values_the_first_counts(tmp_path: Path, above: str, below: str) -> None:
     plan, problems = _planned(
         tmp_path / "test_a.py",
-        """
+        f"""
+{above}
 @launch_testing.parametrize("word, other", [("first", 1), ("second", 2)])
+{below}
 def generate_test_description(word, other):
     return launch.LaunchDescription([launch.actions.ExecuteProcess(cmd=["prog", word, str(other)])])
 """,
     )
     assert not problems
     assert plan is not None
-    assert [process.command for process in plan.processes] == [("prog", "first", "1")]
+    assert plan.processes[0].command == ("prog", "first", "1")
+    assert len(plan.processes) == (2 if above or below else 1)
 
 
 @pytest.mark.conforms("1.18 util.KeepAliveProc", "D60")

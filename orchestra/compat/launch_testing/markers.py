@@ -11,11 +11,22 @@ from orchestra.compat.launch_testing.util.keep_alive_process import KeepAlivePro
 from orchestra.compat.place import Place
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Iterator
 
 
 def keep_alive(test_description: Callable[..., Any]) -> Callable[..., Any]:
-    """Return a function that adds a process which does nothing to the description that another one returns."""
+    """Return a function that adds a process which does nothing to the description that another one returns.
+
+    So do those that it yields where there is one per value.
+    """
+    if getattr(test_description, "__parametrized__", False):
+
+        @functools.wraps(test_description)
+        def each() -> Iterator[tuple[Callable[..., Any], dict[str, Any]]]:
+            for function, arguments in test_description():
+                yield keep_alive(function), arguments
+
+        return each
 
     @functools.wraps(test_description)
     def described(*args: Any, **kwargs: Any) -> Any:
