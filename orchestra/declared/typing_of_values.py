@@ -24,6 +24,7 @@ _TRUTHS: Final = {
     **dict.fromkeys(("1", "on", "true", "y", "yes"), "true"),
     **dict.fromkeys(("0", "false", "n", "no", "off"), "false"),
 }
+_AS_PYTHON: Final = ("True", "False")
 
 
 def type_of(value: ParameterValue) -> RosType | None:
@@ -71,6 +72,8 @@ def _scalar(value: ParameterValue, kind: str) -> str | None:
         return written(value) if isinstance(value, str) else f'"{written(value)}"'
     if isinstance(value, str):
         meant = without_slip(value.strip())
+        if kind == "bool" and meant is not None and meant[1] in _AS_PYTHON:
+            return meant[1]
         return _unquoted(value.strip() if meant is None else meant[1].partition(" #")[0], kind)
     if isinstance(value, bool):
         return written(value) if kind == "bool" else None

@@ -60,10 +60,11 @@ def _check_options(words: Sequence[Value], problems: Problems) -> None:
         option, value = words[at], words[at + 1] if at + 1 < len(words) else None
         if option.text == "--help":
             return
+        if not option.text.startswith("--"):
+            return  # something before it is no word of its own, which is told
         if option.text not in known:
             told = f"static_transform_publisher has no option '{option.text}'"
-            meant = nearest(option.text, known) if option.text.startswith("--") else None
-            _tell(option, told, problems, meant)
+            _tell(option, told, problems, nearest(option.text, known))
             return
         if value is None or value.text.startswith("--"):
             _tell(option, f"'{option.text}' is given no value", problems)

@@ -35,6 +35,7 @@ _ROBOT: Final = "{pkg: robot_state_publisher, exec: robot_state_publisher, param
         (_TRANSFORM, "--x 1 --yaw -0.5 --frame-id a --child-frame-id b", []),
         (_TRANSFORM, "--x 1 --frame_id a --child-frame-id b", [(Code.BAD_VALUE, "--frame_id", "--frame-id")]),
         (_TRANSFORM, "--x 1 --frame-id a --child-frame-id", [(Code.BAD_VALUE, "--child-frame-id", None)]),
+        (_TRANSFORM, "--x 1 --frame-id a--child-frame-id b", []),
         (_TRANSFORM, "--x one --frame-id a --child-frame-id b", [(Code.BAD_VALUE, "one", None)]),
         (_TRANSFORM, "--x 1 --frame-id a", [(Code.BAD_VALUE, "--x", None)]),
         (_TRANSFORM, "0 0 0.1 0 0 0 base laser", []),
