@@ -72,9 +72,9 @@ def _scalar(value: ParameterValue, kind: str) -> str | None:
         return written(value) if isinstance(value, str) else f'"{written(value)}"'
     if isinstance(value, str):
         meant = without_slip(value.strip())
-        if kind == "bool" and meant is not None and meant[1] in _AS_PYTHON:
-            return meant[1]
-        return _unquoted(value.strip() if meant is None else meant[1].partition(" #")[0], kind)
+        text = value.strip() if meant is None else meant[1].partition(" #")[0]
+        slip = kind == "bool" and text in _AS_PYTHON and text != value.strip()
+        return text if slip else _unquoted(text, kind)
     if isinstance(value, bool):
         return written(value) if kind == "bool" else None
     if kind == "bool":
