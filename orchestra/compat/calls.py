@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.launch.substitution import Substitution
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
-from orchestra.compat.place import IN_CONSTRUCTOR, Instructions, argument, here
+from orchestra.compat.place import IN_CONSTRUCTOR, Arguments, Instructions, argument, here
 from orchestra.compat.text import template
 from orchestra.dataclass import maker
 from orchestra.description.text import (
@@ -16,6 +16,7 @@ from orchestra.description.text import (
     Template,
     Words,
     matched_template,
+    matched_words,
     new_call,
     new_template,
     new_words,
@@ -57,11 +58,16 @@ class CallSubstitution(Substitution):
 
     def _call(self, given: Sequence[Sequence[Substitution]] | None = None) -> Call:
         place, paths = self._place, self._paths()
-        count = len(paths)
-        arguments = [
-            template(item, argument(place, paths[index]) if index < count else place.span)
-            for index, item in enumerate(self._arguments() if given is None else given)
-        ]
+        count, call = len(paths), Arguments(place)
+        arguments: list[Template] = []
+        for index, items in enumerate(self._arguments() if given is None else given):
+            text = items[0].text if len(items) == 1 and type(items[0]) is TextSubstitution else None
+            if index >= count:
+                arguments.append(template(items, place.span))
+            elif text is None or "$" in text or "\\" in text:
+                arguments.append(template(items, argument(place, paths[index])))
+            else:  # the same, of which words and place are made when somebody asks
+                arguments.append(matched_words(text, False, call, paths[index]))  # type: ignore[arg-type] # its groups are paths
         return new_call(self._name, tuple(arguments), place.span)
 
     def _whole(self) -> Template | None:
