@@ -119,6 +119,7 @@ def _better(error: BaseException, call: TracebackType) -> Explanation | None:
         missing_files,
         missing_keys,
         missing_packages,
+        no_terminal,
         refused_calls,
         too_early,
         unknown_names,
@@ -129,8 +130,12 @@ def _better(error: BaseException, call: TracebackType) -> Explanation | None:
     match error:
         case PackageNotFoundError():
             return missing_packages.explained(error, place)
-        case FileNotFoundError():
-            return missing_files.explained(error, place)
+        case EOFError() | OSError():
+            return (
+                missing_files.explained(error, place)
+                if isinstance(error, FileNotFoundError)
+                else no_terminal.explained(error, place)
+            )
         case ImportError():
             return unknown_names.not_in_module(error, place)
         case TypeError():

@@ -146,6 +146,9 @@ class Connection(Protocol):
     def missing_program(self, name: str) -> tuple[Severity, str, str | None]:
         """Return what is to be said where code goes no further without a program, and the name that was meant."""
 
+    def missing_terminal(self) -> Severity:
+        """Return how much it weighs that code goes no further without a terminal."""
+
     def package_prefixes(self) -> dict[str, str]:
         """Return the install prefixes of all packages by name."""
 

@@ -113,6 +113,10 @@ class LoadingConnection:
         missing = missing_program(name, environment_now(), self._inputs.weights.program)
         return missing.severity, missing.told, missing.meant
 
+    def missing_terminal(self) -> Severity:
+        """Return how much it weighs that code goes no further without a terminal: as with a variable."""
+        return self._inputs.weights.variable
+
     def package_prefix(self, package: str) -> str | None:
         """Return the install prefix of a package, None for an unknown one."""
         return self._packages.prefix(package)
