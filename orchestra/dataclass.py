@@ -127,9 +127,9 @@ class _Late:
         # Whoever asks for a signature gives the class itself (Python 3.13).
         if instance is None or instance is self._cls or self._made > _FEW:
             return self._compiled(instance, owner)
-        return lambda *args, **named: self._fill(instance, args, named)
+        return lambda *args, **named: self.fill(instance, args, named)
 
-    def _fill(self, instance: Any, args: tuple[Any, ...], named: dict[str, Any]) -> None:
+    def fill(self, instance: Any, args: tuple[Any, ...], named: dict[str, Any]) -> None:
         """Set the fields one by one; arguments that do not fit are left to the compiled one, which says why."""
         values = _matched(fields(self._cls), args, named)
         if values is None:
@@ -229,8 +229,13 @@ class _Maker:
 
     def make(self, *args: Any, **named: Any) -> Any:
         self._left -= 1
-        if self._left >= 0:
+        late = vars(self._cls).get("__init__")
+        if self._left >= 0 and type(late) is not _Late:
             return self._cls(*args, **named)
+        if self._left >= 0:  # by themselves they are too few for it to be compiled, too
+            made = object.__new__(self._cls)
+            late.fill(made, args, named)
+            return made
         self._compile()
         return self.made(*args, **named)
 

@@ -58,7 +58,9 @@ def is_on_one_line(span: Span) -> bool:
     whole, offsets = whole_of(span), offsets_of(span)
     if type(whole) is not Source or offsets is None:
         return span.line == span.end_line
-    return _BREAK.search(whole.text, *offsets) is None
+    begin, end = offsets
+    # What ends a line is not printable.
+    return whole.text[begin:end].isprintable() or _BREAK.search(whole.text, begin, end) is None
 
 
 def spans_of(

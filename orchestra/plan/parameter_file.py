@@ -143,6 +143,8 @@ def _float(value: float) -> str:
 
 
 def _quoted(text: str) -> str:
+    if text.isascii() and text.isprintable() and '"' not in text and "\\" not in text:
+        return f'"{text}"'
     if "\0" in text:
         raise ValueError("a text must not hold NUL")
     if re.search("[\ud800-\udfff]", text):

@@ -12,13 +12,14 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from orchestra.description.running import Running
+    from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
     from orchestra.values import Restart
 
 
-def check_keys(action: Running, restart: Restart | None, run: Resolution) -> None:
-    """Report keys that never act. Calls in Python give arguments in bulk, so that theirs are left alone."""
-    if is_python(action.span):
+def check_keys(action: Running, restart: Restart | None, location: Location, run: Resolution) -> None:
+    """Report keys of an action that never act. Calls in Python give arguments in bulk: theirs are left alone."""
+    if is_python(location):
         return
     for written, message in _idle(action, restart, run):
         run.problems.warning(Code.IDLE_KEY, message, run.at(written.span))

@@ -13,6 +13,7 @@ from orchestra.errors import Code
 from orchestra.fields import replace
 from orchestra.load.entities import PARAMETERS
 from orchestra.location import displayed
+from orchestra.patterns import pattern
 from orchestra.resolve.launch_files import TEXTS
 
 if TYPE_CHECKING:
@@ -21,9 +22,9 @@ if TYPE_CHECKING:
     from orchestra.location import Location
     from orchestra.resolve.resolution import Resolution
 
-_BY_NAME: Final = re.compile(r"\.py$|\.launch(\.\w+)?$")
+_BY_NAME: Final = pattern(r"\.py$|\.launch(\.\w+)?$")
 _ENDINGS: Final = {"python": (".py",), "xml": (".xml",), "yaml": (".yaml", ".yml")}
-_BY_TEXT: Final = re.compile(r"\A\s*<|^launch[ \t]*:", re.MULTILINE)
+_BY_TEXT: Final = pattern(r"\A\s*<|^launch[ \t]*:", re.MULTILINE)
 
 
 def refused_as_parameters(path: str, text: str, location: Location, run: Resolution) -> bool:

@@ -67,14 +67,14 @@ def parameters(
     """
     found: list[ParameterSource | None] = []
     for param in written:
-        if param.faulty and param.from_ is not None and beside(run.context.file, param.from_.raw) is None:
+        if param.from_ is None:
+            found += _inline(param, (), run, everywhere=isinstance(param, Override), quotes=quotes)
+        elif param.faulty and beside(run.context.file, param.from_.raw) is None:
             found.append(None)  # it may be no parameter at all: a remap stands where one belongs
-        elif param.from_ is not None:
+        else:
             substitute = run.flag(param.allow_substs, default=False)
             file = file_parameters(param.from_, run, substitute=substitute is True, plain=component)
             found.append(file if isinstance(substitute, bool) else None)
-        else:
-            found += _inline(param, (), run, everywhere=isinstance(param, Override), quotes=quotes)
     sound = tuple([item for item in found if item is not None])
     files = [item for item in sound if type(item) is FileParameters]
     return sound, len(sound) == len(found) and all(item.sound for item in files)

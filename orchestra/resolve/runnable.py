@@ -43,7 +43,7 @@ class Fault:
 def fault_of(path: str, environment: Mapping[str, str]) -> Fault | None:
     """Return why an executable file cannot be started, None where nothing speaks against it."""
     try:
-        with Path(path).open("rb") as stream:
+        with open(path, "rb", buffering=0) as stream:  # noqa: PTH123 - pathlib is slow
             beginning = stream.read(_BEGINNING)
     except OSError:
         return None  # executable and not readable: the system may start it all the same
@@ -95,7 +95,7 @@ def _of_script(beginning: bytes, environment: Mapping[str, str]) -> Fault | None
         return Fault("its first line names no interpreter behind '#!'")
     if not os.path.exists(words[0]):  # noqa: PTH110 - a cheap look
         return Fault(f"its interpreter {words[0]} is not here", here=True)
-    if Path(words[0]).name != "env":
+    if words[0].rpartition("/")[2] != "env":
         return None
     called = next((word for word in words[1:] if not word.startswith("-") and "=" not in word), None)
     if called is None or "/" in called or program_on_path(called, environment) is not None:

@@ -146,7 +146,7 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
     sound, location = Sound(), run.place(action)
     on_exit, places = sound(run.word(action.on_exit, ON_EXIT)), output(action.output, run, location)
     again = sound(restart(action, run))
-    check_keys(action, again, run)
+    check_keys(action, again, location, run)
     return new_process(
         kind=program.kind,
         package=program.package,
@@ -158,8 +158,8 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         arguments=program.arguments,
         ros_arguments=program.ros_arguments,
         prefix=sound(_prefix(action, program, run)) or (),
-        shell=sound(run.flag(action.shell)) is True,
-        cwd=sound(_cwd(action, run)),
+        shell=action.shell is not None and sound(run.flag(action.shell)) is True,
+        cwd=None if action.cwd is None else sound(_cwd(action, run)),
         environment=sound(_environment(action, run)) or {},
         parameters=program.parameters,
         parameter_arguments=program.parameter_arguments,
@@ -170,15 +170,15 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         restart=again,
         required=sound(run.flag(action.required, default=on_exit is not None)) is True,
         shutdown_on_exit=on_exit is not None,
-        success_exit_codes=sound(exit_codes(action, run)),
-        ready=sound(readiness(action.ready, run)),
-        alive=sound(life(action.alive, run)),
+        success_exit_codes=None if action.success_exit_codes is None else sound(exit_codes(action, run)),
+        ready=None if action.ready is None else sound(readiness(action.ready, run)),
+        alive=None if action.alive is None else sound(life(action.alive, run)),
         stop=sound(stop(action, run)),
         depends_on=run.frame.depends_on + (sound(dependencies(action.depends_on, run)) or ()),
         labels=run.frame.labels,
-        limits=sound(_limits(action, run)),
-        stdin=sound(_stdin(action, run)),
-        warm=sound(run.flag(action.warm)),
+        limits=None if action.limits is None else sound(_limits(action, run)),
+        stdin=None if action.stdin is None else sound(_stdin(action, run)),
+        warm=None if action.warm is None else sound(run.flag(action.warm)),
         location=location,
         conditional=_is_conditional(action, run),
         # The last one: all others have been looked at.

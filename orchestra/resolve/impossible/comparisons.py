@@ -29,6 +29,8 @@ if TYPE_CHECKING:
 _EQUALITIES: Final = {"equals": True, "not-equals": False}
 _BY_CONFIGURATION: Final = {"LaunchConfigurationEquals": True, "LaunchConfigurationNotEquals": False}
 _PLACE: Final = pattern("\ue000([0-9]+)\ue001")
+_TEXT: Final = r"""(?:'[^'\\\n]*+'|"[^"\\\n]*+")"""
+_TEXTS: Final = pattern(rf"{_TEXT} *+[=!]= *+{_TEXT}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,8 +128,11 @@ def _check_expression(template: Template, run: Resolution) -> None:
     )
     if "\ue000" not in text:
         return  # nothing in it is anything but constant, and that is meant
-    lead = len(text) - len(text.lstrip())
-    for node, numbers in _compared(text.strip()):
+    lead, text = len(text) - len(text.lstrip()), text.strip()
+    every = range(len(template.parts))
+    if _TEXTS.fullmatch(text) and not any(_is_choice(number, template.parts, run) for number in every):
+        return  # two texts, as most of them are, of which it is not known what they can come to
+    for node, numbers in _compared(text):
         if numbers is None or any(_is_choice(number, template.parts, run) for number in numbers):
             _check_compared(node, template, lead, run)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 from typing import TYPE_CHECKING, Any, Literal
 
 from orchestra.dataclass import dataclass
@@ -60,6 +59,8 @@ def defer(deferred: Deferred, location: Location, run: Resolution) -> int:
 
 def copied(scope: Scope) -> Scope:
     """Return a scope that is changed without the other, and whose reads and writes are nobody else's."""
+    import copy  # noqa: PLC0415 - few launches put something off, and it imports more
+
     other = copy.copy(scope)
     for entry in fields(scope):
         value = getattr(scope, entry.name)

@@ -6,7 +6,7 @@ from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
 from orchestra.patterns import pattern
-from orchestra.resolve.rcl.scalars import typed
+from orchestra.resolve.rcl.scalars import SLIPS, typed
 from orchestra.resolve.rcl.surprises import surprise
 
 if TYPE_CHECKING:
@@ -16,6 +16,10 @@ _NUMBER: Final = pattern(r"-?(?:0|[1-9][0-9]{0,14})(?:\.(?:0|[0-9]{0,14}[1-9]))?
 _NUMERIC: Final = frozenset("+-.0123456789")
 _QUOTES: Final = ("'", '"')
 _BOOLEANS: Final = {"true": True, "True": True, "false": False, "False": False}
+# What a word in any case may mean to somebody beside itself.
+_MEANT: Final = frozenset(
+    {"y", "yes", "n", "no", "on", "off", "true", "false", "null", "nan", "inf", "infinity", *SLIPS}
+)
 _SIGNED: Final = ("e-", "e+", "E-", "E+")
 
 
@@ -43,6 +47,8 @@ def _read(text: str) -> Scalar | None:
         return float(text) if "." in text else int(text)
     if text in _BOOLEANS:
         return _BOOLEANS[text]
+    if text.isidentifier() and text.isascii() and text.lower() not in _MEANT:
+        return text
     value = typed(text)
     if isinstance(value, float):
         # What loses digits may be a name.

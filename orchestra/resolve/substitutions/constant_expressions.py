@@ -5,8 +5,9 @@ They give the same wherever they stand, read nothing, change nothing and warn of
 
 from __future__ import annotations
 
+import operator
 from functools import lru_cache
-from typing import Final
+from typing import Any, Final
 
 from orchestra.patterns import pattern
 
@@ -17,13 +18,34 @@ _CONSTANT: Final = (
 )
 # Those that may take long are left out: shifts, powers, and texts time and again.
 _OPERATOR: Final = r"(?: *+(?:[=!<>]=|<|>|\+|-|//?|%) *+| +(?:and|or|in|not +in) +)"
+# Two texts or two whole numbers, as most of them are.
+_COMPARISON: Final = pattern(
+    rf"(?:({_TEXT})|(0|[1-9][0-9]*+)) *+([=!<>]=|[<>]) *+(?:({_TEXT})|(0|[1-9][0-9]*+))"
+)
+_COMPARED: Final[dict[str, Any]] = {
+    "==": operator.eq,
+    "!=": operator.ne,
+    "<": operator.lt,
+    "<=": operator.le,
+    ">": operator.gt,
+    ">=": operator.ge,
+}
 _CONSTANTS: Final = pattern(rf"{_CONSTANT}(?:{_OPERATOR}{_CONSTANT})*+")
 
 
 @lru_cache(maxsize=512)
 def of_constants(expression: str) -> str | None:
     """Return the `str` of what an expression gives; None for any other, and where it fails."""
-    if len(expression) > _LONGEST or _CONSTANTS.fullmatch(expression) is None:
+    if len(expression) > _LONGEST:
+        return None
+    found = _COMPARISON.fullmatch(expression)
+    if found is not None:
+        text, number, compared, other_text, other_number = found.groups()
+        if text is not None and other_text is not None:
+            return str(_COMPARED[compared](text[1:-1], other_text[1:-1]))
+        if number is not None and other_number is not None:
+            return str(_COMPARED[compared](int(number), int(other_number)))
+    if _CONSTANTS.fullmatch(expression) is None:
         return None
     try:
         text = str(eval(expression, {"__builtins__": {}}))  # noqa: S307 - of constants
