@@ -62,7 +62,12 @@ def tell_true(tested: object, frame: FrameType) -> None:
         if tree is not None and called_by(tree.meaning(node)) == name:
             notes = ("a condition is judged when it is visited: IfCondition(a)", _HAS_TEXT.format(name))
             message = f"{name} {_EARLY}: it always counts as true, an IfCondition can tell"
-            whole, meant = _logic(place) or (node, None)
+            context = tree.context_around(node)
+            source = text_at(place.file, node_span(place.file, node))
+            performed = None if context is None else Rewritten(f"{source}.perform({context}) == 'true'")
+            is_text = name == "LaunchConfiguration"
+            message += f": condition=IfCondition({source})" if context is None and is_text else ""
+            whole, meant = _logic(place) or (node, performed if is_text else None)
             _tell(Code.IMPOSSIBLE_CONDITION, message, place, notes, whole, meant)
             return
 

@@ -11,7 +11,7 @@ from orchestra.compat.given import path_of, value_at, without
 from orchestra.compat.keywords import keyword_meant, parameters_of, shown
 from orchestra.compat.literals import argument, call_at, keyword_span
 from orchestra.compat.reported import ReportedError
-from orchestra.compat.rewritten import Rewritten, all_listed, all_named, in_two, named, rewritten
+from orchestra.compat.rewritten import Rewritten, all_listed, all_named, in_brackets, in_two, named, rewritten
 from orchestra.compat.syntax_trees import called_by
 from orchestra.compat.wrong import WrongValue
 from orchestra.errors import Code, Problem, Severity
@@ -57,6 +57,8 @@ class FaultyCall:
     ) -> None:
         words, named = given
         self.given = (*words, *named.values())
+        # Without what it only refers to: that stands elsewhere, too.
+        self.content = [*words, *(item for name, item in named.items() if not name.startswith("target"))]
         self.kind = _owner(type(made), constructor)
         self.name = _public_name(type(made), way[0])
         self.parameters = {item.name: item for item in parameters_of(self.kind)}
@@ -153,7 +155,7 @@ class FaultyCall:
             meant = keyword_meant(name, self.parameters, self.named)
             spans = (keyword_span(place, name) for place in (*self.places, *self.way))
             span = next((span for span in spans if span is not None), None)
-            message = f"{self.name} has no argument '{name}'"
+            message = f"{self.name} has no argument '{name}'{'' if meant else self._owner(name)}"
             if span is None:  # it comes out of a mapping that is made elsewhere
                 notes = () if meant is None else (f"did you mean '{meant}'?",)
                 self._tell(Code.UNKNOWN_KEY, message, self.places[0].span, notes=notes)
@@ -164,6 +166,12 @@ class FaultyCall:
             if meant is not None and meant not in self.named:
                 self.named[meant] = self.original[meant] = value
         return True
+
+    def _owner(self, name: str) -> str:
+        from orchestra.compat.belongings import owner_of  # noqa: PLC0415 - only mistakes need it
+
+        owner = owner_of(name, self.name, self.places)
+        return "" if owner is None else f": {owner}"
 
     def _missing(self, names: list[str]) -> bool:
         if not self.found and not self._are_one():
@@ -196,6 +204,9 @@ class FaultyCall:
         message = in_their_words(" ".join(str(error).split()))
         if suggestion is None and path[0] not in _AMOUNTS:
             suggestion = self._rewritten(path, at, message)
+        wide = in_brackets(self.places[0].file, at) if "args of an OpaqueFunction" in message else None
+        if wide is not None and suggestion is not None:
+            at, suggestion = wide, Rewritten(f"({suggestion[1:-1]},)")
         self._tell(code, message, at, suggestion)
         self.told.add(path)
         name = str(path[0])

@@ -50,7 +50,7 @@ _FOR_PEOPLE: Final = frozenset({"description", "msg"})
 _HOLDING: Final = (ast.List, ast.Tuple, ast.Dict)
 
 
-def tell_foreign(path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
+def tell(path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
     """Warn of such texts where a launch file hands them over."""
     tree = tree_of(path)
     for node in () if tree is None else _texts(tree):

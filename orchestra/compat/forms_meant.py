@@ -217,6 +217,9 @@ def _pairs_of(source: str, value: Any) -> str | None:
 def _name_of_variable(source: str, value: Any) -> str | None:
     """Return the name of the variable that stands in place of the name alone."""
     found = _VARIABLE.fullmatch(source)
+    named = getattr(value, "variable_name", None)
+    if found is None and isinstance(named, list) and len(named) == 1 and hasattr(named[0], "text"):
+        return repr(named[0].text)
     return _as_text(source, value) if found is None else found[1]
 
 

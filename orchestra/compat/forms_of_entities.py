@@ -8,6 +8,8 @@ from typing import Any, Final
 
 _CALLED: Final = re.compile(r"([\w.]+)\(.*\)")
 _TWO: Final = 2
+_MORE_ARGUMENTS: Final = 4  # `*args`
+_COROUTINE: Final = 128
 _TRANSITIONS: Final = ("ACTIVATE", "CLEANUP", "CONFIGURE", "CREATE", "DEACTIVATE", "DESTROY")
 
 # What takes objects that are no actions, by the names of their classes.
@@ -68,9 +70,17 @@ def misplaced(source: str, value: Any) -> str | None:
     if isinstance(value, list | tuple):
         is_literal = source[:1] + source[-1:] in ("[]", "()")
         return (source[1:-1].strip() or None) if is_literal else f"*{source}"
+    if _needs_nothing(value):
+        return f"{source}()"
     kinds = (_TAKING.get(kind.__name__) for kind in type(value).__mro__)
     taking = next((kind for kind in kinds if kind is not None), None)
     return None if taking is None else f"{taking}{source})"
+
+
+def _needs_nothing(value: Any) -> bool:
+    """Return whether a function takes no arguments: it is no OpaqueFunction's, which is given the context."""
+    code = getattr(value, "__code__", None)
+    return code is not None and code.co_argcount == 0 and not code.co_flags & (_MORE_ARGUMENTS | _COROUTINE)
 
 
 def answering(source: str, value: Any) -> str | None:

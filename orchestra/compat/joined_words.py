@@ -25,7 +25,7 @@ _TWO: Final = re.compile(
 _LISTS: Final = frozenset({"arguments", "cmd", "ros_arguments"})
 
 
-def tell_joined_words(path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
+def tell(path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
     """Warn of options, and of topics of a bridge, that are part of the word before them for want of a comma."""
     tree = tree_of(path)
     for word in () if tree is None else _words(tree):

@@ -15,6 +15,9 @@ _SHORT: Final = 3
 # Words of other languages of launch files, of former releases, and what people write for them.
 _MEANINGS: Final = {
     "action": ("actions", "target_action"),
+    "callback": ("function",),
+    "func": ("function",),
+    "on_complete": ("on_completion",),
     "args": ("arguments",),
     "command": ("cmd", "command"),
     "cmd_args": ("arguments",),
@@ -72,7 +75,7 @@ def keyword_meant(written: str, known: Mapping[str, inspect.Parameter], given: I
 
 def _only_with(word: str, known: Iterable[str]) -> str | None:
     """Return the only keyword of which a word is a part: `container` is one of `target_container`."""
-    found = [name for name in known if word in name.split("_")]
+    found = [name for name in known if word in name.split("_") and word != "delay"]
     return found[0] if len(found) == 1 and len(word) >= _SHORT else None
 
 

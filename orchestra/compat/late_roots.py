@@ -21,7 +21,7 @@ if TYPE_CHECKING:
 _ANEW: Final = "the path begins anew at "
 
 
-def tell_late_roots(path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
+def tell(path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
     """Warn of parts of paths that leave out what stands before them, where nothing is there."""
     tree = tree_of(path)
     for node in () if tree is None else tree.nodes:

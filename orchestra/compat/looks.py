@@ -10,8 +10,11 @@ from typing import TYPE_CHECKING, Final
 from orchestra.compat.idle_names import may_have_idle_actions
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Mapping
     from types import ModuleType
+
+    from orchestra.errors import Problems
+    from orchestra.location import Span
 
 _PIECE: Final = 16  # names of a dictionary that are one constant, at most
 _KEY: Final = re.compile(rb"""[{}]|(['"])([^'"\n\\]+)\1\s*:""")
@@ -152,6 +155,13 @@ def _changes_nothing(code: CodeType, _source: bytes) -> bool:
     return changes_nothing(code)
 
 
+def _may_be_misused(_code: CodeType, source: bytes) -> bool:
+    # Here, as above.
+    from orchestra.compat.misused import may_be_misused  # noqa: PLC0415
+
+    return may_be_misused(source)
+
+
 # Each look by its name: whether a file may change something, or have mistakes of a kind.
 LOOKS: Final[dict[str, Callable[[CodeType, bytes], bool]]] = {
     "harmless": _changes_nothing,
@@ -160,4 +170,19 @@ LOOKS: Final[dict[str, Callable[[CodeType, bytes], bool]]] = {
     "doubled": lambda code, source: _may_double([code], source),
     "roots": lambda _, source: has_late_roots(source),
     "joined": lambda _, source: has_joined_words(source),
+    "misused": _may_be_misused,
 }
+# By the looks that say whether a file may have such slips: the modules that tell of them.
+OF_CODE: Final = {"misused": "misused"}
+OF_TEXTS: Final = {"foreign": "foreign_substitutions", "roots": "late_roots", "joined": "joined_words"}
+
+
+def tell_slips(
+    compiled: Compiled, kinds: Mapping[str, str], path: str, problems: Problems, chain: tuple[Span, ...]
+) -> None:
+    """Warn of the slips of some kinds in a file; `chain` are the includes on the way."""
+    for look, module in kinds.items():
+        if compiled.may(look):
+            from importlib import import_module  # noqa: PLC0415 - only what may be a mistake needs it
+
+            import_module(f"orchestra.compat.{module}").tell(path, problems, chain)

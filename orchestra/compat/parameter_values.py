@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import json
+import re
 from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.literals import argument
@@ -15,6 +16,7 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 _NO_JSON: Final = {".inf": "float('inf')", "-.inf": "float('-inf')", ".nan": "float('nan')"}
+_ASSIGNED: Final = re.compile(r"(?:[\w/]+:(?!=))?([A-Za-z_][\w.]*)\s*(?::=|=|:\s)\s*(.+)")
 _LITERALS: Final = ast.Constant | ast.List | ast.Tuple | ast.UnaryOp
 
 
@@ -37,3 +39,16 @@ def _written(meant: str) -> Rewritten:
         return Rewritten(repr(json.loads(meant)))
     except ValueError:
         return Rewritten(_NO_JSON.get(meant, meant))
+
+
+def assigned(text: str) -> str | None:
+    """Return the dictionary that a text is written for which gives a parameter: `rate:=5`, `rate=5` or `rate: 5`."""
+    found = _ASSIGNED.fullmatch(text)
+    if found is None or found[2].endswith((".yaml", ".yml")):
+        return None
+    value = {"true": "True", "false": "False"}.get(found[2].lower(), found[2])
+    try:
+        plain = ast.literal_eval(value)
+    except (ValueError, SyntaxError):
+        plain = found[2]
+    return f"{{{found[1]!r}: {plain!r}}}"

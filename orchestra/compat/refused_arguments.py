@@ -63,7 +63,7 @@ def settled(
     if is_made:
         made._refused = True
     else:
-        vars(made)["_lost"] = tuple(_entities(list(call.given)))
+        vars(made)["_lost"] = tuple(_entities(call.content))
         vars(made)["_lost_name"] = (
             call.named.get("name") if type(made).__name__.startswith(_SETTING) else None
         )

@@ -48,9 +48,32 @@ def rewritten(file: str, span: Span, value: Any, message: str) -> Rewritten | No
     is_pair = isinstance(value, dict | list | set) or (isinstance(value, str) and ":=" in value)
     if "a remapping is a tuple" in message and not is_pair:
         return _apart(file, span, source)
-    meant = form_meant(source, value, message) or _loaded(file, source, message)
+    meant = (
+        form_meant(source, value, message)
+        or _loaded(file, source, message)
+        or _called(file, source, value, message)
+    )
     is_given = source in _arguments_around(file, span)  # then the mistake may be where the function is called
     return None if meant is None or is_given else Rewritten(meant)
+
+
+def _called(file: str, source: str, value: Any, message: str) -> str | None:
+    """Return the call of a function that stands in place of what it returns."""
+    # Here, because only mistakes need it.
+    from orchestra.compat.named_calls import call_of  # noqa: PLC0415
+
+    is_value = any(
+        part in message for part in ("expected a", "is no value of a parameter", "is a text, this is")
+    )
+    return call_of(source, value, tree_of(file)) if callable(value) and is_value else None
+
+
+def in_brackets(file: str, span: Span) -> Span | None:
+    """Return the place of what alone stands in round brackets with them, which are no tuple for want of a comma."""
+    wide = replace(span, column=max(span.column - 2, 1), end_column=span.end_column + 1)
+    source = text_at(file, wide)
+    is_alone = source[1:2] == "(" and source[-1:] == ")" and source[:1] in " =,("
+    return replace(wide, column=span.column - 1) if is_alone else None
 
 
 def _loaded(file: str, source: str, message: str) -> str | None:

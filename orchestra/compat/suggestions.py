@@ -8,16 +8,21 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.as_texts import without_echoes
+from orchestra.compat.belongings import without_needs
 from orchestra.compat.glued_paths import without_slash
+from orchestra.compat.late_loops import without_last_ones
 from orchestra.compat.late_roots import without_followers
 from orchestra.compat.literals import Literal, argument
 from orchestra.compat.made_texts import part_of
 from orchestra.compat.one_mistake import behind_exceptions, corrected_alike, together
-from orchestra.compat.parameter_values import value_meant
+from orchestra.compat.parameter_values import assigned, value_meant
 from orchestra.compat.place import Argument
+from orchestra.compat.returning_none import without_nothings
 from orchestra.compat.rewritten import Rewritten
 from orchestra.compat.source_text import quoted_in, text_at
 from orchestra.compat.syntax_trees import node_span, tree_of
+from orchestra.compat.uncalled import without_methods
+from orchestra.compat.without_f import without_what_braces_cause
 from orchestra.errors import Code
 from orchestra.fields import replace
 from orchestra.nearest import nearest
@@ -31,6 +36,7 @@ if TYPE_CHECKING:
 _QUOTED: Final = re.compile(r"'([^']+)'")
 _UNSET: Final = re.compile(r"no launch argument or variable ('\w+') is set here")
 _SLASHES: Final = re.compile("/+")
+_OPERATOR: Final = re.compile(r"&&|\|\||===|!==|<>|=<|=>")
 _SHORT: Final = 2  # a text of so few letters may mean anything
 _BETWEEN: Final = re.compile(r"[\s()$]+")
 
@@ -40,6 +46,11 @@ def point_into_code(problems: Problems) -> None:
     problems.amend(without_echoes(tuple(problems)))
     problems.amend(without_followers(tuple(problems)))
     problems.amend(in_place)
+    problems.amend(without_what_braces_cause(tuple(problems)))
+    problems.amend(without_last_ones(tuple(problems)))
+    problems.amend(without_nothings(tuple(problems)))
+    problems.amend(without_needs(tuple(problems)))
+    problems.amend(without_methods(tuple(problems)))
     problems.amend(together(tuple(problems)))
     problems.amend(corrected_alike(tuple(problems)))
     problems.amend(behind_exceptions(tuple(problems)))
@@ -51,13 +62,18 @@ def in_place(problem: Problem) -> Problem:
     Where no such text is found it stays at the expression, and a note says what was meant.
     """
     span, meant = problem.span, problem.suggestion
-    if span is None or not span.file.endswith(".py"):
-        return problem
-    if problem.code is Code.SYNTAX:
+    if span is None or not span.file.endswith(".py") or problem.code is Code.SYNTAX:
         return problem  # there are no expressions in what is no Python
     if isinstance(meant, Rewritten):
         return replace(problem, span=whole(span), suggestion=str(meant))
     found = _found(span)
+    given = _given_as_text(problem, found)
+    return _where_found(problem, span, found) if given is None else given
+
+
+def _where_found(problem: Problem, span: Span, found: Literal) -> Problem:
+    """Return the same, of an expression that has been found."""
+    meant = problem.suggestion
     if problem.code is Code.DECLARED_TYPE and meant is not None and isinstance(span, Argument):
         value = value_meant(span, meant)
         if value is not None:
@@ -80,6 +96,19 @@ def in_place(problem: Problem) -> Problem:
     if wrong is None:
         return replace(problem, suggestion=None, notes=(*problem.notes, f"did you mean '{meant}'?"))
     return replace(problem, span=wrong[0], suggestion=wrong[1])
+
+
+def _given_as_text(problem: Problem, found: Literal) -> Problem | None:
+    """Return the problem of a text that gives a parameter, where the path of a file is taken."""
+    text = found.node.value if isinstance(found.node, ast.Constant) else None
+    if not isinstance(text, str):
+        return None
+    is_file = problem.code is Code.MISSING_FILE and "parameter file" in problem.message
+    pair = assigned(text) if is_file else None
+    if pair is None:
+        return None
+    told = f"parameters are dictionaries and files, there is no file '{text}': {pair} gives one"
+    return replace(problem, message=told, span=found.whole, suggestion=pair)
 
 
 def whole(span: Span) -> Span:
@@ -150,6 +179,7 @@ def _wrong(found: Literal, meant: str, message: str, *, is_name: bool) -> tuple[
     if found.node is None:  # a name, or the part of something
         written = text_at(found.file, found.span)
         is_sign = len(written) == 1 and not written.isspace() and not is_name
+        is_sign = is_sign or (bool(_OPERATOR.fullmatch(written)) and not is_name)
         if is_sign or (written.replace(".", "").isidentifier() and (is_name or _stands(written, message))):
             return found.span, meant
         return next(_replaced(_told(quoted_in(found.file, found.span), message), meant), None)

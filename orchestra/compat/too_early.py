@@ -32,11 +32,14 @@ _IN_FUNCTIONS: Final = (
 
 
 def explained(error: TypeError, frame: FrameType, place: Place) -> Explanation | None:
-    """Return what to do about an error of Python's that names a substitution; None where it names none."""
+    """Return what to do about an error of Python's that names a substitution, a function, a text or a number."""
     known = {name for package in _EXPORTING for name in import_module(f"{ROOM}.{package}").__all__}
     found = next((name for name in _CLASS.findall(str(error)) if name in known), None)
     if found is None:
-        return None
+        # Here, because only such mistakes need them.
+        from orchestra.compat import call_meant, texts_as_numbers  # noqa: PLC0415
+
+        return call_meant.explained(error, frame, place) or texts_as_numbers.explained(error, frame, place)
     message = f"{found} is no text before the launch file is visited"
     notes: tuple[str, ...] = (_IN_LISTS, IN_PATHS, _IN_FUNCTIONS)
     tree = tree_of(place.file)

@@ -25,18 +25,20 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 _WORD: Final = pattern(r"\w+")
-_TARGETS: Final = ("target_action", "target_lifecycle_node")
+TARGETS: Final = ("target_action", "target_lifecycle_node")
 # Code that reaches variables in another way than by their names.
 _REACHING: Final = frozenset({"dir", "eval", "exec", "globals", "locals", "vars"})
 
 
 def tell_unadded(path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
     """Warn of the actions of a file that are part of no launch description."""
-    tree = _tree(path)
+    tree = sure_tree(path)
     if tree is None:
         return
-    for name in _made(tree).values():
-        if len(_names(tree)[name.id]) == 1 and name.id not in _remarked("".join(linecache.getlines(path))):
+    for name in made_of(tree).values():
+        if len(names_of(tree)[name.id]) == 1 and name.id not in remarked_of(
+            "".join(linecache.getlines(path))
+        ):
             described = _description(tree)
             way = f"; {described}.add_action({name.id}) adds it" if described is not None else ""
             told = f"'{name.id}' is added to no launch description: it has no effect{way}"
@@ -59,17 +61,17 @@ def _description(tree: Tree) -> str | None:
 
 def target_unadded(handler: Place) -> Span | None:
     """Return where the call of an event handler names what it waits for, if that is part of no launch description."""
-    tree = _tree(handler.file)
-    targets = [] if tree is None else [keyword(handler, name).node for name in _TARGETS]
+    tree = sure_tree(handler.file)
+    targets = [] if tree is None else [keyword(handler, name).node for name in TARGETS]
     for target in targets:
         if tree is None or target is None:
             continue
         if isinstance(target, ast.Name):
-            made, waiting = _made(tree).get(target.id), _targets(tree)
+            made, waiting = made_of(tree).get(target.id), targets_of(tree)
             is_sure = made is not None and all(
-                item in waiting for item in _names(tree)[target.id] if item is not made
+                item in waiting for item in names_of(tree)[target.id] if item is not made
             )
-            if not is_sure or target.id in _remarked("".join(linecache.getlines(handler.file))):
+            if not is_sure or target.id in remarked_of("".join(linecache.getlines(handler.file))):
                 continue
         elif called_by(target) not in PROCESSES:
             continue
@@ -77,7 +79,7 @@ def target_unadded(handler: Place) -> Span | None:
     return None
 
 
-def _tree(path: str) -> Tree | None:
+def sure_tree(path: str) -> Tree | None:
     """Return the tree of a file, None where its code reaches variables in another way than by their names."""
     tree = tree_of(path)
     return None if tree is None or _reaches(tree) else tree
@@ -89,7 +91,7 @@ def _reaches(tree: Tree) -> bool:
 
 
 @lru_cache(maxsize=4)
-def _made(tree: Tree) -> dict[str, ast.Name]:
+def made_of(tree: Tree) -> dict[str, ast.Name]:
     """Return the variables of functions where they are set to an action."""
     found: dict[str, ast.Name] = {}
     for node in tree.nodes:
@@ -101,7 +103,7 @@ def _made(tree: Tree) -> dict[str, ast.Name]:
 
 
 @lru_cache(maxsize=4)
-def _names(tree: Tree) -> dict[str, list[ast.Name]]:
+def names_of(tree: Tree) -> dict[str, list[ast.Name]]:
     """Return where each name stands."""
     found: dict[str, list[ast.Name]] = {}
     for node in tree.nodes:
@@ -111,13 +113,13 @@ def _names(tree: Tree) -> dict[str, list[ast.Name]]:
 
 
 @lru_cache(maxsize=4)
-def _targets(tree: Tree) -> frozenset[ast.expr]:
+def targets_of(tree: Tree) -> frozenset[ast.expr]:
     """Return what event handlers wait for."""
     calls = (node for node in tree.nodes if isinstance(node, ast.Call))
-    return frozenset(word.value for node in calls for word in node.keywords if word.arg in _TARGETS)
+    return frozenset(word.value for node in calls for word in node.keywords if word.arg in TARGETS)
 
 
 @lru_cache(maxsize=4)
-def _remarked(text: str) -> frozenset[str]:
+def remarked_of(text: str) -> frozenset[str]:
     """Return the words that stand in the comments of a file."""
     return frozenset(word for line in text.splitlines() for word in _WORD.findall(line.partition("#")[2]))

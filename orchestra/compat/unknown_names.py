@@ -13,8 +13,8 @@ from orchestra.compat.borrowed import ROOM
 from orchestra.compat.explanation import Explanation
 from orchestra.compat.rewritten import Rewritten, arguments_around, in_quotes
 from orchestra.compat.seam import connection
-from orchestra.compat.source_text import word_in
-from orchestra.compat.syntax_trees import tree_of
+from orchestra.compat.source_text import text_at, word_in
+from orchestra.compat.syntax_trees import node_span, tree_of
 from orchestra.compat.whereabouts import class_meant, exporting, importing, package_meant
 from orchestra.errors import HERE
 from orchestra.nearest import is_one_slip, is_slip, nearest
@@ -79,6 +79,9 @@ def no_attribute(error: AttributeError, place: Place) -> Explanation | None:
         return None
     if isinstance(error.obj, type(sys)):
         return _no_name(error.name, error.obj, place)
+    items = _without_items(error, place) if error.name == "items" else None
+    if items is not None:
+        return items
     meant = nearest(error.name, _public(dir(error.obj)))
     if error.name in _ADDING and hasattr(error.obj, "add_action"):
         meant = "add_action"
@@ -88,6 +91,29 @@ def no_attribute(error: AttributeError, place: Place) -> Explanation | None:
     span = word_in(place.file, place.span, error.name)
     is_meant = meant is not None and (is_slip(error.name, meant) or error.name in _ADDING)
     return Explanation(message, span=span, suggestion=meant if is_meant and span is not None else None)
+
+
+def _without_items(error: AttributeError, place: Place) -> Explanation | None:
+    """Return what has `items` in place of a set of two things, or of pairs, which need none."""
+    # Here, because only such mistakes need them.
+    import ast  # noqa: PLC0415
+
+    from orchestra.compat.forms_of_sets import with_colon  # noqa: PLC0415
+
+    tree = tree_of(place.file)
+    node = None if tree is None else tree.expression(place.file, place.span)
+    node = node.func if isinstance(node, ast.Call) else node
+    held = tree.meaning(node.value) if tree is not None and isinstance(node, ast.Attribute) else None
+    if isinstance(error.obj, set) and isinstance(held, ast.Set):
+        span = node_span(place.file, held)
+        meant = with_colon(text_at(place.file, span))
+        message = "a set has no items: a colon makes a dictionary of it"
+        return Explanation(message, span=span, suggestion=None if meant is None else Rewritten(meant))
+    are_pairs = isinstance(error.obj, list) and all(isinstance(item, tuple) for item in error.obj)
+    if are_pairs and isinstance(node, ast.Attribute):
+        source = text_at(place.file, node_span(place.file, node.value))
+        return Explanation(f"pairs need no .items(): {source}", span=word_in(place.file, place.span, "items"))
+    return None
 
 
 def _no_name(name: str, module: ModuleType, place: Place) -> Explanation:

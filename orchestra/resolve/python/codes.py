@@ -34,7 +34,7 @@ if TYPE_CHECKING:
 _MOST: Final = 32 * 1024 * 1024  # bytes that all trees may take together
 _MOST_OF_A_TREE: Final = 8 * 1024 * 1024
 _OURS: Final = os.path.dirname(os.path.dirname(os.path.dirname(__file__)))  # noqa: PTH120 - pathlib is slow
-_LOOKING: Final = ("compat/looks.py", "compat/idle_names.py", "witness/harmless.py")
+_LOOKING: Final = ("compat/looks.py", "compat/idle_names.py", "compat/misused.py", "witness/harmless.py")
 _WORTH: Final = 1 << 14  # bytes of source: to compile less takes as long as to write a file
 
 

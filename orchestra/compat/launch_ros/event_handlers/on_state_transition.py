@@ -9,6 +9,7 @@ from orchestra.compat.launch.event_handler import EventHandler, entities_of, is_
 from orchestra.compat.launch.substitutions.text_substitution import TextSubstitution
 from orchestra.compat.launch_ros.actions.lifecycle_node import LifecycleNode
 from orchestra.compat.launch_ros.events.lifecycle.state_transition import StateTransition
+from orchestra.compat.rewritten import Rewritten
 from orchestra.compat.wrong import WrongRuntime, WrongType
 from orchestra.description.conditions import STATES
 from orchestra.errors import Code
@@ -34,6 +35,30 @@ _TRANSITIONS: Final = (
     ),
     *("transition_success", "transition_failure", "transition_error"),
 )
+# What people call them: what a node has been told to do is no state, and a number is no label.
+_MEANINGS: Final = {
+    "activated": "active",
+    "enabled": "active",
+    "running": "active",
+    "started": "active",
+    "configured": "inactive",
+    "deactivated": "inactive",
+    "disabled": "inactive",
+    "idle": "inactive",
+    "cleaned_up": "unconfigured",
+    "cleanedup": "unconfigured",
+    "created": "unconfigured",
+    "destroyed": "finalized",
+    "finished": "finalized",
+    "shutdown": "finalized",
+    "stopped": "finalized",
+    "error": "errorprocessing",
+    "start": "activate",
+    "stop": "deactivate",
+    "init": "configure",
+}
+_STATES_BY_NUMBER: Final = dict(enumerate(("unconfigured", "inactive", "active", "finalized"), 1))
+_TRANSITIONS_BY_NUMBER: Final = dict(enumerate(("configure", "cleanup", "activate", "deactivate"), 1))
 
 
 class OnStateTransition(EventHandler):
@@ -95,6 +120,12 @@ class OnStateTransition(EventHandler):
         return (self._model("state_changed", target=self.__target, **done, **self.__labels),)
 
 
+def _meant(label: str, known: tuple[str, ...]) -> str | None:
+    """Return the label that was meant by another word, or by a slip."""
+    word = _MEANINGS.get(label.lower().replace("-", "_").replace(" ", "_"))
+    return word if word in known else nearest(label, known)
+
+
 def _label(name: str, written: Any, known: tuple[str, ...]) -> str | None:
     """Return the label of a transition or state. Upstream compares it as it is, so that only a text ever matches.
 
@@ -102,8 +133,11 @@ def _label(name: str, written: Any, known: tuple[str, ...]) -> str | None:
     """
     label = written.text if isinstance(written, TextSubstitution) else written
     if label is not None and not isinstance(label, str):
-        raise WrongType(f"the label of a transition or state is a text, not {written!r}", path=(name,))
-    meant = None if label is None or label in known else nearest(label, known)
+        of_number = (_TRANSITIONS_BY_NUMBER if known is _TRANSITIONS else _STATES_BY_NUMBER).get(label)
+        instead = None if of_number is None else Rewritten(repr(of_number))
+        message = f"the label of a transition or state is a text, not {written!r}"
+        raise WrongType(message, path=(name,), suggestion=instead)
+    meant = None if label is None or label in known else _meant(label, known)
     if meant is not None:
         told = f"lifecycle nodes have no {name.replace('_', ' ')} {label!r}"
         raise WrongType(told, path=(name,), code=Code.BAD_VALUE, suggestion=meant)
