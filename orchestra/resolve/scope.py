@@ -65,6 +65,7 @@ class Scope:
     parameters: tuple[ParameterSource, ...] = ()
     parameter_texts: dict[str, str] = field(default_factory=dict)
     remaps: tuple[ResolvedRemap, ...] = ()
+    left_open: bool = False  # a launch file that is not here may have set anything
     saved_environments: list[SavedEnvironment] = field(default_factory=list)
     saved_settings: list[SavedSettings] = field(default_factory=list)
     environment_copy: dict[str, str] | None = None  # where somebody has made one, until that is changed
@@ -185,10 +186,11 @@ class Scope:
     def nested(self) -> Iterator[None]:
         """Begin an inner scope: what is set in it is gone where it ends."""
         mark, parameters, remaps = self.mark(), self.parameters, self.remaps
-        heights = len(self.saved_environments), len(self.saved_settings)
+        heights, left_open = (len(self.saved_environments), len(self.saved_settings)), self.left_open
         try:
             yield
         finally:
+            self.left_open = left_open
             while len(self._journal) > mark:
                 self._write(*self._journal.pop())
             self.parameters, self.remaps = parameters, remaps

@@ -155,3 +155,23 @@ def test_places_in_an_evaluated_parameter_file_are_those_of_the_file(tmp_path: P
     span = frame.location.span
     assert (span.line, span.column, span.end_line, span.end_column) == (3, 12, 3, 25)
     assert found.faults == [(Code.DUPLICATE_PARAMETER, "p.yaml", 6, 5)]
+
+
+def test_a_file_that_is_not_here_may_have_set_a_variable(tmp_path: Path) -> None:
+    include = "- include: {file: $(find-pkg-share nowhere)/launch/env.launch.yaml}\n"
+    scoped = include.replace("}\n", ", scoped: true}\n")
+    text = "launch:\n- arg: {name: prefix, default: a}\n"
+
+    def told(before: str, name: str = "preload") -> list[tuple[Code, str, int, int]]:
+        faults = outcome(tmp_path, f"{text}{before}- log: {{message: $(var {name})}}\n").faults
+        return [fault for fault in faults if fault[0] is Code.UNDEFINED_VARIABLE]
+
+    assert told(include) == []
+    assert told(f"- group: {{scoped: false, children: [{include[2:-1]}]}}\n") == []
+    assert told("") == [(Code.UNDEFINED_VARIABLE, "main.yaml", 3, 24)]
+    assert (
+        told(scoped)
+        == told(f"- group: [{include[2:-1]}]\n")
+        == [(Code.UNDEFINED_VARIABLE, "main.yaml", 4, 24)]
+    )
+    assert told(include, "prefx") == [(Code.UNDEFINED_VARIABLE, "main.yaml", 4, 24)]

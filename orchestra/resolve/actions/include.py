@@ -63,6 +63,7 @@ def visit(action: Include, run: Resolution) -> None:
             if path is not None and isinstance(value, Value):
                 refuse_included_parameters(path, value.location, run)
             run.scope.ledger.incomplete = True
+            run.scope.left_open |= path is None and run.flag(action.scoped) is not True
             continue
         with run.scope.nested() if run.flag(action.scoped) is True else nullcontext():
             _include(action, path, description, run)

@@ -53,7 +53,8 @@ def _check_default(name: str, written: Template, context: Context) -> None:
 def _report(name: str, written: Template, context: Context) -> Poison:
     if written.constant in context.lost:  # nothing is told of it: its slips need not be looked for
         return POISON
+    meant = nearest(name, context.variables.names())
+    if meant is None and getattr(context.variables, "left_open", False):
+        return POISON
     told = f"no launch argument or variable {name!r} is set here"
-    return refuse(
-        written, context, Code.UNDEFINED_VARIABLE, told, meant=nearest(name, context.variables.names())
-    )
+    return refuse(written, context, Code.UNDEFINED_VARIABLE, told, meant=meant)
