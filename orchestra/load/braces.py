@@ -19,11 +19,13 @@ _OLD: Final = ("arg", "find", "optenv")  # those of ROS 1
 _BRACED = pattern(r"\$(?:\{([a-z][a-z-]*)(\s[^{}()\[\]]*)\}|\[([a-z][a-z-]*)(\s[^{}()\[\]]*)\])")
 
 
-def warn_of_braces(text: str, spans: Callable[[int, int], Span], problems: Problems) -> None:
-    """Tell of substitutions that are none for the sake of their brackets."""
+def report_braces(text: str, spans: Callable[[int, int], Span], problems: Problems) -> bool:
+    """Report substitutions that are none for the sake of their brackets; return whether there are such."""
+    before = len(problems)
     for found in _BRACED.finditer(text):
         name, arguments = found[1] or found[3], found[2] or found[4]
         if name in SIGNATURES or name in _OLD:
             message = f"{found[0]} is no substitution: those are in round brackets"
             meant = f"$({ELSEWHERE.get(name, name)}{arguments})"
-            problems.warning(Code.SUBSTITUTION_SYNTAX, message, spans(*found.span()), suggestion=meant)
+            problems.error(Code.SUBSTITUTION_SYNTAX, message, spans(*found.span()), suggestion=meant)
+    return len(problems) > before

@@ -24,6 +24,7 @@ if TYPE_CHECKING:
     from orchestra.location import Span
 
 PARAMETERS: Final = "this is a parameter file, not a launch file"
+_NODE: Final = frozenset({"pkg", "exec"})
 _SECTION: Final = "ros__parameters"
 _EntityT = TypeVar("_EntityT", bound="Entity")
 
@@ -124,6 +125,11 @@ class _Builder:
         if name is None:
             return None
         at = item.keys_at[name]
+        if name == "executable" and isinstance(content, Keyed) and content.keys() >= _NODE:
+            self.reader.error(
+                Code.UNKNOWN_ACTION, "what has 'pkg' and 'exec' is a node", at, suggestion="node"
+            )
+            name = "node"
         if model_of(spelled(name)) is None and exposes_action(name):
             return exposed_action(name, content, at, self.reader.problems, self.reader.included_from)
         model, certain = self._model(name, at, around)

@@ -21,6 +21,7 @@ from orchestra.load.exposed import exposed_part
 from orchestra.load.parts import Parts
 from orchestra.load.repeated import known_template, placed
 from orchestra.load.signatures import excess, lack, meant, one_default, usage
+from orchestra.load.unquoted import BRACKETS, in_quotes, kept_quotes, phrase_meant
 from orchestra.location import Span
 from orchestra.patterns import pattern
 
@@ -35,10 +36,8 @@ DEEPEST: Final = 50
 _MOST_LINES: Final = 50  # of a file, with a fault each, that are read anew
 
 _NAME = pattern(r"[A-Za-z][A-Za-z0-9_-]*")
-_KEPT_QUOTES = pattern(r"""(['"])([^'" ()$\\]*)\1(?=[ )])""")
 _ESCAPE = pattern(r"\\(.)")
 _QUOTES = ("'", '"')
-_XML = (".xml", ".launch")
 # Characters without a meaning anywhere, and those without one outside an argument or in a quoted one.
 _PLAIN = pattern(r"""[^$\\'" ()]+""")
 _QUOTED_PLAIN = pattern(r"""[^$\\'"]+""")
@@ -115,6 +114,8 @@ class _Reader:
             first = first if arguments else self.at
             arguments.append(self.argument(within, depth + 1))
             last = self.at
+        if self.faults > before and not (within or self.lost):
+            self.unquoted(name, first, last, told)
         if self.here == ")":
             self.at += 1
         else:
@@ -131,6 +132,13 @@ class _Reader:
         if self.faults == before:
             return (call,)
         return tuple(part for argument in arguments for part in argument.parts if isinstance(part, Call))
+
+    def unquoted(self, name: str, first: int, last: int, known: int) -> None:
+        """Tell once of brackets in arguments without quotes, behind so many problems."""
+        file = self.spans(first, last).file
+        instead = phrase_meant(name, self.text[first:last], file, self.problems, known)
+        if instead is not None:
+            self.fault(first, last, BRACKETS, suggestion=instead)
 
     def not_closed(self, start: int, first: int, depth: int) -> None:
         """Report a substitution without an end, behind so many problems.
@@ -220,7 +228,7 @@ class _Reader:
                 continue
             if self.here in "()":
                 brackets += 1 if self.here == "(" else -1
-                wrong = wrong or "a parenthesis in an argument needs quotes or a backslash"
+                wrong = wrong or BRACKETS
             elif self.here in _QUOTES and not within:
                 wrong = wrong or "an argument is quoted as a whole or not at all"
             elif self.text.startswith("\\ ", self.at):
@@ -261,18 +269,11 @@ class _Reader:
             self.fault(start, self.at, told, suggestion=whole, notes=notes)
 
     def in_quotes(self, start: int, end: int) -> str | None:
-        """Return the stretch in quotes that it does not hold itself, None where it holds both."""
-        raw = self.text[start:end]
-        quote = next((quote for quote in _QUOTES if quote not in raw), None)
-        if quote == '"' and self.spans(start, end).file.endswith(_XML):  # where it would end the attribute
-            raw, quote = raw.replace("&", "&amp;").replace("<", "&lt;"), "&quot;"
-        return None if quote is None else f"{quote}{raw}{quote}"
+        return in_quotes(self.text[start:end], self.spans(start, end).file)
 
     def warn_about_kept_quotes(self, start: int) -> None:
         """Say that quotes do not quote here; with backslashes the text says so itself."""
-        match = _KEPT_QUOTES.match(self.text, start)
-        end = match.end() if match else start + 1
-        suggestion = rf"\{match[1]}{match[2]}\{match[1]}" if match else None
+        end, suggestion = kept_quotes(self.text, start)
         told = "inside a quoted argument these quotes do not quote: they are part of the text"
         span = self.spans(start, end)
         self.problems.warning(Code.SUBSTITUTION_SYNTAX, told, span, suggestion=suggestion)

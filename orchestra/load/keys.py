@@ -6,7 +6,7 @@ depends on it is reported missing.
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Final, Protocol
+from typing import TYPE_CHECKING, Any, Final, Protocol
 
 from orchestra.description.actions import ACTIONS
 from orchestra.description.source import Keyed, Listed
@@ -20,6 +20,7 @@ from orchestra.patterns import pattern
 if TYPE_CHECKING:
     from collections.abc import Iterable, Mapping
 
+    from orchestra.description.source import Written
     from orchestra.location import Span
 
 
@@ -111,6 +112,7 @@ def known_keys(
             report(Code.DUPLICATE_KEY, f"the {noun(mapping, key)} stands twice", at, notes=(first,))
         else:
             read.put(name, value, at)
+    read.update(strangers.meant)
     return read
 
 
@@ -136,6 +138,7 @@ class _Strangers:
         self.lacking = lacking
         self.mapping = mapping
         self.pair = written_item(known, mapping)
+        self.meant = dict[str, Any]()  # what other keys are worth with a stranger
         self.pairs_with_value = known >= {"name", "value"} and "value" not in mapping
 
     def hint(self, key: str) -> str | None:
@@ -160,6 +163,11 @@ class _Strangers:
         elif self.pairs_with_value and (made := _made(key, self.mapping)) is not None:
             at, instead = made
             stands_for = frozenset({"value"})
+        elif near is None and "file" in self.known and (joint := _packaged(key, self.mapping)) is not None:
+            at, instead, self.meant["file"] = joint
+        elif near is None and (above := _of_item_above(key, self.mapping)) is not None:
+            message = f"'{key}' belongs to the last item of '{above}': indent it as that"
+            stands_for = frozenset({key})
         elif near is None and self.pair is not None:
             whole = whole_item(self.mapping)
             if whole is not None:
@@ -208,3 +216,17 @@ def _made(key: str, mapping: Keyed) -> tuple[Span, str] | None:
     from orchestra.load.made_values import made_value  # noqa: PLC0415
 
     return made_value(key, mapping)
+
+
+def _packaged(key: str, mapping: Keyed) -> tuple[Span, str, Written] | None:
+    """See `packaged`, which only an unknown key needs."""
+    from orchestra.load.made_values import packaged  # noqa: PLC0415
+
+    return packaged(key, mapping)
+
+
+def _of_item_above(key: str, mapping: Keyed) -> str | None:
+    """See `of_item_above`, which only an unknown key needs."""
+    from orchestra.load.made_values import of_item_above  # noqa: PLC0415
+
+    return of_item_above(key, mapping)

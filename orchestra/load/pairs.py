@@ -26,6 +26,11 @@ _LISTS: Final[dict[str, tuple[str, ...]]] = {
     "remap": _RULE,
     "choice": _CHOICE,
 }
+# Other keys that one item of a list may have.
+_ALONE: Final = {
+    "param": (("from",), ("from", "allow_substs"), ("name", "param"), ("name", "value", "type")),
+    "arg": (("name", "default"),),
+}
 # What joins a name and a value: on a command line, in a shell, in words.
 _JOINTS: Final = {
     _NAMED: pattern(r"([^\s:=]+)\s*:?=\s*(\S.*)"),
@@ -43,9 +48,10 @@ def written_list(key: str, content: Any) -> str | None:  # noqa: ANN401 - a tree
     if key not in _LISTS or not isinstance(content, Keyed) or not content:
         return None
     pair = _LISTS[key]
-    if content.keys() == set(pair):  # one item, without its dash
+    names = next((names for names in (pair, *_ALONE.get(key, ())) if content.keys() == set(names)), None)
+    if names is not None:  # one item, without its dash
         return shortened(
-            f"{key}: [{{{', '.join(f'{name}: {_value(content[name])}' for name in pair)}}}]", _LONGEST
+            f"{key}: [{{{', '.join(f'{name}: {_value(content[name])}' for name in names)}}}]", _LONGEST
         )
     return None if pair == _CHOICE else shortened(f"{key}: [{_items(content, pair)}]", _LONGEST)
 
@@ -125,8 +131,10 @@ def written_as_list(key: str, content: Any) -> str | None:  # noqa: ANN401 - a t
     Behind a key that wants a list of texts it may be one text with commas too.
     """
     if isinstance(content, Written):
-        texts = [item.strip() for item in content.text.strip("[]{}() ").split(",")]
-        return f"[{', '.join(texts)}]" if key in _OF_TEXTS and all(map(_ITEM.fullmatch, texts)) else None
+        text = content.text.strip("[]{}() ")
+        texts = [item.strip() for item in text.split(",")] if "," in text else text.split()
+        sound = key in _OF_TEXTS and texts and all(map(_ITEM.fullmatch, texts))
+        return f"[{', '.join(texts)}]" if sound else None
     if not isinstance(content, Keyed) or not content or min(content.keys_at.values()) <= content.span:
         return None
     if not all(isinstance(value, Written) and value.null for value in content.values()):
@@ -143,7 +151,7 @@ def written_item(known: AbstractSet[str], content: Keyed) -> tuple[tuple[str, st
     """
     if len(content) != 1:
         return None
-    pair = next((pair for pair in (_NAMED, _RULE) if known >= set(pair)), None)
+    pair = next((pair for pair in (_NAMED, _RULE, _DECLARED) if known >= set(pair)), None)
     if pair is None:
         return None
     ((key, value),) = content.items()
@@ -185,6 +193,11 @@ def nested_list(mapping: Keyed, place: tuple[int | str, ...]) -> tuple[Span, str
         return value[last].span, None
     written = _value(value)
     return span, None if '"' in written or "..." in written else f'"{written}"'
+
+
+def are_mappings(items: Any) -> bool:  # noqa: ANN401 - a tree
+    """Tell whether a list has nothing but mappings."""
+    return isinstance(items, Listed) and bool(items) and all(isinstance(item, Keyed) for item in items)
 
 
 def as_mappings(items: Listed, source: str) -> tuple[Span, str | None]:

@@ -11,13 +11,14 @@ from orchestra.description.source import Keyed, Listed, Verbatim, Written, kind_
 from orchestra.description.text import Template, new_template, new_words
 from orchestra.errors import Code, Problems
 from orchestra.fields import field, replace
-from orchestra.load.braces import warn_of_braces
+from orchestra.load.braces import report_braces
 from orchestra.load.elements import beginning_of, noun, place_of
 from orchestra.load.grammar import parse_template, sound_template, unescaped
 from orchestra.load.halves import Halves
 from orchestra.load.keys import known_keys
 from orchestra.load.pairs import (
     NESTED,
+    are_mappings,
     as_mappings,
     extent,
     nested_list,
@@ -50,11 +51,12 @@ _HALF_QUOTED = pattern(r"""[^\s"']*[^\s"'0-9]["']""")
 # Substitutions without their '$', of names that nobody puts in brackets for anything else, or with their name before
 # the bracket, as `$env(HOME)`.
 _BARE = pattern(
-    r"(?<![$\\\w])(?:(?:\$[ ])?\((var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|path-join)[ ]"
+    r"(?<![$\\\w])(?:(?:\$[ ]|[%@&#])?\((var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|path-join)[ ]"
     r"(?:[^()]|\$\([^()]*\))+\)"
     r"|\$(env|var|find-pkg-share|find-pkg-prefix|exec-in-pkg|find-exec|dirname|eval|command)\("
     r"((?:[^()]|\$\([^()]*\))*)\))"
 )
+_SIGNS = "%@&#"  # that other languages have in place of the '$'
 _LISTS = ("list_type", "tuple_type")
 
 
@@ -104,12 +106,11 @@ class Reader:
         if sound is not None:
             return sound
         found = Problems()
-        if braces:
-            warn_of_braces(text, written.spans, found)
+        lost = braces and report_braces(text, written.spans, found)
         template = parse_template(text, written.spans, found, quoted=written.quoted)
         for problem in found:
             self.problems.report(replace(problem, included_from=self.included_from))
-        return template
+        return replace(template, faulty=True) if lost else template
 
     def _is_lost(self, bare: re.Match[str], written: Written) -> bool:
         """Report a substitution without its '$', or before its bracket; return whether nothing else is meant."""
@@ -119,10 +120,12 @@ class Reader:
             at = written.spans(*bare.span())
             self.warning(Code.SUBSTITUTION_SYNTAX, told, at, suggestion=instead)
             return False
-        certain = bare[1] != "var"
+        sign = bare[0][0] if bare[0][0] in _SIGNS else ""
+        certain = bare[1] != "var" or sign != ""
         report = self.error if certain else self.warning
-        told = f"{bare[0]} is no substitution: a '$' is missing before it"
-        instead = f"${bare[0].lstrip('$ ')}"
+        lacks = f"in place of the '{sign}'" if sign else "before it"
+        told = f"{bare[0]} is no substitution: a '$' is missing {lacks}"
+        instead = f"${bare[0].lstrip(_SIGNS + '$ ')}"
         report(Code.SUBSTITUTION_SYNTAX, told, written.spans(*bare.span()), suggestion=instead)
         return certain
 
@@ -154,7 +157,13 @@ class Reader:
             if error["type"] == REPORTED or misspelt or fewer:
                 continue
             plain = _among_texts(mapping, error)
-            if plain == "choice":
+            if place[:1] == ("choices",) and are_mappings(mapping.get("choices")):
+                message = (
+                    "'choices' is a list of values; where each is a mapping with 'value', the key is 'choice'"
+                )
+                at = mapping.keys_at["choices"]
+                self.error(Code.WRONG_TYPE, message, at, suggestion="choice")
+            elif plain == "choice":
                 span, instead = as_mappings(mapping[plain], self.text)
                 message = "each value of 'choice' is a mapping with 'value'; a list of values is 'choices'"
                 self.error(Code.WRONG_TYPE, message, span, suggestion=instead)
@@ -199,6 +208,12 @@ class Reader:
 
             suggestion = as_substitutions(error["input"].text, self.text)
         head, value = _way(mapping, place)
+        if isinstance(value, Written) and value.null and suggestion is None:
+            # Here, because only mistakes need it.
+            from orchestra.load.eaten import EATEN, eaten  # noqa: PLC0415
+
+            suggestion = eaten(head, self.text.split("\n"))
+            message += EATEN if suggestion is not None else ""
         if kind == STRAY_KEY:
             self.error(Code.UNKNOWN_KEY, message, head, suggestion=suggestion)
             return

@@ -36,7 +36,9 @@ def meant(name: str, arguments: Sequence[str]) -> str | None:
         and is_slip(snake(name), alias)
     ):
         return ELSEWHERE[alias]
-    return near or (None if arguments else f"var {name}")
+    if near is not None or arguments:
+        return near
+    return f"{'env' if name.isupper() else 'var'} {name}"
 
 
 @cache

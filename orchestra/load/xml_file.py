@@ -21,6 +21,7 @@ from orchestra.load.offsets import Source, source
 from orchestra.load.reader import Reader
 from orchestra.load.xml_attributes import listed, separated
 from orchestra.load.xml_parser import NotXmlError, parse
+from orchestra.load.xml_texts import tell_text, text_in
 from orchestra.nearest import is_slip, nearest
 
 if TYPE_CHECKING:
@@ -35,7 +36,7 @@ _ATTRIBUTES = (Kind.TEXT, Kind.VALUE, Kind.LIST)
 # Attributes of a root that say nothing to us: files of ROS 1 carry a version.
 _IGNORED = frozenset({"version"})
 # Keys of which a text between tags is probably meant to be the value.
-_VALUES = ("value",)
+_VALUES = ("value", "default")
 _PAIR = frozenset({"name", "value"})
 
 
@@ -133,7 +134,7 @@ class _Shaper:
                 self._part(child, None, tagged)
         if forms.holds_actions:
             tagged.put("children", actions, at)
-        if element.text is not None:
+        if element.text is not None and (model is not None or forms is VARIABLES):
             self._text(element, model, tagged)
         return tagged
 
@@ -223,7 +224,8 @@ class _Shaper:
             case Kind.VARIABLES:
                 self._once(child, self.content(child, None, VARIABLES), tagged)
             case _:
-                message = f"'{child.name}' is written as an attribute: {child.name}=\"...\""
+                written = text_in(child, self.whole)
+                message = f"'{child.name}' is written as an attribute: {child.name}=\"{written}\""
                 near = next((key for key in tagged.elements if is_slip(child.name, key)), None)
                 self.reader.error(Code.WRONG_TYPE, message, at, suggestion=near)
                 _lose(tagged, child.name)
@@ -248,17 +250,10 @@ class _Shaper:
 
     def _text(self, element: Element, model: type[Entity] | None, tagged: Tagged) -> None:
         """Tell that text between tags says nothing; an error where something is missing that it probably is."""
-        assert element.text is not None  # noqa: S101 - asked by the caller
-        span = self.whole.span(*element.text)
-        message = "text between tags is ignored"
         lacking = _lacking(model, tagged)
-        if lacking:
-            key = next(iter(sorted(lacking)))
-            self.reader.error(Code.WRONG_TYPE, f'{message}: write it as {key}="..."', span)
-            for name in lacking:
-                _lose(tagged, name)
-        else:
-            self.reader.warning(Code.WRONG_TYPE, message, span)
+        tell_text(element, lacking, self.whole, self.reader)
+        for name in lacking:
+            _lose(tagged, name)
 
     def _not_an_attribute(self, name: str, form: Form, at: Span, tagged: Tagged, forms: Forms) -> None:
         key = spelled(name)

@@ -1,4 +1,8 @@
-"""A second colon in one line of YAML: a text that needs quotes, or a mapping that belongs on lines of its own."""
+"""Lines of YAML that are one text to who wrote them, and something else to YAML.
+
+A second colon needs quotes, or is that of a mapping that belongs on lines of its own; brackets at the beginning need
+quotes; a comment of another language begins with '#' here.
+"""
 
 from __future__ import annotations
 
@@ -13,6 +17,9 @@ if TYPE_CHECKING:
     from orchestra.load.yaml_failure import Failure
 
 _FIRST: Final = pattern(r"[ ]*(?:- +)*([^\s:#\"'\[\]{}]+):[ ]+(?=[^\s\"'\[\]{}|>&*])")
+# The beginning of a value that has more behind it: `{ns}/odom`.
+_BRACKETED: Final = pattern(r"(?:[:-]|^)[ ]+(\{[^{}\n:]*\}|\[[^\[\]\n]*\])[ ]*$")
+_COMMENT: Final = pattern(r"(?://|--|;)\s*(\w.*)|<!--\s*(.*?)\s*-->")
 # Keys that hold keys, besides the names of actions.
 _HOLDING: Final = ("launch", "param", "remap", "env", "arg", "let", "children", "ros__parameters")
 
@@ -28,8 +35,25 @@ def of_second_colon(failure: Failure) -> Fault:
     return failure.fault(message, begin, end, None if holds else in_quotes(failure.text[begin:end]))
 
 
+def of_brackets(failure: Failure, begin: int) -> Fault | None:
+    """Return the fault of a text behind brackets that its line begins with, None where there are none."""
+    found = _BRACKETED.search(failure.text[begin : failure.at])
+    if found is None:
+        return None
+    start = begin + found.start(1)
+    end = failure.line_end(start)
+    message = "a text that begins with a bracket needs quotes"
+    return failure.fault(message, start, end, in_quotes(failure.text[start:end]))
+
+
 def in_quotes(text: str) -> str | None:
     """Return a text in quotes, None where neither kind can stand around it as it is."""
     return next(
         (f"{quote}{text}{quote}" for quote in ('"', "'") if quote not in text and "\\" not in text), None
     )
+
+
+def comment_meant(line: str) -> str | None:
+    """Return the comment that a line is in another language, None for any other line."""
+    found = _COMMENT.fullmatch(line)
+    return None if found is None else f"# {found[1] or found[2]}"

@@ -13,7 +13,8 @@ import yaml
 
 from orchestra.description.source import shortened
 from orchestra.load.faults import Fault
-from orchestra.load.yaml_colons import in_quotes, of_second_colon
+from orchestra.load.yaml_colons import comment_meant, in_quotes, of_brackets, of_second_colon
+from orchestra.load.yaml_escapes import of_escape
 from orchestra.load.yaml_failure import Failure
 from orchestra.load.yaml_indentation import of_lines
 from orchestra.nearest import nearest
@@ -31,6 +32,7 @@ _COLON = pattern(r":(?:\s|$)|\s#", re.MULTILINE)
 _ANCHOR = pattern(r"&([^\s,\[\]{}]+)")
 _ALIAS = pattern(r"\*([^\s,\[\]{}]*)")
 _CONTROL = pattern("[^\t\n\r -~\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_OF_A_SHELL = pattern(r"\$[{\[]\s*(?:(var|env|find-pkg-share)\s+)?([A-Za-z_]\w*)\s*[}\]]")
 _CLOSERS: Final = {"[": "]", "{": "}"}
 
 
@@ -92,6 +94,10 @@ def _ended(failure: Failure) -> Fault | None:
 
 def _open(failure: Failure) -> Fault:
     """Explain a list or mapping in brackets in which something else stands than a comma or the end."""
+    shell = _OF_A_SHELL.match(failure.text, failure.at - 1) if failure.here in ("{", "[") else None
+    if shell is not None:
+        message = f"{shell[0]} is no substitution, and cannot stand in brackets without quotes"
+        return failure.fault(message, *shell.span(), f"$({shell[1] or 'var'} {shell[2]})")
     opening = failure.text[failure.context]
     closer = _CLOSERS.get(opening, "]")
     last = next((piece for piece in reversed(failure.pieces()) if piece.begin > failure.context), None)
@@ -166,6 +172,8 @@ def _without_colon(failure: Failure, begin: int) -> Fault:
     """Explain a key whose colon, or the blank behind it, is missing."""
     end = failure.line_end(begin)
     written = failure.text[begin:end]
+    if (comment := comment_meant(written)) is not None:
+        return failure.fault("a comment begins with '#'", begin, end, comment)
     if written.startswith("- "):
         return _above_items(failure, begin) or failure.fault(
             "this is indented as nothing above it is", begin, begin + 1
@@ -208,7 +216,8 @@ def _no_key(failure: Failure) -> Fault | None:
         return failure.fault(f"'{failure.here}' closes nothing", failure.at, failure.at + 1)
     begin = failure.whole.lines[failure.line_of(failure.at) - 1]
     if failure.text[begin : failure.at].strip():
-        return failure.fault("the value has ended before this", failure.at, failure.end_of_word(failure.at))
+        plain = failure.fault("the value has ended before this", failure.at, failure.end_of_word(failure.at))
+        return of_brackets(failure, begin) or plain
     message = "this is indented as nothing above it is"
     return failure.fault(message, failure.at, failure.end_of_word(failure.at))
 
@@ -251,13 +260,6 @@ def _no_anchor(failure: Failure) -> Fault:
     return failure.fault(message, failure.context, end, in_quotes(written))
 
 
-def _escape(failure: Failure) -> Fault:
-    at = failure.text.rfind("\\", 0, failure.at + 1)
-    written = failure.text[at : at + 2]
-    message = f"{written} means nothing in double quotes: a backslash is written \\\\ there"
-    return failure.fault(message, at, at + 2, f"\\{written}")
-
-
 def _no_character(error: yaml.YAMLError, whole: Source) -> Fault:
     found = _CONTROL.search(whole.text)
     if found is None:
@@ -293,5 +295,5 @@ _EXPLANATIONS: Final[dict[str, Callable[[Failure], Fault | None]]] = {
     "found undefined alias": _undefined_alias,
     "did not find expected alphabetic or numeric character": _no_anchor,
     "did not find expected comment or line break": _no_anchor,
-    "found unknown escape character": _escape,
+    "found unknown escape character": of_escape,
 }

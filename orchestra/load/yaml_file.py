@@ -24,6 +24,8 @@ from orchestra.load.yaml_plain import DASH, DEEPEST, NULL, PARSER
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
+    import re
+
     from orchestra.location import Span
 
 _PLAIN_TAG = "tag:yaml.org,2002:str"
@@ -32,6 +34,8 @@ _TAG = pattern(r"![^\s,\[\]{}]*")
 # How many values aliases may expand to beyond what is written.
 _MOST_VALUES = 100_000
 _VALUES_PER_CHARACTER = 4
+_DOUBLED = pattern(r"\{\{\s*([A-Za-z_]\w*)\s*\}\}")
+_LEAST = 2  # keys of an item that stand twice
 _SCALAR_TYPES = ("bool", "int", "float", "null")
 
 
@@ -111,6 +115,8 @@ class _Tree:
             items.extend(self.of(item, None, (*above, node)) for item in node.value)
             return items
         assert isinstance(node, yaml.MappingNode)  # noqa: S101 - the third and last kind of node
+        if (doubled := _DOUBLED.match(self.whole.text, node.start_mark.index)) is not None:
+            return self._variable(doubled, span)
         return self._mapping(node, span, head, above)
 
     def _scalar(self, node: yaml.ScalarNode, span: Span) -> Written:
@@ -123,12 +129,18 @@ class _Tree:
         spans = spans_of(self.whole, node.start_mark.index, node.end_mark.index, node.value, node.style)
         return Written(node.value, span, spans, quoted=quoted, null=not quoted and node.value in NULL)
 
+    def _variable(self, doubled: re.Match[str], span: Span) -> Written:
+        """Tell of a name in two braces, which is a mapping in YAML, and return the variable that it is meant to be."""
+        message, meant = f"{doubled[0]} is a mapping in YAML, and no substitution", f"$(var {doubled[1]})"
+        self.reader.error(Code.SUBSTITUTION_SYNTAX, message, span, suggestion=meant)
+        return Written(meant, span, lambda _first, _last: span)
+
     def _mapping(
         self, node: yaml.MappingNode, span: Span, head: Span | None, above: tuple[yaml.Node, ...]
     ) -> Keyed:
         mapping = Keyed(span, head or self._beginning(node))
         merged: list[Keyed] = []
-        for key, value in node.value:
+        for key, value in self._pairs(node, above):
             at = self.whole.span(key.start_mark.index, key.end_mark.index)
             if not isinstance(key, yaml.ScalarNode):
                 self.reader.error(Code.WRONG_TYPE, "a key is a word, not a mapping or a list", at)
@@ -148,6 +160,23 @@ class _Tree:
                 if name not in mapping:
                     mapping.put(name, tree, other.keys_at[name])
         return mapping
+
+    def _pairs(
+        self, node: yaml.MappingNode, above: tuple[yaml.Node, ...]
+    ) -> list[tuple[yaml.Node, yaml.Node]]:
+        """Return the keys of a mapping with their values; where they begin anew, which is told, those before that."""
+        pairs: list[tuple[yaml.Node, yaml.Node]] = node.value
+        again = _second_item(node)
+        if again is None:
+            return pairs
+        key = pairs[again][0]
+        at = self.whole.span(key.start_mark.index, key.end_mark.index)
+        message, instead = f"the key '{key.value}' stands twice", None
+        if above and isinstance(above[-1], yaml.SequenceNode):
+            message += ": a '- ' is missing where the next item begins"
+            instead = f"- {key.value}"
+        self.reader.error(Code.DUPLICATE_KEY, message, at, suggestion=instead)
+        return pairs[:again]
 
     def _twice(self, key: str, tree: Any, at: Span, mapping: Keyed) -> None:  # noqa: ANN401 - a tree
         """Report a key that stands twice; of an action it is rather one that lacks its dash."""
@@ -184,6 +213,17 @@ class _Tree:
         found = _TAG.match(self.whole.text, begin)
         span = self.whole.span(*found.span()) if found else self.whole.span(node.start_mark.index, begin)
         self.reader.error(Code.SYNTAX, f"the tag {found[0] if found else node.tag} means nothing here", span)
+
+
+def _second_item(node: yaml.MappingNode) -> int | None:
+    """Return where the keys of a block mapping begin anew, in their order and at least two; None where they do not."""
+    if node.flow_style or len(node.value) < 2 * _LEAST:
+        return None
+    names = [key.value if isinstance(key, yaml.ScalarNode) else None for key, _ in node.value]
+    again = next((at for at, name in enumerate(names) if at and name == names[0]), None)
+    if again is None or again < _LEAST or names[again : 2 * again] != names[:again] or len(names) % again:
+        return None
+    return again
 
 
 def _mark(whole: Source, mark: Any) -> Span:  # noqa: ANN401 - a mark of either parser, or None

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.description.actions import ACTIONS
 from orchestra.load import yaml_plain
 from orchestra.load.mended import Mend
+from orchestra.load.yaml_escapes import escaped
 from orchestra.load.yaml_file import tree_of
 from orchestra.location import offsets_of
 
@@ -40,7 +41,9 @@ def mends(error: RefusedError, whole: Source) -> Iterator[Mend]:
     place = offsets_of(error.fault.span)
     if place is None:
         return
-    if error.fault.suggestion is not None:
+    if whole.text.startswith("\\", place[0]) and error.fault.suggestion is not None:
+        yield Mend(tuple(escaped(whole.text, place[0])))
+    elif error.fault.suggestion is not None:
         yield Mend(((*place, error.fault.suggestion),))
     for mend in _guesses(error, whole.text, *place):
         begin, end = mend.doubted or place

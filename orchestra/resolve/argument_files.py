@@ -17,6 +17,7 @@ from orchestra.nearest import is_slip
 from orchestra.patterns import pattern
 from orchestra.resolve.misspelt import misspelt
 from orchestra.resolve.near_paths import near_names, near_path
+from orchestra.resolve.path_forms import warn_of_home
 from orchestra.resolve.paths import settled_path
 from orchestra.resolve.refusals import set_by_code
 
@@ -46,6 +47,9 @@ def check_files(words: Sequence[Value], run: Resolution, *, for_ros: bool | None
     option, reads = "", for_ros is True
     for word in words:
         if "/" in word.text and not _WRITES.fullmatch(option):
+            if reads and option == _PARAMETERS and word.text.startswith("~/"):
+                warn_of_home(word, word.text if word.raw is None else word.raw, run)
+                continue
             lack = _lack(word, run)
             if lack is not None:
                 _report(lack, word, run, needed=reads and option == _PARAMETERS)

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.dataclass import dataclass
-from orchestra.errors import Severity
+from orchestra.errors import Code, Severity
+from orchestra.nearest import is_slip, nearest
 from orchestra.resolve.context import Poison, Value
 from orchestra.resolve.interpret import wanted
-from orchestra.resolve.model import ResolvedComponent
+from orchestra.resolve.model import InlineParameter, ResolvedComponent
 from orchestra.resolve.namespaces import namespace_at
 from orchestra.resolve.node_names import named
 from orchestra.resolve.parameters import parameters
@@ -23,6 +24,21 @@ if TYPE_CHECKING:
 
     from orchestra.description.components import ComposableNode
     from orchestra.resolve.resolution import Resolution
+
+# What a container of rclcpp takes besides parameters.
+_EXTRA: Final = frozenset(
+    {
+        "enable_logger_service",
+        "enable_rosout",
+        "enable_topic_statistics",
+        "forward_global_arguments",
+        "start_parameter_event_publisher",
+        "start_parameter_services",
+        "use_clock_thread",
+        "use_global_arguments",
+        "use_intra_process_comms",
+    }
+)
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,6 +89,9 @@ def _component(
     name, namespace = named(written.name, run), namespace_at(written.namespace, written, run)
     own, whole = parameters(written.param, run, component=True)
     extra, told = parameters(written.extra_arg, run, component=True, quotes=False)
+    for item in extra:
+        if isinstance(item, InlineParameter) and item.name not in _EXTRA:
+            _check_extra(item, run)
     rules, regular = remaps(written.remap, run)
     autostart = run.flag(written.autostart, default=False)
     schema = params_schema(written.params_schema, run)
@@ -98,3 +117,12 @@ def _component(
         share=run.context.packages.share(package) if isinstance(package, str) else None,
         origin=written.origin,
     )
+
+
+def _check_extra(argument: InlineParameter, run: Resolution) -> None:
+    """Tell of an extra argument whose name is a slip for one that containers of rclcpp know; they ignore others."""
+    meant = nearest(argument.name, _EXTRA)
+    if meant is not None and is_slip(argument.name, meant):
+        told = f"no container knows the extra argument '{argument.name}'"
+        at = argument.keys[0][1] if argument.keys else argument.location
+        run.problems.warning(Code.UNREAD_ARGUMENT, told, at, suggestion=meant)

@@ -1,14 +1,19 @@
-"""Names of environment variables: nothing can be set whose name holds a `=`."""
+"""Names of environment variables, where nothing can be set whose name holds a `=`, and their values."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
+from orchestra.location import Span, is_python
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from orchestra.description.text import Template
     from orchestra.resolve.resolution import Resolution
+
+# One of the paths in a value that is nothing but a variable as a shell reads it: `$PATH:/opt/bin`.
+_OF_A_SHELL: Final = pattern(r"(?:(?<=:)|^)\$(?:\{([A-Za-z_]\w*)\}|([A-Z_][A-Z0-9_]*))(?=[:/]|$)")
 
 
 def is_faulty_name(name: str, written: Template, run: Resolution) -> bool:
@@ -19,3 +24,18 @@ def is_faulty_name(name: str, written: Template, run: Resolution) -> bool:
     instead = name.partition("=")[0] if written.constant is not None else None
     run.problems.error(Code.BAD_NAME, message, run.place(written), suggestion=instead or None)
     return True
+
+
+def warn_of_shell(written: Template, run: Resolution) -> None:
+    """Tell of a value in which a shell would read a variable, which nobody else does: `$PATH:/opt/bin`."""
+    if "$" not in written.raw:
+        return
+    found = _OF_A_SHELL.search(written.raw)
+    span = written.span
+    if found is None or is_python(span) or span.line != span.end_line:
+        return
+    at = Span(span.file, span.line, span.column + found.start(), span.line, span.column + found.end())
+    message = f"'{found[0]}' stays as it is: no shell reads it"
+    run.problems.warning(
+        Code.SUBSTITUTION_SYNTAX, message, run.context.at(at), suggestion=f"$(env {found[1] or found[2]})"
+    )

@@ -25,6 +25,7 @@ _PATHS = "only letters, digits, '_' and '/' are allowed"
 _DIGITS = frozenset("0123456789")
 _OF_A_SHELL = pattern(
     r"\$(?:\{([A-Za-z_][A-Za-z0-9_]*)\}|([A-Za-z_][A-Za-z0-9_]*))|\(var ([A-Za-z_][A-Za-z0-9_]*)\)"
+    r"|\{\{\s*([A-Za-z_][A-Za-z0-9_]*)\s*\}\}"
 )
 _SUBSTITUTION = pattern(r"\{([^{}]*)\}")
 _NUMBERED = pattern(r"(?:(?<=/)|\A)([0-9]+)([A-Za-z0-9_]+)")  # a part that begins with a number
@@ -173,7 +174,7 @@ def mended(name: str, fault: Callable[[str], Fault | None]) -> str | None:
         return None
     if _OF_A_SHELL.search(name):
         return _OF_A_SHELL.sub(_substitution, name)
-    words = re.sub(r"[^A-Za-z0-9_/~{}]+", "_", name.strip(" '\""))
+    words = re.sub(r"[^A-Za-z0-9_/~{}]+", "_", name.strip(" '\":"))
     found = re.sub("//+", "/", re.sub("^~(?=[A-Za-z0-9_])", "~/", words))
     found = _NUMBERED.sub(_number_last, found.rstrip("/") or found)
     return None if found == name or fault(found) is not None else found
@@ -188,8 +189,8 @@ def _number_last(found: re.Match[str]) -> str:
 
 
 def _substitution(found: re.Match[str]) -> str:
-    name = found[1] or found[2] or found[3]
-    return f"$({'env' if name.isupper() and not found[3] else 'var'} {name})"
+    name = found[1] or found[2] or found[3] or found[4]
+    return f"$({'env' if name.isupper() and (found[1] or found[2]) else 'var'} {name})"
 
 
 def _path_fault(path: str, longest: int) -> Fault | None:

@@ -56,10 +56,14 @@ def file_parameters(
     if known is not None:  # many nodes are given the same file
         return _given(known, value, everywhere=everywhere)
     path = beside(run.context.file, value.text) if value.text else None
+    if value.text.startswith("~/"):
+        path = existing_file(value, written, "parameter file", run)
+        if path is None:
+            return FileParameters("", (), value.location)
     if path is None:
         needed = substitute or everywhere or plain
         lacking = None if needed and (run.context.launching or not value.text) else _lacking(value, run)
-        if lacking is not None:
+        if lacking is not None and "\\" not in written.raw:
             _warn_of_lacking(lacking, value, written, run)
             return FileParameters("", (), value.location)
         path = existing_file(value, written, "parameter file", run)

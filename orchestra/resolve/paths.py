@@ -29,6 +29,12 @@ def existing_file(value: Value, written: Template, what: str, run: Resolution) -
 
     `written` is the text that the value is from.
     """
+    if value.text.startswith("~/"):
+        # Here, because hardly any path does.
+        from orchestra.resolve.path_forms import warn_of_home  # noqa: PLC0415
+
+        warn_of_home(value, written.raw, run)
+        return _found(_start_of(run.context.file), value.text)
     return file_below(_start_of(run.context.file), value, what, run, written.raw)
 
 
@@ -115,13 +121,19 @@ def _refuse_path(
     # Here, because most files that are named are there.
     from orchestra.resolve.misspelt import misspelt  # noqa: PLC0415
     from orchestra.resolve.other_packages import of_other_package  # noqa: PLC0415
+    from orchestra.resolve.path_forms import form_meant, of_share  # noqa: PLC0415
 
+    form = None if is_python(value.location) else form_meant(written)
+    if form is not None:
+        run.problems.error(Code.MISSING_FILE, f"{message}: {form[0]}", value.location, suggestion=form[1])
+        return
     place = None if is_python(value.location) else misspelt(value, written, changes)
     if place is not None:
         used = () if place.at == value.location else (f"it is used at {value.location}",)
         run.problems.error(Code.MISSING_FILE, message, place.at, suggestion=place.instead, notes=used)
         return
-    near = rewritten(written, changes) if changes else of_other_package(value.text, written, run)
+    near = rewritten(written, changes) if changes else None
+    near = near or of_share(value.text, written) or of_other_package(value.text, written, run)
     if near is not None and near == written:  # the wrong part of it came from elsewhere
         refuse_value(value, run.problems, Code.MISSING_FILE, message, meant=rewritten(value.text, changes))
         return

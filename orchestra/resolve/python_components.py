@@ -60,7 +60,9 @@ def _fault(package: str, plugin: str, run: Resolution) -> Unrunnable | None:
     if not is_named_by_module(plugin) or not run.scope.changes.keys().isdisjoint(PATHS):
         return None
     folder = str(Path.cwd())
-    return once(("component", plugin, folder, *sys.path), lambda: _fault_in(plugin, folder))
+    fault = once(("component", plugin, folder, *sys.path), lambda: _fault_in(plugin, folder))
+    meant = None if fault is None else _registered(package, plugin, run)
+    return fault if meant is None else Unrunnable(f"package {package!r} has no component {plugin!r}", meant)
 
 
 def _registered(package: str, plugin: str, run: Resolution) -> str | None:

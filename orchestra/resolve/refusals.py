@@ -224,8 +224,10 @@ def report_missing_executable(
         told += ": what follows the first word belongs into args"
         name = first
     meant = name if name in known else nearest(executable, known)
-    if meant is None:
-        told += _had_by(executable, context)
+    if meant is None or not is_slip(executable, meant):
+        elsewhere = _had_by(executable, context)
+        told += elsewhere
+        meant = None if elsewhere else meant
     if value is not None:
         return refuse_value(value, context.problems, Code.MISSING_EXECUTABLE, told, meant=meant, notes=notes)
     return refuse(written, context, Code.MISSING_EXECUTABLE, told, meant=meant, notes=notes)

@@ -14,7 +14,7 @@ from orchestra.errors import Code
 from orchestra.resolve.bounded import with_change
 from orchestra.resolve.context import POISON, Poison, Read, Value
 from orchestra.resolve.dependencies import dependencies
-from orchestra.resolve.environment_names import is_faulty_name
+from orchestra.resolve.environment_names import is_faulty_name, warn_of_shell
 from orchestra.resolve.exit_codes import exit_codes
 from orchestra.resolve.for_all import emulate_tty, set_for_all
 from orchestra.resolve.idle_keys import check_keys
@@ -286,6 +286,7 @@ def _environment(action: Running, run: Resolution) -> dict[str, tuple[Environmen
         name, value = run.text(pair.name), run.evaluate(pair.value)
         if not isinstance(name, str) or not isinstance(value, Value) or is_faulty_name(name, pair.name, run):
             return POISON
+        warn_of_shell(pair.value, run)
         change = EnvironmentChange(value.text, run.place(pair.value), value.through)
         changes[name] = with_change(changes.get(name, ()), change)
     return changes

@@ -65,12 +65,16 @@ FAULTS: dict[str, tuple[str, Code, str, str, str | None]] = {
         "<node exec='a'><ready mesage='b'/></node>", Code.UNKNOWN_KEY, "mesage", "unknown attribute", "message",
     ),
     "a missing attribute": ("<let name='a'/>", Code.MISSING_KEY, "let", "the attribute 'value' is missing", None),
-    "a text for a value": ("<let name='a'>5</let>", Code.WRONG_TYPE, "5", 'write it as value="..."', None),
+    "a text for a value": (
+        "<let name='a'>5</let>", Code.WRONG_TYPE, "<let name='a'>5</let>", 'write it as value="..."',
+        "<let name='a' value=\"5\"/>",
+    ),
     "a text for a parameter": (
-        "<node exec='a'><param name='b'> 5 </param></node>", Code.WRONG_TYPE, "5", 'write it as value="..."', None,
+        "<node exec='a'><param name='b'> 5 </param></node>", Code.WRONG_TYPE, "<param name='b'> 5 </param>",
+        'write it as value="..."', "<param name='b' value=\"5\"/>",
     ),
     "an element for an attribute": (
-        "<node exec='a'><name>b</name></node>", Code.WRONG_TYPE, "name", 'as an attribute: name="..."', None,
+        "<node exec='a'><name>b</name></node>", Code.WRONG_TYPE, "name", 'as an attribute: name="b"', None,
     ),
     "an attribute for an element": (
         "<node exec='a' env='B=c'/>", Code.WRONG_TYPE, "env", "as an element: <env .../>", None,

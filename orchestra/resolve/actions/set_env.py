@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from orchestra.resolve.context import Value
-from orchestra.resolve.environment_names import is_faulty_name
+from orchestra.resolve.environment_names import is_faulty_name, warn_of_shell
 
 if TYPE_CHECKING:
     from orchestra.description.actions.set_env import SetEnv
@@ -17,6 +17,7 @@ def visit(action: SetEnv, run: Resolution) -> None:
     name, value = run.text(action.name), run.evaluate(action.value)
     if isinstance(name, str) and is_faulty_name(name, action.name, run):
         return
+    warn_of_shell(action.value, run)
     if isinstance(name, str) and isinstance(value, Value):
         run.scope.change(name, value.text, run.place(action.value), value.through)
     elif isinstance(name, str):

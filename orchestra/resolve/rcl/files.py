@@ -17,6 +17,7 @@ from orchestra.load.offsets import source
 from orchestra.location import Location, Span
 from orchestra.patterns import pattern
 from orchestra.resolve.rcl.duplicates import report_duplicates
+from orchestra.resolve.rcl.hollow import NO_VALUE, commented_out
 from orchestra.resolve.rcl.nesting import NESTED, as_text
 from orchestra.resolve.rcl.opened import Unreadable
 from orchestra.resolve.rcl.reader import ALIAS, Reader
@@ -157,6 +158,9 @@ def _amend(found: Problems, text: str) -> None:
     if any(problem.message == NESTED for problem in found):
         lines = BREAK.split(text)
         found.amend(lambda problem: as_text(problem, lines))
+    if any(problem.message.endswith(NO_VALUE) for problem in found):
+        written = BREAK.split(text)
+        found.amend(lambda problem: commented_out(problem, written))
     if any(problem.message.startswith(ALIAS) for problem in found):
         # Here, because hardly any file has one.
         from orchestra.resolve.rcl.anchors import repeated  # noqa: PLC0415

@@ -2,19 +2,25 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
 import yaml
 
 from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
-from orchestra.fields import field
+from orchestra.fields import field, replace
 from orchestra.location import Location
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
-    from collections.abc import Callable
+    from collections.abc import Callable, Sequence
 
+    from orchestra.errors import Problem
     from orchestra.resolve.rcl.opened import OpenParameter
+
+# In a flow mapping, where nothing else ends the key: `{rate:20.0}`.
+_JOINED: Final = pattern(r"([A-Za-z_]\w*):([^\s:/]\S*)")
+NO_VALUE: Final = " has no value"
 
 
 @dataclass(slots=True)
@@ -66,5 +72,21 @@ class Hollow:
         self.problems.error(Code.PARAMETER_SYNTAX, message, at(braces.start, event), suggestion=meant)
 
     def _tell(self, name: str, at: Location, instead: str | None = None) -> None:
-        message = f"the parameter '{name}' has no value"
+        if instead is None and (joined := _JOINED.fullmatch(name)) is not None:
+            message = f"a blank is missing behind '{joined[1]}:'"
+            self.problems.error(Code.PARAMETER_SYNTAX, message, at, suggestion=f"{joined[1]}: {joined[2]}")
+            return
+        message = f"the parameter '{name}'{NO_VALUE}"
         self.problems.error(Code.PARAMETER_SYNTAX, message, at, suggestion=instead)
+
+
+def commented_out(problem: Problem, lines: Sequence[str]) -> Problem:
+    """Return the problem of a parameter without a value with that which stands behind it as a comment."""
+    span = problem.span
+    if span is None or problem.suggestion is not None or not problem.message.endswith(NO_VALUE):
+        return problem
+    # Here, because only mistakes need it.
+    from orchestra.load.eaten import EATEN, eaten  # noqa: PLC0415
+
+    value = eaten(span, lines)
+    return problem if value is None else replace(problem, message=problem.message + EATEN, suggestion=value)

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Final
 from orchestra.compat.literals import argument
 from orchestra.compat.place import Argument, Letters
 from orchestra.description.text import Call, Words
-from orchestra.location import Span, is_within
+from orchestra.location import Span, is_python, is_within
 from orchestra.nearest import nearest
 from orchestra.resolve.substitutions.operators import foreign_operator
 
@@ -21,6 +21,8 @@ if TYPE_CHECKING:
     from orchestra.description.text import Part, Template
 
 _BOOLEANS: Final = ("true", "false")
+_OF_ROS1: Final = re.compile(r"""\barg\(\s*(['"])(\w+)\1\s*\)""")
+_CAPITAL: Final = re.compile(r"\b(?:True|False)\b")
 
 
 def blamed(written: Template, text: str, error: BaseException) -> tuple[Span | None, bool]:
@@ -120,6 +122,34 @@ def in_quotes(
         return None
     text = f"'$({' '.join(word for word in (found[0].name, *words) if word)})'"
     return f"{text} == 'true'" if name in _BOOLEANS else text
+
+
+def of_ros1(written: Template, text: str, begin: Span) -> tuple[Span, str] | None:
+    """Return the place of `arg('name')`, which was an argument in ROS 1, and how it is written; None for any other."""
+    for part, first, _ in _placed(written, text):
+        if not isinstance(part, Words):
+            continue
+        for found in _OF_ROS1.finditer(text, first, first + len(part.text)):
+            at = _inside(part, found.start() - first, found.end() - first)
+            if (at.line, at.column) == (begin.line, begin.column):
+                return at, f"{found[1]}$(var {found[2]}){found[1]}"
+    return None
+
+
+def of_booleans(written: Template, name: str) -> str | None:
+    """Return the substitutions that an expression on `true` and `false` was meant to be, which Python does not know.
+
+    None where it is none of those that have a substitution, and for one of Python.
+    """
+    if name not in _BOOLEANS or is_python(written.span):
+        return None
+    # Here, because only mistakes need it.
+    from orchestra.load.expressions import as_substitutions  # noqa: PLC0415
+
+    whole = as_substitutions(_CAPITAL.sub(lambda found: found[0].lower(), written.raw))
+    if whole is not None and written.span.file.endswith(".xml"):
+        whole = whole.replace("&", "&amp;").replace("<", "&lt;").replace('"', "&quot;")
+    return whole
 
 
 def _quote_around(written: Template, file: str | None) -> str:

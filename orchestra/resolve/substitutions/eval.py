@@ -55,7 +55,7 @@ def _failed(
     call: Call, context: Context, text: str, error: BaseException, names: dict[str, object]
 ) -> Evaluated:
     # Here, because only mistakes need it.
-    from orchestra.resolve.substitutions.blamed import blamed, in_quotes, meant_by  # noqa: PLC0415
+    from orchestra.resolve.substitutions.blamed import blamed, in_quotes, meant_by, of_booleans, of_ros1  # noqa: PLC0415
 
     notes, written = [], call.arguments[0]
     if written.constant is None:
@@ -67,8 +67,12 @@ def _failed(
     told = f"this expression fails: {type(error).__name__}: {_message(error)}"
     suggestion = meant if is_written else None
     if isinstance(error, NameError) and error.name and suggestion is None:
-        if span is not None and not is_python(span):
+        if span is not None and (of_old := of_ros1(written, text, span)) is not None:
+            span, suggestion = of_old
+        elif span is not None and not is_python(span):
             suggestion = in_quotes(written, span, error.name, context.variables.names(), context.file)
+        if suggestion is None and (whole := of_booleans(written, error.name)) is not None:
+            span, suggestion = call.span, whole
         if suggestion is None and meant is None:
             notes.append(f"text needs quotes of its own: '{error.name}'")
     context.problems.error(

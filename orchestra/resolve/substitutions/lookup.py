@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Final
 
+from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Poison
+from orchestra.resolve.refusals import refuse
 from orchestra.resolve.substitutions.arguments import made
 
 if TYPE_CHECKING:
@@ -13,6 +15,8 @@ if TYPE_CHECKING:
     from orchestra.description.text import Call, Template
     from orchestra.resolve.context import Context, Evaluated, ReadKind
     from orchestra.resolve.substitutions.arguments import Evaluate
+
+_SEPARATORS: Final = (",", ":", "=")
 
 
 def looked_up(
@@ -37,6 +41,9 @@ def looked_up(
     if kind is not None and isinstance(value, str):
         context.variables.note(kind, name.text, value)
     if value is None and len(call.arguments) > 1:
+        if name.text[-1:] in _SEPARATORS and written.constant is not None:
+            told = f"blanks alone separate arguments: the name is '{name.text}' here"
+            return refuse(written, context, Code.SUBSTITUTION_SYNTAX, told, meant=name.text[:-1])
         value = evaluate(call.arguments[1], context)
     if value is None:
         return report(name.text, written, context)
