@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from orchestra.compat.place import Place
 
 
-def explained(error: TypeError, frame: FrameType, place: Place) -> Explanation | None:
+def explained(error: BaseException, frame: FrameType, place: Place) -> Explanation | None:
     """Return that part of an expression is a function which is not called; None where the fault is another."""
     tree = tree_of(place.file)
     node = None if tree is None else tree.expression(place.file, place.span)

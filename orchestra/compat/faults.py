@@ -115,6 +115,7 @@ def _of_unset(error: BaseException, call: TracebackType) -> Explanation | None:
 def _better(error: BaseException, call: TracebackType) -> Explanation | None:
     # Here, because only mistakes need them, and what they import.
     from orchestra.compat import (  # noqa: PLC0415
+        call_meant,
         missing_commas,
         missing_files,
         missing_keys,
@@ -153,7 +154,8 @@ def _better(error: BaseException, call: TracebackType) -> Explanation | None:
         case AttributeError() if call.tb_next is None or isinstance(error.obj, ModuleType | Refusing):
             return unknown_names.no_attribute(error, place)
         case _:
-            return None
+            is_of_set = isinstance(error, ValueError) and "dictionary update sequence" in str(error)
+            return call_meant.explained(error, frame, place) if is_of_set else None
 
 
 def _message(error: BaseException) -> str:

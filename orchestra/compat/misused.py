@@ -96,7 +96,7 @@ def _signs(source: bytes) -> Iterator[bool]:
     yield any(sign in source for sign in _PERFORMING) and _asks_for_texts(source)
     yield _is_uncalled(source) or any(sign in source for sign in _CONDITIONS)
     yield _has_braces(source)
-    is_later = b"function" in source and (b"lambda" in source or b"  def " in source)
+    is_later = (b"function" in source or b"on_" in source) and (b"lambda" in source or b"  def " in source)
     yield is_later and b"for " in source
     yield (b": {" in source or b":{" in source) and _DOTTED.search(source) is not None
     yield b"}, {" in source and _SIDE_BY_SIDE.search(source) is not None

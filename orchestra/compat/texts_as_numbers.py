@@ -20,8 +20,8 @@ if TYPE_CHECKING:
     from orchestra.compat.syntax_trees import Tree
 
 _ABOUT: Final = re.compile(
-    r"not supported between instances of|cannot be interpreted as an integer|can only concatenate str"
-    r"|unsupported operand type|can't multiply sequence by non-int|must be real number, not str"
+    r"not supported between instances of .*'str'|cannot be interpreted as an integer|can only concatenate str"
+    r"|unsupported operand type\(s\) for [^ ]+: .*'str'|can't multiply sequence by non-int|must be real number, not str"
     r"|bad operand type for"
 )
 _NUMBER: Final = re.compile(r"\s*[-+]?(\d+)?(\.\d*)?\s*")
@@ -32,7 +32,7 @@ def explained(error: TypeError, frame: FrameType, place: Place) -> Explanation |
     """Return what is to be made of a text or a number; None where the fault is another."""
     tree = tree_of(place.file)
     node = None if tree is None else tree.expression(place.file, place.span)
-    if tree is None or node is None or "str" not in str(error) or not _ABOUT.search(str(error)):
+    if tree is None or node is None or not _ABOUT.search(str(error)):
         return None
     message = f"TypeError: {in_their_words(str(error))}"
     match node:
