@@ -28,6 +28,7 @@ _PYTHON: Final = tuple(
 )
 _PATIENCE: Final = 0.2
 _PAUSE: Final = 0.001
+_TO_BEGIN: Final = 2.0  # seconds in which a program has begun, on a busy machine too
 
 
 class Remaining:
@@ -197,7 +198,7 @@ def _command_line(child: int) -> str:
     It is empty for a moment, too, where a program begins: the kernel tells whoever started it before it has put the
     words in their place (execve(2)).
     """
-    until = time.monotonic() + _PATIENCE
+    until = time.monotonic() + _TO_BEGIN
     while True:
         with open(f"/proc/{child}/cmdline", "rb") as file:  # noqa: PTH123 - as above
             words = file.read().replace(b"\0", b" ").decode(errors="replace").strip()

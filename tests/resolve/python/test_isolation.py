@@ -345,6 +345,7 @@ def test_where_a_process_goes_on_a_file_knows_nothing_of_another_one_either(
 def test_a_program_that_is_only_beginning_is_told_with_its_words(monkeypatch: pytest.MonkeyPatch) -> None:
     """The kernel lets its parent go on before the words of the program can be read."""
     read = iter([b"", b"", b"sleep\x00600\x00"])
+    monkeypatch.setattr(remaining, "_TO_BEGIN", 60.0)
     monkeypatch.setattr(remaining, "open", lambda *_: io.BytesIO(next(read)), raising=False)
     assert remaining._command_line(os.getpid()) == "sleep 600"
 
