@@ -290,10 +290,8 @@ class Tracing:
             self._outer += self._reads
 
 
-def _changed(variable: Variable, leaked_from: Span | None, settled: Location | None) -> Variable:
-    return new_variable(
-        variable.value, variable.location, leaked_from, variable.setter, settled, variable.noted
-    )
+def _changed(old: Variable, leaked_from: Span | None, settled: Location | None) -> Variable:
+    return new_variable(old.value, old.location, leaked_from, old.setter, settled, old.noted)
 
 
 def _comparable(value: object) -> object:
