@@ -7,7 +7,7 @@ files are read by `yaml_plain`, in one pass; what it leaves alone is read here, 
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 import yaml
 
@@ -31,6 +31,7 @@ if TYPE_CHECKING:
 _PLAIN_TAG = "tag:yaml.org,2002:str"
 _KNOWN_TAGS = frozenset({_PLAIN_TAG, "tag:yaml.org,2002:map", "tag:yaml.org,2002:seq"})
 _TAG = pattern(r"![^\s,\[\]{}]*")
+EXPANDED: Final = "the aliases of the file expand to too much"  # behind which nothing is read
 # How many values aliases may expand to beyond what is written.
 _MOST_VALUES = 100_000
 _VALUES_PER_CHARACTER = 4
@@ -105,7 +106,7 @@ class _Tree:
         if len(above) > DEEPEST:
             raise _refused(f"the file nests more than {DEEPEST} deep", span)
         if self.built > _MOST_VALUES + _VALUES_PER_CHARACTER * len(self.whole.text):
-            raise _refused("the aliases of the file expand to too much", span)
+            raise _refused(EXPANDED, span)
         if isinstance(node, yaml.ScalarNode):
             return self._scalar(node, span)
         if node.tag not in _KNOWN_TAGS:

@@ -9,7 +9,7 @@ from orchestra.description.actions import ACTIONS
 from orchestra.load import yaml_plain
 from orchestra.load.mended import Mend
 from orchestra.load.yaml_escapes import escaped
-from orchestra.load.yaml_file import tree_of
+from orchestra.load.yaml_file import EXPANDED, tree_of
 from orchestra.location import offsets_of
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ def tree(whole: Source, reader: Reader) -> Any:  # noqa: ANN401 - a tree
 def mends(error: RefusedError, whole: Source) -> Iterator[Mend]:
     """Yield what may have been meant, the likeliest first; what is no suggestion puts a whole action in doubt."""
     place = offsets_of(error.fault.span)
-    if place is None:
+    if place is None or error.fault.message == EXPANDED:
         return
     if whole.text.startswith("\\", place[0]) and error.fault.suggestion is not None:
         yield Mend(tuple(escaped(whole.text, place[0])))
