@@ -24,6 +24,7 @@ if TYPE_CHECKING:
 
 
 _UNSET = (Code.UNDEFINED_VARIABLE, Code.UNSET_ENVIRONMENT)
+_OF_ROS_1 = {"rviz": "rviz2", "tf": "tf2_ros"}  # packages that only ROS 1 has, with what does their work
 _NAMED = ("variable", "environment", "parameter")
 
 
@@ -162,6 +163,9 @@ def missing_package(package: str, known: tuple[str, ...], weight: Severity) -> M
     """Return what is to be said of a package that is none of those that are known, of such a weight."""
     if not package.strip():
         return Missing(Severity.ERROR, "the name of a package is missing", None)
+    successor = _OF_ROS_1.get(package)
+    if successor in known:
+        return Missing(Severity.ERROR, f"there is no package {package!r} here", successor)
     meant = nearest(package, known)
     if weight is Severity.ERROR or (meant is not None and _is_slip_in_words(package, meant)):
         return Missing(Severity.ERROR, f"there is no package {package!r} here", meant)

@@ -348,6 +348,18 @@ def test_the_place_of_a_key_is_exact_in_every_style(style: str, tmp_path: Path) 
     assert marked(problem.span).strip('"') == "exce"
 
 
+def test_a_package_that_only_ros_1_has_is_told_with_what_does_its_work(tmp_path: Path) -> None:
+    index = tmp_path / "prefix/share/ament_index/resource_index/packages"
+    index.mkdir(parents=True)
+    (index / "rviz2").touch()
+    text = "launch:\n- node: {pkg: rviz, exec: rviz}\n- node: {pkg: tf, exec: static_transform_publisher}\n"
+    found = outcome(
+        tmp_path, text, launching=False, environment={"AMENT_PREFIX_PATH": str(tmp_path / "prefix")}
+    )
+    told = [(item.severity, item.suggestion) for item in found.problems if item.code is Code.MISSING_PACKAGE]
+    assert told == [(Severity.ERROR, "rviz2"), (Severity.WARNING, None)]
+
+
 def test_a_missing_package_is_a_warning_where_nothing_starts(tmp_path: Path) -> None:
     text = (
         "launch:\n- node: {pkg: nav2_bringup, exec: a, name: n, param: [{from: $(find-pkg-share nav2_bringup)/x.yaml}]}\n"
