@@ -57,10 +57,17 @@ def _loop(node: ast.AST) -> tuple[set[str], list[ast.AST]]:
     """Return what a loop goes through by, and what it does."""
     match node:
         case ast.For(target=target, body=body):
-            return _names(target), list(body)
+            return _names(target), [item for item in body if not _ends(item)]
         case ast.ListComp(elt=made, generators=[part]) | ast.GeneratorExp(elt=made, generators=[part]):
             return _names(part.target), [made]
     return set(), []
+
+
+def _ends(node: ast.stmt) -> bool:
+    """Return whether what is made here is made once: the loop ends behind it, so that nothing changes any more."""
+    if isinstance(node, ast.If) and not node.orelse:
+        return isinstance(node.body[-1], ast.Break | ast.Return)
+    return isinstance(node, ast.Return)
 
 
 def _names(target: ast.expr) -> set[str]:
@@ -68,8 +75,11 @@ def _names(target: ast.expr) -> set[str]:
 
 
 def _late(inside: list[ast.AST]) -> Iterator[_Late]:
-    """Yield the functions that are handed over to what calls them later."""
-    nodes = [item for node in inside for item in ast.walk(node)]
+    """Yield the functions that are handed over to what calls them later, but for those of functions in the loop.
+
+    These have a scope of their own, in which a name may be another.
+    """
+    nodes = [item for node in inside for item in _walked(node)]
     functions = {node.name: node for node in nodes if isinstance(node, Function)}
     for node in nodes:
         for word in node.keywords if isinstance(node, ast.Call) else ():
@@ -78,6 +88,16 @@ def _late(inside: list[ast.AST]) -> Iterator[_Late]:
                     yield word.value
                 elif isinstance(word.value, ast.Name) and word.value.id in functions:
                     yield functions[word.value.id]
+
+
+def _walked(node: ast.AST) -> Iterator[ast.AST]:
+    """Yield what stands in a statement, without what stands in functions inside of it."""
+    waiting = [node]
+    while waiting:
+        item = waiting.pop()
+        yield item
+        if not isinstance(item, Function | ast.Lambda):
+            waiting += ast.iter_child_nodes(item)
 
 
 def _used(late: _Late, names: set[str]) -> ast.Name | None:

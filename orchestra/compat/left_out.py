@@ -48,9 +48,10 @@ def tell_left_out(path: str, tree: Tree, problems: Problems, chain: tuple[Span, 
         for line in linecache.getlines(path)
         for word in _WORD.findall(line.partition("#")[2] if "#" in line else "")
     }
+    own = {node.name for node in tree.nodes if isinstance(node, Function | ast.ClassDef)}
     for function in tree.nodes:
         if isinstance(function, Function) and any(map(_returns_something, of_scope(function))):
-            for node, message in _left_out(function, remarked):
+            for node, message in _left_out(function, remarked, own):
                 problems.warning(Code.USER_CODE, message, Location(node_span(path, node), chain))
 
 
@@ -58,9 +59,9 @@ def _returns_something(node: ast.AST) -> bool:
     return isinstance(node, ast.Return) and node.value is not None
 
 
-def _left_out(function: Function, remarked: set[str]) -> Iterator[tuple[ast.expr, str]]:
+def _left_out(function: Function, remarked: set[str], own: set[str]) -> Iterator[tuple[ast.expr, str]]:
     inside = list(of_scope(function))
-    yield from _alone(inside)
+    yield from (item for item in _alone(inside) if item[0].id not in own)
     names: dict[str, list[ast.Name]] = {}
     for node in ast.walk(function):
         if isinstance(node, ast.Name):
@@ -76,7 +77,7 @@ def _left_out(function: Function, remarked: set[str]) -> Iterator[tuple[ast.expr
         yield first[0], f"'{name}' is part of no launch description: it has no effect"
 
 
-def _alone(inside: list[ast.AST]) -> Iterator[tuple[ast.expr, str]]:
+def _alone(inside: list[ast.AST]) -> Iterator[tuple[ast.Name, str]]:
     """Yield the actions that statements make, and nothing else."""
     for node in inside:
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Call):

@@ -20,6 +20,9 @@ _TAKING: Final = frozenset(
 )
 _WORDS: Final = frozenset({"arguments", "cmd", "ros_arguments"})
 _SEVERAL: Final = 2
+# Texts that end so, or go on so, are parts of one word.
+_ENDING: Final = ("=", ":", "/", "_", "-", ".")
+_GOING_ON: Final = ("=", ":", "_")
 
 
 def tell_nested_words(path: str, tree: Tree, problems: Problems, chain: tuple[Span, ...]) -> None:
@@ -48,5 +51,6 @@ def _texts(item: ast.expr, tree: Tree) -> list[str] | None:
     known = tree.meaning(item)
     held = known.elts if isinstance(known, ast.List | ast.Tuple) else []
     texts = [part.value for part in held if isinstance(part, ast.Constant) and isinstance(part.value, str)]
-    is_joined = any(" " in text or text.endswith(("=", ":", "/")) for text in texts)
+    is_joined = any(" " in text or text.endswith(_ENDING) for text in texts)
+    is_joined = is_joined or any(text.startswith(_GOING_ON) for text in texts[1:])
     return texts if len(texts) == len(held) >= _SEVERAL and not is_joined else None

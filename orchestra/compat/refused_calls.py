@@ -31,7 +31,7 @@ def explained(error: TypeError, frame: FrameType, place: Place) -> Explanation |
     """Return what is wrong with the arguments of a call; None where the fault is another."""
     call = call_at(place)
     called = None if call is None else value_of(call.func, frame)
-    if call is None or not _is_about(error, called):
+    if call is None or not callable(called) or not _is_about(error, called):
         return None
     name: str = getattr(called, "__name__", "it")
     twice = _TWICE.search(str(error))

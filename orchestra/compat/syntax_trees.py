@@ -157,7 +157,11 @@ class Tree:
         return [node for node in self.nodes if isinstance(node, ast.With)]
 
     def meaning(self, node: ast.expr) -> ast.expr:
-        """Return the expression that a name stands for where it is set once, else the node itself."""
+        """Return the expression that a name stands for where it is set once, else the node itself.
+
+        It is never part of that itself, as `mode` would be where a function begins with `mode = mode.lower()`: whoever
+        asks for the meaning of each part comes to an end.
+        """
         seen: set[str] = set()
         while isinstance(node, ast.Name) and node.id not in seen:
             seen.add(node.id)
@@ -174,7 +178,9 @@ class Tree:
             if isinstance(scope, Function) and name.id in parameters(scope):
                 return None
             if set_here:
-                return value_of(set_here[0], name.id) if len(set_here) == 1 else None
+                value = value_of(set_here[0], name.id) if len(set_here) == 1 else None
+                innermost = next(self.functions_around(name), self.module)
+                return value if scope is not innermost or _is_before(value, name) else None
         return None
 
     def _set_in(self, scope: Function | ast.Module) -> dict[str, list[ast.AST]]:
@@ -252,6 +258,14 @@ def _range(node: ast.AST) -> _Range:
         getattr(node, "col_offset", 0),
         getattr(node, "end_col_offset", 0),
     )
+
+
+def _is_before(value: ast.expr | None, name: ast.Name) -> bool:
+    """Return whether a value ends before a name begins."""
+    if value is None:
+        return False
+    ends, begins = _range(value), _range(name)
+    return (ends[1], ends[3]) <= (begins[0], begins[2])
 
 
 def _holds(outer: _Range, inner: _Range) -> bool:

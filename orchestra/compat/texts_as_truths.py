@@ -32,8 +32,14 @@ _SAME: Final = (ast.Is, ast.IsNot)
 
 def tell_truths(path: str, tree: Tree, problems: Problems, chain: tuple[Span, ...]) -> None:
     """Warn of such texts in a file."""
+    compared = _compared_names(tree)
     for node in tree.nodes:
         for tested in _tested(node):
+            if (
+                isinstance(tested, ast.Name)
+                and (tested.id, next(tree.functions_around(tested), None)) in compared
+            ):
+                continue  # whether it is empty, before it is compared
             told = _always_true(tested, tree, text_at(path, node_span(path, tested, quotes=True)))
             if told is not None:
                 at = Location(node_span(path, tested, quotes=True), chain)
@@ -43,6 +49,17 @@ def tell_truths(path: str, tree: Tree, problems: Problems, chain: tuple[Span, ..
             if never is not None:
                 at = Location(node_span(path, never[1], quotes=True), chain)
                 problems.warning(Code.IMPOSSIBLE_CONDITION, never[0], at, suggestion=never[2])
+
+
+def _compared_names(tree: Tree) -> set[tuple[str, object]]:
+    """Return the names that code compares with texts, each with the function that does."""
+    return {
+        (side.id, next(tree.functions_around(side), None))
+        for node in tree.nodes
+        if isinstance(node, ast.Compare)
+        for side in (node.left, *node.comparators)
+        if isinstance(side, ast.Name)
+    }
 
 
 def _tested(node: ast.AST) -> Iterator[ast.expr]:
@@ -87,9 +104,11 @@ def _always_true(tested: ast.expr, tree: Tree, source: str) -> tuple[str, str] |
 
 
 def _truth(known: Known) -> str | None:
-    """Return a text that a launch argument has if it is a truth value, None if it is none."""
+    """Return a text that a launch argument has if it is a truth value, None if it is none. 1 may be a number."""
     values = known.choices or ((known.default,) if known.default is not None else ())
     is_one = values and all(value.lower() in MEANT_TRUE | MEANT_FALSE for value in values)
+    if known.choices is None and any(value.isdigit() for value in values):
+        return None
     return values[0] if is_one and values else None
 
 

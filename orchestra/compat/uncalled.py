@@ -26,6 +26,8 @@ _ALONE: Final = frozenset(
     }
 )
 _OF_PATHS: Final = frozenset({"exists", "isdir", "isfile"})
+_OF_LIMITS: Final = frozenset({"lower", "upper"})
+_CALLING: Final = frozenset({"filter", "filterfalse", "map", "max", "min", "partial", "sorted"})
 _NOT_CALLED: Final = " is not called: "
 _CONDITIONS: Final = frozenset(
     {"IfCondition", "LaunchConfigurationEquals", "LaunchConfigurationNotEquals", "UnlessCondition"}
@@ -34,13 +36,14 @@ _CONDITIONS: Final = frozenset(
 
 def tell_uncalled(path: str, tree: Tree, problems: Problems, chain: tuple[Span, ...]) -> None:
     """Warn of such methods in a file, and of conditions that are asked whether they are true."""
-    called = {
-        node.func.id for node in tree.nodes if isinstance(node, ast.Call) and isinstance(node.func, ast.Name)
-    }
+    called = set(_functions(tree))
+    is_of_limits = {node.attr for node in tree.nodes if isinstance(node, ast.Attribute)} >= _OF_LIMITS
     done: set[int] = set()
     for node in tree.nodes:
         for found in _values(node, called):
             at = _method(found, tree)
+            if is_of_limits and found.attr in _OF_LIMITS:
+                continue  # of a joint, as its description has them
             if at is not None and id(found) not in done:
                 done.add(id(found))
                 _tell(path, found, at, problems, chain)
@@ -73,6 +76,15 @@ def _tell(path: str, found: ast.Attribute, meant: str, problems: Problems, chain
     problems.warning(
         Code.USER_CODE, message, Location(span, chain), suggestion=Rewritten(meant) if is_known else None
     )
+
+
+def _functions(tree: Tree) -> Iterator[str]:
+    """Yield the names that code calls, or hands over to what does."""
+    for node in tree.nodes:
+        if isinstance(node, ast.Call):
+            handing = called_by(node) in _CALLING
+            given = (*node.args, *(word.value for word in node.keywords)) if handing else ()
+            yield from (item.id for item in (node.func, *given) if isinstance(item, ast.Name))
 
 
 def _method(found: ast.Attribute, tree: Tree) -> str | None:

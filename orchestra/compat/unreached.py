@@ -38,6 +38,8 @@ def _faults(function: Function) -> Iterator[tuple[ast.stmt, str]]:
     for block in _blocks(function.body):
         ends = next((index for index, item in enumerate(block) if isinstance(item, ast.Return)), None)
         behind = block[ends + 1 :] if ends is not None else []
+        if any(isinstance(item, ast.Yield | ast.YieldFrom) for rest in behind for item in ast.walk(rest)):
+            behind = []  # what makes a generator of a function that yields nothing
         reached = next((item for item in behind if not isinstance(item, _HARMLESS) and _does(item)), None)
         if reached is not None:
             yield reached, "this is never reached: the function returns before it"

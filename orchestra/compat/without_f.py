@@ -47,11 +47,17 @@ _FOR_PEOPLE: Final = frozenset({"description"})
 def tell_without_f(path: str, tree: Tree, problems: Problems, chain: tuple[Span, ...]) -> None:
     """Warn of such texts where a launch file hands them over, and the names stand for something there."""
     done: set[int] = set()
+    filled = _filled(tree)
     for node in _texts(tree):
         text = str(node.value)
         names = _NAMES.findall(text)
         is_plain = names and len(_BRACES.findall(text)) == 2 * len(names)
-        if id(node) in done or not is_plain or not set(names) <= _known(node, tree):
+        if (
+            id(node) in done
+            or not is_plain
+            or filled.issuperset(names)
+            or not set(names) <= _known(node, tree)
+        ):
             continue
         done.add(id(node))
         span = node_span(path, node, quotes=True)
@@ -81,6 +87,18 @@ def without_what_braces_cause(problems: Iterable[Problem]) -> Callable[[Problem]
         return replace(problem, severity=Severity.ERROR) if is_grave else problem
 
     return kept
+
+
+def _filled(tree: Tree) -> set[str]:
+    """Return the names that code puts something else in the place of: by `format`, or `replace('{name}', ...)`."""
+    found: set[str] = set()
+    for node in tree.nodes:
+        match node:
+            case ast.Call(func=ast.Attribute(attr="format"), keywords=words):
+                found.update(word.arg for word in words if word.arg is not None)
+            case ast.Call(func=ast.Attribute(attr="replace"), args=[ast.Constant(value=str(text)), _]):
+                found.update(_NAMES.findall(text))
+    return found
 
 
 def _texts(tree: Tree) -> Iterator[ast.Constant]:
