@@ -9,7 +9,7 @@ from __future__ import annotations
 import ast
 import linecache
 import re
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeAlias
 
 from orchestra.compat.idle_names import ACTIONS
 from orchestra.compat.scopes import Function, of_scope
@@ -23,6 +23,8 @@ if TYPE_CHECKING:
     from orchestra.compat.syntax_trees import Tree
     from orchestra.errors import Problems
     from orchestra.location import Span
+
+_Added: TypeAlias = dict[str, list[tuple[ast.Name, list[ast.expr]]]]
 
 _WORD: Final = re.compile(r"\w+")
 _ADDING: Final = frozenset({"add_action", "add_entity", "append", "extend", "insert"})
@@ -68,8 +70,9 @@ def _left_out(function: Function, remarked: set[str], own: set[str]) -> Iterator
             names.setdefault(node.id, []).append(node)
         elif isinstance(node, ast.Global | ast.Nonlocal):
             remarked = remarked | set(node.names)
-    for name, first in _kept(inside).items():
-        adding = {id(held) for held in _held(inside, name)}
+    added = _added(inside)
+    for name, first in _kept(inside, added).items():
+        adding = {id(held) for held, _ in added.get(name, ())}
         reads = [node for node in names[name] if isinstance(node.ctx, ast.Load) and id(node) not in adding]
         is_lists = first[1]
         if reads or name in remarked or name.startswith("_") or (not is_lists and adding):
@@ -86,7 +89,7 @@ def _alone(inside: list[ast.AST]) -> Iterator[tuple[ast.Name, str]]:
                 yield node.value.func, f"this {name} is added to no launch description: it has no effect"
 
 
-def _kept(inside: list[ast.AST]) -> dict[str, tuple[ast.Name, bool]]:
+def _kept(inside: list[ast.AST], added: _Added) -> dict[str, tuple[ast.Name, bool]]:
     """Return the variables that are set to what is made, where first, and whether to a list or a description."""
     found: dict[str, tuple[ast.Name, bool]] = {}
     for node in inside:
@@ -94,7 +97,8 @@ def _kept(inside: list[ast.AST]) -> dict[str, tuple[ast.Name, bool]]:
             case ast.Assign(targets=[ast.Name() as name], value=value):
                 is_held = isinstance(value, ast.List) or called_by(value) == "LaunchDescription"
                 is_made = called_by(value) in _SETTING
-                if is_made or (is_held and (_makes(value) or any(map(_makes, _given(inside, name.id))))):
+                given = (item for _, items in added.get(name.id, ()) for item in items)
+                if is_made or (is_held and (_makes(value) or any(map(_makes, given)))):
                     found.setdefault(name.id, (name, is_held))
     return found
 
@@ -104,21 +108,13 @@ def _makes(value: ast.AST) -> bool:
     return any(called_by(item) in _MADE for item in items)
 
 
-def _given(inside: list[ast.AST], name: str) -> Iterator[ast.expr]:
-    """Yield what is added to a variable."""
+def _added(inside: list[ast.AST]) -> _Added:
+    """Return where something is only added to a variable, and what, by the name of that."""
+    found: _Added = {}
     for node in inside:
         match node:
             case ast.Expr(
-                value=ast.Call(func=ast.Attribute(value=ast.Name(id=held), attr=attr), args=given)
-            ) if held == name and attr in _ADDING:
-                yield from given
-
-
-def _held(inside: list[ast.AST], name: str) -> Iterator[ast.Name]:
-    """Yield where something is only added to a variable."""
-    for node in inside:
-        match node:
-            case ast.Expr(
-                value=ast.Call(func=ast.Attribute(value=ast.Name(id=held) as found, attr=attr))
-            ) if held == name and attr in _ADDING:
-                yield found
+                value=ast.Call(func=ast.Attribute(value=ast.Name() as held, attr=attr), args=given)
+            ) if attr in _ADDING:
+                found.setdefault(held.id, []).append((held, given))
+    return found

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import re
 from collections import Counter
+from contextlib import suppress
 from typing import TYPE_CHECKING, Final
 
 from orchestra.patterns import pattern
@@ -245,4 +246,5 @@ def tell(path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
         tell_returning_none,
     ):
         if tree is not None:
-            tell_of(path, tree, problems, chain)
+            with suppress(RecursionError):  # what is put together of a thousand pieces is left alone
+                tell_of(path, tree, problems, chain)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from functools import lru_cache
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from orchestra.compat.syntax_trees import called_by
@@ -19,6 +20,9 @@ class Known(NamedTuple):
 
     default: str | None
     choices: tuple[str, ...] | None
+
+
+_UNKNOWN: Final = Known(None, None)
 
 
 def performed(node: ast.expr, tree: Tree) -> str | None:
@@ -63,19 +67,22 @@ def argument_of(node: ast.expr, tree: Tree) -> str | None:
 
 def known_of(name: str, tree: Tree) -> Known:
     """Return what a file tells of a launch argument."""
-    for node in tree.nodes if name else ():
+    return _known(tree).get(name, _UNKNOWN)
+
+
+@lru_cache(maxsize=1)
+def _known(tree: Tree) -> dict[str, Known]:
+    """Return what a file tells of each of its launch arguments where it first does."""
+    found: dict[str, Known] = {}
+    for node in tree.nodes:
         if isinstance(node, ast.Call) and called_by(node) in ("DeclareLaunchArgument", "LaunchConfiguration"):
             words = {word.arg: word.value for word in node.keywords}
             of = node.args[0] if node.args else words.get("name") or words.get("variable_name")
             default = words.get("default_value") or words.get("default")
-            if (
-                not isinstance(of, ast.Constant)
-                or of.value != name
-                or (default is None and "choices" not in words)
-            ):
-                continue
-            return Known(_text(default), _texts(words.get("choices")))
-    return Known(None, None)
+            is_told = default is not None or "choices" in words
+            if is_told and isinstance(of, ast.Constant) and isinstance(of.value, str) and of.value:
+                found.setdefault(of.value, Known(_text(default), _texts(words.get("choices"))))
+    return found
 
 
 def _text(node: ast.expr | None) -> str | None:

@@ -6,7 +6,7 @@ import ast
 from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.rewritten import Rewritten
-from orchestra.compat.scopes import Function, of_scope, parameters
+from orchestra.compat.scopes import Function, parameters, value_of
 from orchestra.compat.source_text import text_at
 from orchestra.compat.syntax_trees import called_by, node_span
 from orchestra.errors import Code, Severity
@@ -94,10 +94,10 @@ def _held(node: ast.expr, tree: Tree) -> ast.expr:
     for scope in (*tree.functions_around(known), tree.module):
         if isinstance(scope, Function) and known.id in parameters(scope):
             return known
-        for item in of_scope(scope):
-            match item:
-                case ast.Assign(targets=[ast.Name(id=name)], value=value) if name == known.id:
-                    return value
+        for item in tree.set_in(scope).get(known.id, ()):
+            value = value_of(item, known.id)
+            if value is not None:
+                return value
     return known
 
 

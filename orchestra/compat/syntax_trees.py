@@ -174,7 +174,7 @@ class Tree:
     def _assigned(self, name: ast.Name) -> ast.expr | None:
         """Return what is assigned to a name in the innermost scope that sets it, None unless that is done once."""
         for scope in (*self.functions_around(name), self.module):
-            set_here = self._set_in(scope).get(name.id, ())
+            set_here = self.set_in(scope).get(name.id, ())
             if isinstance(scope, Function) and name.id in parameters(scope):
                 return None
             if set_here:
@@ -183,7 +183,7 @@ class Tree:
                 return value if scope is not innermost or _is_before(value, name) else None
         return None
 
-    def _set_in(self, scope: Function | ast.Module) -> dict[str, list[ast.AST]]:
+    def set_in(self, scope: Function | ast.Module) -> dict[str, list[ast.AST]]:
         """Return what sets names in a scope, by these."""
         if scope not in self._setting:
             found = self._setting[scope] = {}

@@ -7,6 +7,7 @@ is told of which the file says that it is a truth value.
 from __future__ import annotations
 
 import ast
+from functools import lru_cache
 from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.forms_meant import MEANT_FALSE, MEANT_TRUE
@@ -138,12 +139,18 @@ def _never_equal(node: ast.Compare, tree: Tree) -> tuple[str, ast.expr, str | No
 
 def _is_asked_for(text: str, tree: Tree) -> bool:
     """Return whether code compares something with a text, too."""
-    return any(
-        isinstance(side, ast.Constant) and side.value == text
+    return text in _asked_for(tree)
+
+
+@lru_cache(maxsize=1)
+def _asked_for(tree: Tree) -> frozenset[str]:
+    return frozenset(
+        side.value
         for node in tree.nodes
         if isinstance(node, ast.Compare)
         for part in (node.left, *node.comparators)
         for side in (part.elts if isinstance(part, ast.List | ast.Set | ast.Tuple) else (part,))
+        if isinstance(side, ast.Constant) and isinstance(side.value, str)
     )
 
 

@@ -7,7 +7,7 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.rewritten import Rewritten
-from orchestra.compat.scopes import Function, names_set, of_scope, parameters
+from orchestra.compat.scopes import parameters
 from orchestra.compat.source_text import text_at
 from orchestra.compat.syntax_trees import called_by, node_span
 from orchestra.errors import Code, Severity
@@ -17,6 +17,7 @@ from orchestra.location import Location
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterable, Iterator
 
+    from orchestra.compat.scopes import Function
     from orchestra.compat.syntax_trees import Tree
     from orchestra.errors import Problem, Problems
     from orchestra.location import Span
@@ -56,7 +57,7 @@ def tell_without_f(path: str, tree: Tree, problems: Problems, chain: tuple[Span,
             id(node) in done
             or not is_plain
             or filled.issuperset(names)
-            or not set(names) <= _known(node, tree)
+            or not all(_is_known(name, node, tree) for name in names)
         ):
             continue
         done.add(id(node))
@@ -78,13 +79,16 @@ def without_what_braces_cause(problems: Iterable[Problem]) -> Callable[[Problem]
         for text in lacking
         if problem is not lacking[text] and text in problem.message
     }
-    grave = {caused[id(item)] for item in problems if id(item) in caused and item.severity is Severity.ERROR}
+    grave = {
+        id(lacking[caused[id(item)]])
+        for item in problems
+        if id(item) in caused and item.severity is Severity.ERROR
+    }
 
     def kept(problem: Problem) -> Problem | None:
         if id(problem) in caused:
             return None
-        is_grave = any(lacking[text] is problem for text in grave)
-        return replace(problem, severity=Severity.ERROR) if is_grave else problem
+        return replace(problem, severity=Severity.ERROR) if id(problem) in grave else problem
 
     return kept
 
@@ -111,27 +115,28 @@ def _texts(tree: Tree) -> Iterator[ast.Constant]:
 
 
 def _held(node: ast.expr, tree: Tree) -> Iterator[ast.Constant]:
-    known = tree.meaning(node)
-    match known:
-        case ast.Constant(value=str()):
-            yield known
-        case ast.List(elts=items) | ast.Tuple(elts=items) | ast.Dict(values=items):
-            for item in items:
-                yield from _held(item, tree)
-        case ast.BinOp(left=left, op=ast.Add(), right=right):
-            yield from (*_held(left, tree), *_held(right, tree))
+    waiting = [node]
+    while waiting:
+        known = tree.meaning(waiting.pop())
+        match known:
+            case ast.Constant(value=str()):
+                yield known
+            case ast.List(elts=items) | ast.Tuple(elts=items) | ast.Dict(values=items):
+                waiting += reversed(items)
+            case ast.BinOp(left=left, op=ast.Add(), right=right):
+                waiting += (right, left)
 
 
-def _known(node: ast.AST, tree: Tree) -> set[str]:
-    """Return the names that are set where a node stands."""
-    found: set[str] = set()
+def _is_known(name: str, node: ast.AST, tree: Tree) -> bool:
+    """Return whether a name is set where a node stands."""
     for function in tree.functions_around(node):
-        found |= parameters(function) | _set_in(function)
-    return found | {name for name in _set_in(tree.module) if not name[:1].isupper()}
+        if name in parameters(function) or _is_set_in(function, name, tree):
+            return True
+    return not name[:1].isupper() and _is_set_in(tree.module, name, tree)
 
 
-def _set_in(scope: Function | ast.Module) -> set[str]:
-    return {name for node in of_scope(scope) for name in names_set(node) if not isinstance(node, _IMPORTS)}
+def _is_set_in(scope: Function | ast.Module, name: str, tree: Tree) -> bool:
+    return any(not isinstance(node, _IMPORTS) for node in tree.set_in(scope).get(name, ()))
 
 
 _IMPORTS: Final = (ast.Import, ast.ImportFrom, ast.ClassDef)

@@ -6,6 +6,7 @@ Stricter than `nearest`: names of nodes that belong together look alike (`front_
 
 from __future__ import annotations
 
+from functools import lru_cache
 from typing import Final
 
 _SHORTEST: Final = 4  # below that, one letter makes another word
@@ -52,9 +53,11 @@ def _is_near(one: str, other: str) -> bool:
     return distance(one, other, most) <= most
 
 
+@lru_cache(maxsize=4096)
 def _folded(word: str) -> str:
     return word.lower().replace("_", "").replace("-", "")
 
 
+@lru_cache(maxsize=4096)
 def _digits(text: str) -> str:
     return "".join(character for character in text if character.isdigit())

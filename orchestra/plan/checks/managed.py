@@ -25,10 +25,11 @@ def check_managed(manager: Process | Component, written: Written, plan: Plan, pr
         return
     nodes: tuple[Process | Component, ...] = (*plan.processes, *plan.components)
     names = {item.name for item in nodes if item.name is not None}
+    others = names.difference(map(str, listed))
     for index, name in enumerate(listed):
         called = str(name).rpartition("/")[2]
-        near = [other for other in names - {str(item) for item in listed} if is_typo(called, other)]
-        if called in names or len(near) != 1:
+        near = [] if called in names else [other for other in others if is_typo(called, other)]
+        if len(near) != 1:
             continue
         at = written.items[index] if index < len(written.items) else written.value
         told = f"no node is called '{name}', for which the lifecycle manager waits before it brings up any"
