@@ -155,11 +155,11 @@ def _changes_nothing(code: CodeType, _source: bytes) -> bool:
     return changes_nothing(code)
 
 
-def _may_be_misused(_code: CodeType, source: bytes) -> bool:
+def _may_be_misused(code: CodeType, source: bytes) -> bool:
     # Here, as above.
     from orchestra.compat.misused import may_be_misused  # noqa: PLC0415
 
-    return may_be_misused(source)
+    return may_be_misused(code, source)
 
 
 # Each look by its name: whether a file may change something, or have mistakes of a kind.

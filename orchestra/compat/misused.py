@@ -6,19 +6,21 @@ To find them takes a syntax tree, so a short look at the text says first whether
 from __future__ import annotations
 
 import re
-from collections import Counter
 from contextlib import suppress
+from functools import cache
+from types import CodeType
 from typing import TYPE_CHECKING, Final
 
 from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
     from collections.abc import Iterator, Sequence
+    from collections.abc import Set as AbstractSet
 
     from orchestra.errors import Problems
     from orchestra.location import Span
 
-_PERFORMING: Final = (b".perform(", b"perform_substitution(", b"launch_configurations")
+_PERFORMING: Final = frozenset({"perform", "perform_substitution", "launch_configurations"})
 _SET: Final = pattern(
     rb"^[ \t]+(\w+)[ \t]*=(?!=)[^\n=]{0,160}(?:\.perform\(|perform_substitution\(|launch_configurations)",
     re.MULTILINE,
@@ -33,29 +35,26 @@ _ASKED_AT_ONCE: Final = pattern(
 _OTHER: Final = pattern(
     rb"(?:[=!]=|\bis(?: not)?)[ \t]*(?:True\b|False\b|\d|'[Tt]rue'|\"[Tt]rue\"|'[Ff]alse'|\"[Ff]alse\")"
 )
-_METHODS: Final = (
-    *(b".perform", b".evaluate", b".lower", b".upper", b".strip", b".casefold", b".exists", b".isfile"),
-    *(b".isdir", b".is_file", b".is_dir", b".read", b".read_text", b".toxml", b".toprettyxml"),
+_METHODS: Final = frozenset(
+    {
+        *("perform", "evaluate", "lower", "upper", "strip", "casefold", "exists", "isfile"),
+        *("isdir", "is_file", "is_dir", "read", "read_text", "toxml", "toprettyxml"),
+    }
 )
-_CONDITIONS: Final = tuple(
-    b"%s %s(" % (word, name)
-    for word in (b"if", b"not", b"and", b"or")
-    for name in (
-        b"IfCondition",
-        b"UnlessCondition",
-        b"LaunchConfigurationEquals",
-        b"LaunchConfigurationNotEquals",
-    )
+_UNCALLED: Final = pattern(rb"\.(?:%s)(?![\w(])" % "|".join(sorted(_METHODS)).encode())
+_CONDITIONS: Final = frozenset(
+    {"IfCondition", "UnlessCondition", "LaunchConfigurationEquals", "LaunchConfigurationNotEquals"}
 )
+_AS_TRUTH: Final = pattern(rb"(?:if|not|and|or) (?:%s)\(" % "|".join(sorted(_CONDITIONS)).encode())
 _QUOTE: Final = pattern(rb"(?:^|[^\w{])(?:'[^'{}\\]*|\"[^\"{}\\]*)$")
 _IN_LOOP: Final = pattern(
     rb"^([ \t]*)for [^\n]*:[ \t]*\n(\1[ \t]+)\S[^\n]*\n(?:\2[ \t]*\S[^\n]*\n|[ \t]*\n)*?\2return\b",
     re.MULTILINE,
 )
-_CHANGING: Final = (
-    *(b".append(", b".extend(", b".insert(", b".update(", b".sort(", b".reverse("),
-    *(b".add_action(", b".add_entity("),
+_CHANGING: Final = frozenset(
+    {*("append", "extend", "insert", "update", "sort", "reverse", "add_action", "add_entity")}
 )
+_CHANGED: Final = pattern(rb"\.(?:%s)\(" % "|".join(sorted(_CHANGING)).encode())
 _TAKES: Final = pattern(rb"(?:=|return|[(\[,])[ \t]*[\w.]*(?:\([^()]*\)|\[[^\[\]]*\])?$")
 _WAITED_FOR: Final = pattern(rb"\b(?:target_action|target_lifecycle_node)[ \t]*=[ \t]*(\w+)")
 _DONE: Final = pattern(rb"\b(?:on_\w+|entities|actions)[ \t]*=[ \t]*\[?\s{0,80}(\w+)")
@@ -67,9 +66,8 @@ _IN_WORDS: Final = pattern(
 )
 _GOING_ON: Final = frozenset((b"[", b"(", b",", b"=", b"{", b"+", b"\\"))
 _CLOSING: Final = frozenset((b")", b"]", b"}"))
-_OF_TEXTS: Final = frozenset((b"['", b'["', b"('", b'("'))
+_OF_TEXTS: Final = (b"['", b'["', b"('", b'("')
 _IN_LISTS: Final = (b"[[", b", ['", b', ["', b", [\n")
-_WORDS: Final = pattern(rb"\w+")
 _LONG: Final = 400
 _SETTING: Final = (b"Dec", b"Set", b"App", b"Log", b"Pus")
 _ACTIONS: Final = (
@@ -83,31 +81,77 @@ _ACTIONS: Final = (
     *(b"LogInfo(", b"PushRosNamespace(", b"PushROSNamespace(", b"SetParameter(", b"ExecuteProcess("),
     *(b"SetRemap(", b"SetEnvironmentVariable(", b"AppendEnvironmentVariable(", b"LoadComposableNodes("),
 )
-_ADDING: Final = (b".add_action(", b".add_entity(", b".append(", b".extend(", b".insert(")
-_MADE: Final = (b"[", b"LaunchDescription", *(name for name in _ACTIONS if name[:3] in _SETTING))
+# What stands behind a variable that is set, or added to.
+_ONLY: Final = (b" = ", b".add_action(", b".add_entity(", b".append(", b".extend(", b".insert(")
+_KEPT: Final = (b"[", b"LaunchDescription", *(name for name in _ACTIONS if name[:3] in _SETTING))
 
 
-def may_be_misused(source: bytes) -> bool:
-    """Return whether a short look at a launch file finds something that may be."""
-    return any(_signs(source))
+def may_be_misused(code: CodeType, source: bytes) -> bool:
+    """Return whether a short look at a launch file finds something that may be; `code` is what it was compiled to.
+
+    What no name or constant of the code can be a sign of need not be looked for in the text, which takes longer.
+    """
+    return any(_signs(_Words(code), source))
 
 
-def _signs(source: bytes) -> Iterator[bool]:
+class _Words:
+    """The names and constant texts of some code, and of what is in it; whether a function leaves a value alone."""
+
+    def __init__(self, code: CodeType) -> None:
+        self.names = set[str]()
+        self.has_dots = self.has_braces = self.leaves_alone = False
+        self._add(code, {*_operations()})
+
+    def _add(self, code: CodeType, leaving: set[int]) -> None:
+        self.names.update(code.co_names)
+        for item in code.co_consts:
+            if type(item) is CodeType:
+                self.leaves_alone = self.leaves_alone or not leaving.isdisjoint(item.co_code[::2])
+                self._add(item, leaving)
+            elif type(item) is str:
+                self._say(item)
+            elif type(item) is tuple:
+                for part in item:
+                    if type(part) is str:
+                        self._say(part)
+
+    def _say(self, text: str) -> None:
+        if "." in text:
+            self.has_dots = True
+        if "{" in text:
+            self.has_braces = True
+
+    def have(self, words: AbstractSet[str]) -> bool:
+        """Return whether one of these is among the names."""
+        return not self.names.isdisjoint(words)
+
+
+@cache
+def _operations() -> tuple[int, ...]:
+    """Return the operations that let go of the value of a statement."""
+    from opcode import opmap  # noqa: PLC0415 - once
+
+    return (opmap["POP_TOP"],)
+
+
+def _signs(words: _Words, source: bytes) -> Iterator[bool]:
     """Yield whether there is a sign of each kind of misuse."""
-    yield any(sign in source for sign in _PERFORMING) and _asks_for_texts(source)
-    yield _is_uncalled(source) or any(sign in source for sign in _CONDITIONS)
-    yield _has_braces(source)
+    yield words.have(_PERFORMING) and _asks_for_texts(source)
+    yield words.have(_METHODS) and _is_uncalled(source)
+    yield words.have(_CONDITIONS) and _AS_TRUTH.search(source) is not None
+    yield words.has_braces and _has_braces(source)
     is_later = (b"function" in source or b"on_" in source) and (b"lambda" in source or b"  def " in source)
     yield is_later and b"for " in source
-    yield (b": {" in source or b":{" in source) and _DOTTED.search(source) is not None
+    yield words.has_dots and _DOTTED.search(source) is not None
     yield b"}, {" in source and _SIDE_BY_SIDE.search(source) is not None
     yield b"},\n" in source and b"parameters" in source and _SIDE_BY_SIDE.search(source) is not None
-    yield any(sign in source for sign in _IN_LISTS) and _IN_WORDS.search(source) is not None
+    has_words = b"arguments" in source or b"cmd" in source
+    yield has_words and any(sign in source for sign in _IN_LISTS) and _IN_WORDS.search(source) is not None
     yield b"target_" in source and not set(_WAITED_FOR.findall(source)).isdisjoint(_DONE.findall(source))
-    yield _stands_alone(source) or _takes_nothing(source)
-    lines = source.splitlines()
-    yield _is_left_out(source, lines)
-    yield _is_behind(lines) or (b"for " in source and _IN_LOOP.search(source) is not None)
+    yield words.leaves_alone and _stands_alone(source)
+    yield words.have(_CHANGING) and _takes_nothing(source)
+    yield _is_left_out(source)
+    yield _is_behind(source.splitlines()) or (b"for " in source and _IN_LOOP.search(source) is not None)
 
 
 def _asks_for_texts(source: bytes) -> bool:
@@ -119,14 +163,7 @@ def _asks_for_texts(source: bytes) -> bool:
 
 def _is_uncalled(source: bytes) -> bool:
     """Return whether one of the methods stands without brackets behind it."""
-    for method in _METHODS:
-        at = source.find(method)
-        while at >= 0:
-            behind = source[at + len(method) : at + len(method) + 1]
-            if behind != b"(" and not behind.isalnum() and behind != b"_":
-                return True
-            at = source.find(method, at + 1)
-    return False
+    return _UNCALLED.search(source) is not None
 
 
 def _has_braces(source: bytes) -> bool:
@@ -143,14 +180,12 @@ def _has_braces(source: bytes) -> bool:
 
 def _takes_nothing(source: bytes) -> bool:
     """Return whether the value of a call is taken that returns nothing."""
-    for method in _CHANGING:
-        at = source.find(method)
-        while at >= 0:
-            before = source[_line(source, at) : at]
-            is_alone = before.strip().replace(b"_", b"a").replace(b".", b"a").isalnum()
-            if not is_alone and _TAKES.search(before):
-                return True
-            at = source.find(method, at + 1)
+    for found in _CHANGED.finditer(source):
+        at = found.start()
+        before = source[_line(source, at) : at]
+        is_alone = before.strip().replace(b"_", b"a").replace(b".", b"a").isalnum()
+        if not is_alone and _TAKES.search(before):
+            return True
     return False
 
 
@@ -174,28 +209,38 @@ def _line(source: bytes, place: int) -> int:
     return max(source.rfind(b"\n", 0, place) + 1, place - _LONG)
 
 
-def _is_left_out(source: bytes, lines: Sequence[bytes]) -> bool:
+def _is_left_out(source: bytes) -> bool:
     """Return whether a variable is only set and added to, never read, or a list of texts one item of another list."""
-    counts: dict[bytes, int] = {}
-    kept, lists = set(), set()
-    for line in lines:
-        name, sign, value = line.partition(b" = ")
-        if sign:
-            name = name.strip()
-            counts[name] = counts.get(name, 0) + 1
-            if value.startswith(_MADE):
-                kept.add(name)
-            if value[:2] in _OF_TEXTS:
-                lists.add(name)
-        else:
-            for adding in _ADDING:
-                if adding in line:
-                    name = line.partition(adding)[0].strip()
-                    counts[name] = counts.get(name, 0) + 1
+    kept, lists = set[bytes](), set[bytes]()
+    at = source.find(b" = ")
+    while at >= 0:
+        name = source[_line(source, at) : at].strip()
+        if source.startswith(_KEPT, at + 3):
+            kept.add(name)
+        if source.startswith(_OF_TEXTS, at + 3):
+            lists.add(name)
+        at = source.find(b" = ", at + 3)
     if lists and not lists.isdisjoint(_ITEMS.findall(source)):
         return True
-    words = Counter(_WORDS.findall(source)) if kept else Counter[bytes]()
-    return any(words[name] <= counts[name] for name in kept)
+    return any(_is_only_set(name, source) for name in kept)
+
+
+def _is_only_set(name: bytes, source: bytes) -> bool:
+    """Return whether a variable stands nowhere but where it is set and added to."""
+    uses, at = 0, source.find(name)
+    while at >= 0:
+        end = at + len(name)
+        if not (_is_of_name(source[end : end + 1]) or (at and _is_of_name(source[at - 1 : at]))):
+            is_first = not source[_line(source, at) : at].strip()
+            if not is_first or not source.startswith(_ONLY, end):
+                return False
+            uses += 1
+        at = source.find(name, end)
+    return uses > 0
+
+
+def _is_of_name(character: bytes) -> bool:
+    return character.isalnum() or character == b"_"
 
 
 def _is_behind(lines: Sequence[bytes]) -> bool:
