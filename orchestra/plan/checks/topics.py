@@ -51,9 +51,7 @@ def check_topics(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     for use in uses:
         users.setdefault(use.name, set()).add(use.node)
     told: set[object] = {problem.span for problem in problems if problem.code in _KNOWN}
-    planned: tuple[_Planned, ...] = (*plan.processes, *plan.components)
-    nodes = {f"{item.namespace or ''}/{item.name}".replace("//", "/") for item in planned}
-    for alike in _alike(uses, nodes):
+    for alike in _alike(uses, plan):
         _check(alike, users, told, problems)
 
 
@@ -77,12 +75,12 @@ def _check(uses: Iterable[_Use], users: dict[str, set[str]], told: set[object], 
         return
 
 
-def _alike(uses: Iterable[_Use], nodes: set[str]) -> Iterator[list[_Use]]:
+def _alike(uses: Iterable[_Use], plan: Plan) -> Iterator[list[_Use]]:
     """Yield the uses of names that differ only in case or in a slash, where there are several names.
 
     Of nodes in different namespaces these are names of several levels, one with a slash before it, one without: a
     single level, as `scan`, is often the same for each of several robots and for none. What stands below the name of
-    one of the `nodes` is its own.
+    a node is its own.
     """
     groups: dict[object, list[_Use]] = {}
     apart: dict[str, list[_Use]] = {}
@@ -92,14 +90,24 @@ def _alike(uses: Iterable[_Use], nodes: set[str]) -> Iterator[list[_Use]]:
         plain = use.name in (f"/{bare}", f"{use.namespace}/{bare}")
         if plain and use.namespace != "/" and bare not in _GLOBAL:
             groups.setdefault((use.namespace, bare), []).append(use)
-        if plain and "/" in bare and nodes.isdisjoint(_above(use.name)):
+        if plain and "/" in bare:
             apart.setdefault(bare, []).append(use)
     for group in groups.values():
         if len({use.name for use in group}) > 1:
             yield group
+    nodes: set[str] | None = None
     for bare, group in apart.items():
-        if {f"/{bare}"} < {use.name for use in group} and len({use.name for use in group}) == _PAIR:
-            yield group
+        names = {use.name for use in group} if len(group) > 1 else ()
+        if len(names) == _PAIR and f"/{bare}" in names:
+            nodes = _names(plan) if nodes is None else nodes
+            if all(nodes.isdisjoint(_above(name)) for name in names):
+                yield group
+
+
+def _names(plan: Plan) -> set[str]:
+    """Return the full names of all nodes."""
+    planned: tuple[_Planned, ...] = (*plan.processes, *plan.components)
+    return {f"{item.namespace or ''}/{item.name}".replace("//", "/") for item in planned}
 
 
 def _above(name: str) -> Iterator[str]:
