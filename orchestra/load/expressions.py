@@ -19,6 +19,7 @@ _OPERATORS: Final = (
     {"&&": "and", "and": "and"},
     {"=": "equals", "==": "equals", "!=": "not-equals"},
 )
+_MOST: Final = 100  # tokens of an expression that somebody writes
 _NEGATIONS: Final = ("not", "!")
 _WORDS: Final = frozenset({*_NEGATIONS, "(", ")"}.union(*_OPERATORS))
 
@@ -38,7 +39,7 @@ def as_substitutions(text: str, source: str = "") -> str | None:
             return None
         tokens.append(found[1])
         at = found.end()
-    if len(tokens) == 1:
+    if not 1 < len(tokens) < _MOST:
         return None
     reading = _Reading(tokens[::-1], source)
     read = reading.joined()

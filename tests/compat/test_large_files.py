@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.compat.misused import tell
 from orchestra.errors import Problems
+from orchestra.load.expressions import as_substitutions
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -40,3 +41,10 @@ def test_the_effort_does_not_grow_with_the_square(tmp_path: Path) -> None:
     texts = "".join(f"        LogInfo(msg='{{v{number}}}'),\n" for number in range(_MANY))
     text = f"def generate_launch_description():\n{names}    return LaunchDescription([\n{texts}    ])\n"
     assert _told(tmp_path, text) == _MANY
+
+
+def test_conditions_of_other_languages_may_have_very_many_brackets() -> None:
+    """Nobody has written such one: it is left as it is."""
+    assert as_substitutions("(" * _MANY + "a && b" + ")" * _MANY) is None
+    assert as_substitutions("not " * _MANY + "a") is None
+    assert as_substitutions("((a && b))") == "$(and a b)"

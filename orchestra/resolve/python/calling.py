@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import contextmanager
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.refusing import collecting
 from orchestra.location import Location
@@ -11,10 +11,12 @@ from orchestra.resolve.python.environ import environment_now, put_environment
 from orchestra.witness.observing import observer
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterable, Iterator
 
     from orchestra.location import Span
     from orchestra.resolve.resolution import Resolution
+
+_END: Final = object()
 
 
 @contextmanager
@@ -35,6 +37,23 @@ def user_code(run: Resolution, span: Span) -> Iterator[None]:
         run.scope.ledger.incomplete = True
     finally:
         take_environment(run, span)
+
+
+def stepped(items: Iterable[Any] | None, run: Resolution, span: Span) -> Iterator[Any] | None:
+    """Return what code of a launch file yields: it runs on when the next item is asked for, as user code does."""
+    return None if items is None else _steps(items, run, span)
+
+
+def _steps(items: Iterable[Any], run: Resolution, span: Span) -> Iterator[Any]:
+    left: Iterator[Any] | None = None
+    while True:
+        item: Any = _END
+        with user_code(run, span):
+            left = iter(items) if left is None else left
+            item = next(left, _END)
+        if item is _END:
+            return
+        yield item
 
 
 @contextmanager

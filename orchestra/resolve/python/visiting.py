@@ -18,7 +18,7 @@ from orchestra.description.core import ValidationError
 from orchestra.errors import Code
 from orchestra.location import displayed, point
 from orchestra.resolve.context import POISON
-from orchestra.resolve.python.calling import user_code
+from orchestra.resolve.python.calling import stepped, user_code
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -147,7 +147,7 @@ def _carry_out(entity: Any, span: Span, run: Resolution) -> None:
         if made is not None and (isinstance(made, str | Mapping) or not isinstance(made, Iterable)):
             told_so = f"{_name(entity)} returns a list of actions or None, this is {told(made)}"
             raise WrongType(told_so, made, at=_returned(entity, made))
-        following = made
+        following = made if isinstance(made, list | tuple) else stepped(made, run, span)
     if following is not None:
         _visit_returned(entity, following, run)
     else:

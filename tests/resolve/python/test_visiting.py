@@ -393,3 +393,21 @@ def generate_launch_description():
     assert [action["message"] for trigger in encode(plan)["triggers"] for action in trigger["do"]] == [
         "1 2 1"
     ]
+
+
+def test_what_a_generator_stops_at_is_told(tmp_path: Path) -> None:
+    """Its code runs when what it yields is visited, with the environment of that moment."""
+    text = """\
+def setup(context):
+    yield SetEnvironmentVariable('PLACE', 'here')
+    yield LogInfo(msg=os.environ['PLACE'])
+    yield LogInfo(msg=LaunchConfiguration('mode').case)
+
+def generate_launch_description():
+    return LaunchDescription([OpaqueFunction(function=setup)])
+"""
+    _, problems = planned(tmp_path, {"main.launch.py": text})
+    (error,) = problems.errors
+    assert error.code is Code.USER_CODE
+    assert error.span is not None
+    assert error.span.line == len(HEAD.splitlines()) + 4
