@@ -69,9 +69,11 @@ def _keeps_action(code: CodeType, known: set[int] | None, lines: Sequence[bytes]
     These are looked for where they are not `known`.
     """
     idle = _idle_names(code) if known is None else known
-    for index in _setting(code.co_code, idle) if idle else ():
+    positions, passed = code.co_positions(), 0
+    for index in sorted({*_setting(code.co_code, idle)}) if idle else ():
         # What was done before it is to make the value. Most are set where a function begins.
-        begin, end, *_ = next(islice(code.co_positions(), index - 1, None))
+        begin, end, *_ = next(islice(positions, index - 1 - passed, None))
+        passed = index
         if begin is not None and any(map(_action().search, lines[begin - 1 : end or begin])):
             return True
     return False
