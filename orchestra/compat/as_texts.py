@@ -13,6 +13,7 @@ from orchestra.compat.place import Argument, Place
 from orchestra.compat.refusing import collector
 from orchestra.compat.remarks import remark
 from orchestra.compat.rewritten import Rewritten
+from orchestra.compat.scopes import decided_by
 from orchestra.compat.source_text import text_at
 from orchestra.compat.syntax_trees import called_by, node_span, tree_of
 from orchestra.errors import Code, Problem, Severity
@@ -203,20 +204,14 @@ def _around(place: Place, tree: Tree) -> list[ast.expr | ast.stmt]:
 
 def _tested(node: ast.AST) -> Iterator[ast.expr]:
     """Yield the expressions of which a node asks whether they are true."""
+    for test in decided_by(node):
+        yield from _leaves(test)
     match node:
-        case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.Assert(test=test):
-            yield from _leaves(test)
         case ast.UnaryOp(op=ast.Not(), operand=operand):
             yield from _leaves(operand)
         case ast.BoolOp(values=[*values, _]):
             for value in values:
                 yield from _leaves(value)
-        case ast.Call(func=ast.Name(id="bool"), args=[value]):
-            yield value
-        case ast.ListComp(generators=parts) | ast.GeneratorExp(generators=parts):
-            for part in parts:
-                for test in part.ifs:
-                    yield from _leaves(test)
 
 
 def _leaves(test: ast.expr) -> Iterator[ast.expr]:

@@ -60,3 +60,15 @@ def parameters(function: Function) -> set[str]:
     given = function.args
     every = (*given.posonlyargs, *given.args, *given.kwonlyargs, given.vararg, given.kwarg)
     return {item.arg for item in every if item is not None}
+
+
+def decided_by(node: ast.AST) -> list[ast.expr]:
+    """Return what a statement or an expression decides by, with what `and`, `or` and `not` are put between."""
+    match node:
+        case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.Assert(test=test):
+            return [test]
+        case ast.Call(func=ast.Name(id="bool"), args=[given], keywords=[]):
+            return [given]
+        case ast.ListComp(generators=parts) | ast.GeneratorExp(generators=parts):
+            return [test for part in parts for test in part.ifs]
+    return []

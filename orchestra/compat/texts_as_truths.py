@@ -13,6 +13,7 @@ from typing import TYPE_CHECKING, Final
 from orchestra.compat.forms_meant import MEANT_FALSE, MEANT_TRUE
 from orchestra.compat.performed_texts import is_changed, known_of, performed
 from orchestra.compat.rewritten import Rewritten
+from orchestra.compat.scopes import decided_by
 from orchestra.compat.source_text import text_at
 from orchestra.compat.syntax_trees import node_span
 from orchestra.errors import Code
@@ -35,7 +36,7 @@ def tell_truths(path: str, tree: Tree, problems: Problems, chain: tuple[Span, ..
     """Warn of such texts in a file."""
     compared = _compared_names(tree)
     for node in tree.nodes:
-        for tested in _tested(node):
+        for tested in (leaf for test in decided_by(node) for leaf in _leaves(test)):
             if (
                 isinstance(tested, ast.Name)
                 and (tested.id, next(tree.functions_around(tested), None)) in compared
@@ -63,20 +64,8 @@ def _compared_names(tree: Tree) -> set[tuple[str, object]]:
     }
 
 
-def _tested(node: ast.AST) -> Iterator[ast.expr]:
-    """Yield what a statement or an expression decides by: that alone, without what `and`, `or` and `not` make of it."""
-    match node:
-        case ast.If(test=test) | ast.While(test=test) | ast.IfExp(test=test) | ast.Assert(test=test):
-            yield from _leaves(test)
-        case ast.Call(func=ast.Name(id="bool"), args=[given], keywords=[]):
-            yield from _leaves(given)
-        case ast.ListComp(generators=parts) | ast.GeneratorExp(generators=parts):
-            for part in parts:
-                for test in part.ifs:
-                    yield from _leaves(test)
-
-
 def _leaves(test: ast.expr) -> Iterator[ast.expr]:
+    """Yield what is asked whether it is true, without what `and`, `or` and `not` make of it."""
     match test:
         case ast.UnaryOp(op=ast.Not(), operand=operand):
             yield from _leaves(operand)
