@@ -21,7 +21,6 @@ from orchestra.load.offsets import Source, source
 from orchestra.load.reader import Reader
 from orchestra.load.xml_attributes import listed, separated
 from orchestra.load.xml_parser import NotXmlError, parse
-from orchestra.load.xml_texts import tell_text, text_in
 from orchestra.nearest import is_slip, nearest
 
 if TYPE_CHECKING:
@@ -224,6 +223,8 @@ class _Shaper:
             case Kind.VARIABLES:
                 self._once(child, self.content(child, None, VARIABLES), tagged)
             case _:
+                from orchestra.load.xml_texts import text_in  # noqa: PLC0415 - only a mistake needs it
+
                 written = text_in(child, self.whole)
                 message = f"'{child.name}' is written as an attribute: {child.name}=\"{written}\""
                 near = next((key for key in tagged.elements if is_slip(child.name, key)), None)
@@ -250,6 +251,8 @@ class _Shaper:
 
     def _text(self, element: Element, model: type[Entity] | None, tagged: Tagged) -> None:
         """Tell that text between tags says nothing; an error where something is missing that it probably is."""
+        from orchestra.load.xml_texts import tell_text  # noqa: PLC0415 - only a mistake needs it
+
         lacking = _lacking(model, tagged)
         tell_text(element, lacking, self.whole, self.reader)
         for name in lacking:
