@@ -11,7 +11,6 @@ from orchestra.description.source import Keyed, Listed, Verbatim, Written, kind_
 from orchestra.description.text import Template, new_template, new_words
 from orchestra.errors import Code, Problems
 from orchestra.fields import field, replace
-from orchestra.load.braces import report_braces
 from orchestra.load.elements import beginning_of, noun, place_of
 from orchestra.load.grammar import parse_template, sound_template, unescaped
 from orchestra.load.halves import Halves
@@ -106,7 +105,11 @@ class Reader:
         if sound is not None:
             return sound
         found = Problems()
-        lost = braces and report_braces(text, written.spans, found)
+        lost = False
+        if braces:
+            from orchestra.load.braces import report_braces  # noqa: PLC0415 - hardly any text has them
+
+            lost = report_braces(text, written.spans, found)
         template = parse_template(text, written.spans, found, quoted=written.quoted)
         for problem in found:
             self.problems.report(replace(problem, included_from=self.included_from))
