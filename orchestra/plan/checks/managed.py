@@ -8,6 +8,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
+from orchestra.nearest import may_look
 from orchestra.resolve.typos import is_typo
 
 if TYPE_CHECKING:
@@ -16,6 +17,7 @@ if TYPE_CHECKING:
     from orchestra.plan.written import Written
 
 _LIST: Final = "node_names"
+_STEPS: Final = 4  # of a look at a name, see `may_look`
 
 
 def check_managed(manager: Process | Component, written: Written, plan: Plan, problems: Problems) -> None:
@@ -28,7 +30,9 @@ def check_managed(manager: Process | Component, written: Written, plan: Plan, pr
     others = names.difference(map(str, listed))
     for index, name in enumerate(listed):
         called = str(name).rpartition("/")[2]
-        near = [] if called in names else [other for other in others if is_typo(called, other)]
+        if called in names or not may_look(_STEPS * len(others)):
+            continue
+        near = [other for other in others if is_typo(called, other)]
         if len(near) != 1:
             continue
         at = written.items[index] if index < len(written.items) else written.value
