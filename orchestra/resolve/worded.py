@@ -15,6 +15,9 @@ if TYPE_CHECKING:
     from orchestra.resolve.model import FileParameters, ResolvedRemap
     from orchestra.resolve.resolution import Resolution
 
+ARGUED: Final = frozenset(
+    {"controller_manager", "tf2_ros"}
+)  # packages with programs whose arguments are known
 _SETTING: Final = frozenset({"-p", "--param", "--params-file", "-r", "--remap"})
 
 
@@ -24,11 +27,13 @@ def texts(
     *,
     for_ros: bool | None = None,
     given: list[FileParameters | ResolvedRemap] | None = None,
+    started_by: tuple[str, str] | None = None,
 ) -> tuple[str, ...] | Poison:
     """Return words: a text is split as a shell would, an item of a list is one word.
 
     A text that is empty, or blank, is one empty word (launch, `ExecuteProcess._parse_cmdline`). Of a node, `for_ros`
-    tells whether all words are for rcl, or those behind `--ros-args` only; what they set becomes `given`.
+    tells whether all words are for rcl, or those behind `--ros-args` only; what they set becomes `given`. They are for
+    the executable of a package of `ARGUED` that it is `started_by`.
     """
     if argv is None:
         return ()
@@ -45,6 +50,10 @@ def texts(
         from orchestra.resolve.ros_rules import check_rules  # noqa: PLC0415 - as above
 
         check_rules(words, run.problems, for_ros=for_ros)
+    if started_by is not None:
+        from orchestra.resolve.known_arguments import check_arguments  # noqa: PLC0415 - as above
+
+        check_arguments(*started_by, words, run.problems)
     if for_ros is not None:
         look_at_paths(words, run, for_ros=for_ros)
     if given is not None and not _SETTING.isdisjoint(said):

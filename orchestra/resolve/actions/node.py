@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING, Any, Final
+from typing import TYPE_CHECKING, Any
 
 from orchestra.description.actions.node import REACHED
 from orchestra.errors import Code
@@ -18,8 +18,7 @@ from orchestra.resolve.python_programs import module_words, script_words
 from orchestra.resolve.remapping import remaps
 from orchestra.resolve.running import add_process, new_program
 from orchestra.resolve.unpackaged import unpackaged_words
-from orchestra.resolve.worded import texts
-from orchestra.resolve.words import split
+from orchestra.resolve.worded import ARGUED, texts
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -30,10 +29,6 @@ if TYPE_CHECKING:
     from orchestra.resolve.model import Kind
     from orchestra.resolve.resolution import Resolution
     from orchestra.resolve.running import Program
-
-
-# Packages with programs whose arguments are known.
-_ARGUED: Final = frozenset({"controller_manager", "tf2_ros"})
 
 
 def visit(action: Node, run: Resolution) -> None:
@@ -71,9 +66,7 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
         run.found.lost.add(name.text)  # its full name is not known
         name = POISON
     given: list[FileParameters | ResolvedRemap] = []
-    arguments, ros_arguments, more = _arguments(action, run, given)
-    if arguments and isinstance(package, Value) and package.text in _ARGUED:
-        _check_arguments(package.text, action, run)
+    arguments, ros_arguments, more = _arguments(action, run, given, package, executable)
     own, whole = parameters(action.param, run)
     rules, regular = remaps(action.remap, run)
     among = [item for item in given if isinstance(item, ResolvedRemap)] if given else []
@@ -108,27 +101,24 @@ def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison
 
 
 def _arguments(
-    action: Node, run: Resolution, given: list[FileParameters | ResolvedRemap]
+    action: Node,
+    run: Resolution,
+    given: list[FileParameters | ResolvedRemap],
+    package: Evaluated | None,
+    executable: Evaluated | None,
 ) -> tuple[tuple[str, ...] | Poison, tuple[str, ...] | Poison, Sequence[Read]]:
     """Return the arguments and the ROS arguments, and what was read for them; what they set is `given`."""
     if action.args is None and action.ros_args is None:
         return (), (), ()
+    started_by = None
+    if isinstance(package, Value) and package.text in ARGUED and isinstance(executable, Value):
+        started_by = (package.text, executable.text)
     with run.scope.tracing() as reads:
         arguments, ros_arguments = (
-            texts(action.args, run, for_ros=False, given=given),
+            texts(action.args, run, for_ros=False, given=given, started_by=started_by),
             texts(action.ros_args, run, for_ros=True, given=given),
         )
     return arguments, ros_arguments, reads
-
-
-def _check_arguments(package: str, action: Node, run: Resolution) -> None:
-    # Here, because few programs are known so well.
-    from orchestra.resolve.known_arguments import check_arguments  # noqa: PLC0415
-
-    executable = run.text(action.exec)
-    words = split(action.args, run.context) if action.args is not None else ()
-    if isinstance(executable, str) and not isinstance(words, Poison):
-        check_arguments(package, executable, words, run.problems)
 
 
 def _tell(origin: Any, program: Program) -> None:  # noqa: ANN401 - any object
