@@ -10,6 +10,7 @@ from orchestra.compat.forms_of_sets import with_colon
 from orchestra.compat.named_calls import CALLED, call_of
 from orchestra.compat.names_in_frames import value_of
 from orchestra.compat.rewritten import Rewritten
+from orchestra.compat.scopes import given_to
 from orchestra.compat.source_text import text_at
 from orchestra.compat.syntax_trees import node_span, tree_of
 from orchestra.errors import Code
@@ -55,9 +56,8 @@ def _of_set(node: ast.expr, file: str) -> Explanation | None:
 def _parts(node: ast.expr) -> Iterator[ast.expr]:
     """Yield what an expression is made of, without what is called in it."""
     match node:
-        case ast.Call(args=given, keywords=words):
-            for item in (*given, *(word.value for word in words)):
-                yield from item.elts if isinstance(item, ast.List | ast.Tuple) else (item,)
+        case ast.Call():
+            yield from given_to(node)
         case ast.BinOp(left=left, right=right):
             yield from _parts(left)
             yield from (left, right)

@@ -1,4 +1,4 @@
-"""Scopes of the user's Python: what stands in one, and the names that are set there."""
+"""Scopes of the user's Python: what stands in one, names that are set there, and what its parts are given or ask."""
 
 from __future__ import annotations
 
@@ -72,3 +72,9 @@ def decided_by(node: ast.AST) -> list[ast.expr]:
         case ast.ListComp(generators=parts) | ast.GeneratorExp(generators=parts):
             return [test for part in parts for test in part.ifs]
     return []
+
+
+def given_to(call: ast.Call) -> Iterator[ast.expr]:
+    """Yield what a call is given, and in place of lists their items."""
+    for item in (*call.args, *(word.value for word in call.keywords)):
+        yield from item.elts if isinstance(item, ast.List | ast.Tuple) else (item,)

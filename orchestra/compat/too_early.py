@@ -12,6 +12,7 @@ from orchestra.compat.explanation import Explanation
 from orchestra.compat.joined_texts import joined
 from orchestra.compat.names_in_frames import value_of
 from orchestra.compat.rewritten import Rewritten
+from orchestra.compat.scopes import given_to
 from orchestra.compat.source_text import text_at
 from orchestra.compat.syntax_trees import called_by, node_span, tree_of
 
@@ -74,9 +75,8 @@ def _whole_sum(node: ast.expr, tree: Tree) -> ast.expr:
 def _parts(node: ast.expr) -> Iterator[ast.expr]:
     """Yield what a call is given, and the items of lists of that; of an operation the two sides."""
     match node:
-        case ast.Call(args=given, keywords=named):
-            for each in (*given, *(item.value for item in named)):
-                yield from each.elts if isinstance(each, ast.List | ast.Tuple) else (each,)
+        case ast.Call():
+            yield from given_to(node)
         case ast.BinOp(left=left, right=right):
             yield from (left, right)
 
