@@ -22,6 +22,7 @@ from orchestra.compat.rewritten import Rewritten
 from orchestra.compat.source_text import quoted_in, text_at
 from orchestra.compat.syntax_trees import node_span, tree_of
 from orchestra.compat.uncalled import without_methods
+from orchestra.compat.unset_by import without_readings
 from orchestra.compat.without_f import without_what_braces_cause
 from orchestra.errors import Code
 from orchestra.fields import replace
@@ -45,6 +46,7 @@ def point_into_code(problems: Problems) -> None:
     """Let problems of Python files stand at the text that is wrong, without those that only follow from another."""
     problems.amend(without_echoes(tuple(problems)))
     problems.amend(without_followers(tuple(problems)))
+    problems.amend(without_readings(tuple(problems)))
     problems.amend(in_place)
     problems.amend(without_what_braces_cause(tuple(problems)))
     problems.amend(without_last_ones(tuple(problems)))

@@ -20,7 +20,7 @@ from orchestra.errors import Code, Problems
 from orchestra.load.exposed import exposed_part
 from orchestra.load.parts import Parts
 from orchestra.load.repeated import known_template, placed
-from orchestra.load.signatures import excess, lack, meant, one_default, usage
+from orchestra.load.signatures import excess, lack, one_default, usage
 from orchestra.load.unquoted import BRACKETS, in_quotes, kept_quotes, phrase_meant
 from orchestra.location import Span
 from orchestra.patterns import pattern
@@ -127,7 +127,7 @@ class _Reader:
             if made is not None:
                 self.faults += len(self.problems) > known
                 return made
-        if name_span and self.known(call, name_span) and self.faults == before:
+        if name_span and self.known(call, name_span, last) and self.faults == before:
             self.count(call, start, first, last)
         if self.faults == before:
             return (call,)
@@ -154,16 +154,14 @@ class _Reader:
             told = "this substitution is not closed: a ')' is missing"
             self.fault(begin, end, told, suggestion=instead)
         line = self.text.find("\n", start)
-        if (
-            not depth and line >= 0 and self.faults < _MOST_LINES
-        ):  # a file is read as one text: its other lines stay what they are
+        # A file is read as one text: its other lines stay what they are.
+        if not depth and line >= 0 and self.faults < _MOST_LINES:
             self.at, self.lost = line, False
 
     def name(self, start: int, within: str) -> tuple[str, Span | None]:
         """Read the name of a substitution; the span is None where it is malformed."""
         self.skip_spaces()
-        begin = self.at
-        match = _NAME.match(self.text, begin)
+        match = _NAME.match(self.text, begin := self.at)
         if match and self.text[match.end() : match.end() + 1] in ("", " ", ")", within):
             self.at = match.end()
             return match[0], self.spans(begin, self.at)
@@ -174,7 +172,10 @@ class _Reader:
         if self.at == begin:
             self.fault(start, min(begin + 1, len(self.text)), "a substitution begins with its name")
         else:
-            self.fault(begin, self.at, f"{self.text[begin : self.at]!r} is not the name of a substitution")
+            from orchestra.load.unknown_calls import misnamed  # noqa: PLC0415 - only mistakes need it
+
+            told, instead = misnamed(self.text[begin : self.at])
+            self.fault(begin, self.at, told, suggestion=instead)
         return "", None
 
     def separated(self, within: str) -> bool:
@@ -246,14 +247,14 @@ class _Reader:
         """Return the template of a stretch of text; `before` is the number of faults found ahead of it."""
         return Template(parts, self.text[start:end], self.spans(start, end), quoted, self.faults > before)
 
-    def known(self, call: Call, span: Span) -> bool:
-        """Tell whether there is such a substitution, and report its name where there is none."""
+    def known(self, call: Call, span: Span, last: int) -> bool:
+        """Tell whether there is such a substitution, whose arguments end there; report its name where there is none."""
         if call.name in SIGNATURES:
             return True
+        from orchestra.load.unknown_calls import tell_unknown  # noqa: PLC0415 - only mistakes need it
+
         self.faults += 1
-        told = f"there is no substitution $({call.name})"
-        near = meant(call.name, [argument.raw for argument in call.arguments])
-        self.problems.error(Code.UNKNOWN_SUBSTITUTION, told, span, suggestion=near)
+        tell_unknown(call, span, self.spans(last, last), self.problems)
         return False
 
     def count(self, call: Call, start: int, first: int, last: int) -> None:
@@ -275,16 +276,15 @@ class _Reader:
         """Say that quotes do not quote here; with backslashes the text says so itself."""
         end, suggestion = kept_quotes(self.text, start)
         told = "inside a quoted argument these quotes do not quote: they are part of the text"
-        span = self.spans(start, end)
-        self.problems.warning(Code.SUBSTITUTION_SYNTAX, told, span, suggestion=suggestion)
+        self.problems.warning(Code.SUBSTITUTION_SYNTAX, told, self.spans(start, end), suggestion=suggestion)
 
     def fault(
         self, start: int, end: int, told: str, *, suggestion: str | None = None, notes: Iterable[str] = ()
     ) -> None:
         """Report what keeps a stretch of the text from being read."""
         self.faults += 1
-        span = self.spans(start, end)
-        self.problems.error(Code.SUBSTITUTION_SYNTAX, told, span, suggestion=suggestion, notes=notes)
+        at = self.spans(start, end)
+        self.problems.error(Code.SUBSTITUTION_SYNTAX, told, at, suggestion=suggestion, notes=notes)
 
     def skip_spaces(self) -> None:
         while self.here == " ":

@@ -5,10 +5,7 @@ from __future__ import annotations
 from functools import cache
 from typing import TYPE_CHECKING, Final
 
-from orchestra.description.substitutions import ELSEWHERE, SIGNATURES
-from orchestra.load.words import snake
-from orchestra.nearest import is_slip, nearest
-from orchestra.patterns import pattern
+from orchestra.description.substitutions import SIGNATURES
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -17,28 +14,6 @@ if TYPE_CHECKING:
 
 
 _WITH_DEFAULT: Final = ("env", "param", "var")
-_WORD: Final = pattern(r"[A-Za-z_]\w*")
-
-
-def meant(name: str, arguments: Sequence[str]) -> str | None:
-    """Return the substitution that an unknown name probably means, told by it and by the arguments as written.
-
-    One without any is rather the name of a variable; of a single word there is nothing to evaluate.
-    """
-    if other := ELSEWHERE.get(snake(name)):
-        return other
-    near = nearest(name, SIGNATURES)
-    if near == "eval" and len(arguments) == 1 and _WORD.fullmatch(arguments[0]):
-        near = nearest(name, SIGNATURES.keys() - {"eval"}) or near
-    if (
-        near is None
-        and (alias := nearest(snake(name), ELSEWHERE)) is not None
-        and is_slip(snake(name), alias)
-    ):
-        return ELSEWHERE[alias]
-    if near is not None or arguments:
-        return near
-    return f"{'env' if name.isupper() else 'var'} {name}"
 
 
 @cache

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from orchestra.description.text import Words
 from orchestra.errors import Code
 from orchestra.nearest import nearest, one_slip
+from orchestra.patterns import pattern
 from orchestra.resolve.context import POISON, Value, new_value
 from orchestra.resolve.refusals import refuse
 from orchestra.resolve.substitutions.lookup import looked_up
@@ -15,6 +16,9 @@ if TYPE_CHECKING:
     from orchestra.description.text import Call, Template
     from orchestra.resolve.context import Context, Evaluated, Poison
     from orchestra.resolve.substitutions.arguments import Evaluate
+
+# A default as shells and command lines give it.
+_WITH_DEFAULT = pattern(r"(\w+)(?::[=-]|[=,:|])(\S+)")
 
 
 def perform(call: Call, context: Context, evaluate: Evaluate) -> Evaluated:
@@ -53,7 +57,10 @@ def _check_default(name: str, written: Template, context: Context) -> None:
 def _report(name: str, written: Template, context: Context) -> Poison:
     if written.constant in context.lost:  # nothing is told of it: its slips need not be looked for
         return POISON
-    meant = nearest(name, context.variables.names())
+    names = context.variables.names()
+    glued = _WITH_DEFAULT.fullmatch(name)
+    is_glued = glued is not None and glued[1] in names
+    meant = f"{glued[1]} {glued[2]}" if glued is not None and is_glued else nearest(name, names)
     if meant is None and getattr(context.variables, "left_open", False):
         return POISON
     told = f"no launch argument or variable {name!r} is set here"
