@@ -3,7 +3,7 @@
 The client reads lines of JSON. `{"call": SERVICE, "type": "package/srv/Name", "fields": {...}}` is answered with the
 fields of the response, `{"graph": [NODE, ...]}` with all that is in the graph but for those nodes and the client.
 `{"begin": ...}` is a call that is answered at once, `{"end": SERVICE}` with its response; `{"meet": SERVICE}` only makes
-the client that later calls use.
+the client that later calls use, `{"drop": SERVICE}` forgets it. An answer is `{"answer": ...}`, or `{"failure": "why"}`.
 """
 
 import json
@@ -28,6 +28,8 @@ provide("composition_interfaces")
 from tf2_msgs.action import LookupTransform  # noqa: E402 - as above
 
 MET = threading.Event()
+# Generous: it only ends what would otherwise hang. Two of them are less than a test may take.
+PATIENCE = 50.0
 
 
 def write(line: str) -> None:
@@ -122,12 +124,19 @@ class Waiting(Node):
 
     def __init__(self) -> None:
         super().__init__("waiting")
+        self.ended = 0.0
         self.create_service(Trigger, "~/wait", self.wait)
 
     def wait(self, _request: Any, response: Any) -> Any:
         write("waits")
-        response.success = MET.wait(20)
+        response.success = MET.wait(PATIENCE)
+        write(f"met: {response.success}")
+        self.ended = time.monotonic()
         return response
+
+    def destroy_node(self) -> None:
+        write(f"stayed: {time.monotonic() - self.ended:.3f}")
+        super().destroy_node()
 
 
 class Meeting(Node):
@@ -191,30 +200,42 @@ class Client:
             return
         package, _, name = kind.split("/")
         client = self.node.create_client(getattr(import_module(f"{package}.srv"), name), service)
-        assert client.wait_for_service(30)
-        self.greet(service.partition("/_container/")[0].removesuffix(f"/{service.rpartition('/')[2]}"))
+        there = client.wait_for_service(PATIENCE)
+        node = service.partition("/_container/")[0].removesuffix(f"/{service.rpartition('/')[2]}")
+        if not there or not self.greeted(node):
+            self.node.destroy_client(client)
+            raise TimeoutError(f"{node} has not answered within {PATIENCE} s")
         self.clients[service] = client
 
     def end(self, service: str) -> dict[str, Any]:
         future = self.futures.pop(service)
-        rclpy.spin_until_future_complete(self.node, future, timeout_sec=40)
+        rclpy.spin_until_future_complete(self.node, future, timeout_sec=PATIENCE)
+        if not future.done():
+            self.drop(service)
+            raise TimeoutError(f"no answer of {service} within {PATIENCE} s")
         if "/_container/" not in service:
-            self.node.destroy_client(self.clients.pop(service))
+            self.drop(service)
         answer = future.result()
         found = {key: getattr(answer, key) for key in answer.get_fields_and_field_types()}
         return {key: value if isinstance(value, str | int) else plain(value) for key, value in found.items()}
 
-    def greet(self, node: str) -> None:
+    def drop(self, service: str) -> None:
+        self.futures.pop(service, None)
+        self.node.destroy_client(self.clients.pop(service))
+
+    def greeted(self, node: str) -> bool:
         """Ask until the node answers: then it has discovered the readers that were made before."""
         kind = import_module("rcl_interfaces.srv").GetParameters
         greeting = self.node.create_client(kind, f"{node}/get_parameters")
-        assert greeting.wait_for_service(30)
-        greeted = False
-        while not greeted:
-            future = greeting.call_async(kind.Request())
-            rclpy.spin_until_future_complete(self.node, future, timeout_sec=1)
-            greeted = future.done()
+        found = False
+        deadline = time.monotonic() + PATIENCE
+        while not found and time.monotonic() < deadline:
+            if greeting.wait_for_service(1):
+                future = greeting.call_async(kind.Request())
+                rclpy.spin_until_future_complete(self.node, future, timeout_sec=1)
+                found = future.done()
         self.node.destroy_client(greeting)
+        return found
 
     def graph(self, but: list[str]) -> list[str]:
         """Return every node, and every end of a topic or service, of others."""
@@ -266,26 +287,33 @@ def held(value: Any) -> Any:
     return [one[0] if isinstance(one, bytes) else one for one in found]
 
 
+def answered(client: Client, order: dict[str, Any]) -> Any:
+    match order:
+        case {"call": service, "type": kind, "fields": fields}:
+            return client.call(service, kind, fields)
+        case {"begin": service, "type": kind, "fields": fields}:
+            return client.begin(service, kind, fields)
+        case {"meet": service, "type": kind}:
+            return client.meet(service, kind)
+        case {"end": service}:
+            return client.end(service)
+        case {"drop": service}:
+            return client.drop(service)
+    rclpy.spin_once(client.node, timeout_sec=0)
+    found = client.graph(order["graph"])
+    time.sleep(0.02)
+    return found
+
+
 def main() -> None:
     client = Client()
     write(json.dumps("ready"))
     for line in sys.stdin:
-        order = json.loads(line)
-        if "call" in order:
-            answer: Any = client.call(order["call"], order["type"], order["fields"])
-        elif "begin" in order:
-            client.begin(order["begin"], order["type"], order["fields"])
-            answer = order["begin"]
-        elif "meet" in order:
-            client.meet(order["meet"], order["type"])
-            answer = order["meet"]
-        elif "end" in order:
-            answer = client.end(order["end"])
-        else:
-            rclpy.spin_once(client.node, timeout_sec=0)
-            answer = client.graph(order["graph"])
-            time.sleep(0.02)
-        write(json.dumps(answer))
+        try:
+            found = {"answer": answered(client, json.loads(line))}
+        except Exception as error:  # noqa: BLE001 - it is the test that fails
+            found = {"failure": f"{type(error).__name__}: {error}"}
+        write(json.dumps(found))
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
 from queue import Empty, SimpleQueue
@@ -15,6 +16,8 @@ from rclpy.executors import (
     ShutdownException,
     TimeoutException,
 )
+from rclpy.service import Service
+from rclpy.waitable import Waitable
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -28,6 +31,10 @@ if TYPE_CHECKING:
 # So long, in seconds, is waited for callbacks of a node that is to go.
 _PATIENCE = 5.0
 _LOOK = 1.0
+# So long stays whose service or action has answered. Of an answer and of the end of who gave it a client hears in
+# different threads, and it drops an answer of somebody who has gone. No layer of ROS tells whether a client has got it.
+# Of 200 clients that stood still for 50 ms then 47 never got it, of 200 with 8 % of a processor 14; with this none did.
+_LINGER = 0.1
 
 
 class Spinner(Executor):
@@ -39,6 +46,7 @@ class Spinner(Executor):
         self._pool = ThreadPoolExecutor(threads) if threads > 1 else None
         self._at_work: Counter[Node | None] = Counter()
         self._begun: dict[Task, Node | None] = {}
+        self._answered: dict[Node | None, float] = {}  # when
         self._changed = threading.Condition()
         self._stopping = threading.Event()
         self._spinning: int | None = None  # the thread
@@ -47,16 +55,18 @@ class Spinner(Executor):
     def spin_once(self, timeout_sec: float | None = None) -> None:
         """Wait for a callback and call it. Raises `ExternalShutdownException` where the context is shut down."""
         try:
-            task, _entity, node = self.wait_for_ready_callbacks(timeout_sec, None, self._begin_to_wait)
+            task, entity, node = self.wait_for_ready_callbacks(timeout_sec, None, self._begin_to_wait)
         except (ConditionReachedException, ShutdownException, TimeoutException):
             return
         with self._changed:
             self._at_work[node] += 1
             self._begun[task] = node
+        # The result of a goal comes from a task that is nobody's.
+        answers = entity is None or isinstance(entity, Service | Waitable)
         if self._pool is None:
-            self._call(task, node)
+            self._call(task, node, answers)
         else:
-            self._pool.submit(self._call, task, node)
+            self._pool.submit(self._call, task, node, answers)
 
     def spin(self) -> None:
         """Call callbacks until `stop`, or until the context is shut down."""
@@ -87,7 +97,9 @@ class Spinner(Executor):
                 del self._begun[task]
                 if not task.executing():
                     task.cancel()  # a coroutine that waits for something
-        node.executor = None
+            answered = max(self._answered.get(None, -_LINGER), self._answered.pop(node, -_LINGER))
+            node.executor = None
+        time.sleep(max(0.0, answered + _LINGER - time.monotonic()))
         return free
 
     def between(self, do: Callable[[], None]) -> None:
@@ -120,7 +132,7 @@ class Spinner(Executor):
                 return
             do()
 
-    def _call(self, task: Task, node: Node | None) -> None:
+    def _call(self, task: Task, node: Node | None, answers: bool) -> None:
         """Call a callback, or go on with one that is a coroutine."""
         failure: BaseException | None = None
         try:
@@ -131,6 +143,8 @@ class Spinner(Executor):
             self._at_work[node] -= 1
             if self._at_work[node] <= 0:
                 del self._at_work[node]
+            if answers and (node is None or node.executor is self):
+                self._answered[node] = time.monotonic()
             # One that waits in the pool is handed out once more, and done only once.
             if task.done() and task in self._begun:
                 del self._begun[task]

@@ -8,7 +8,7 @@ import os
 import signal
 import subprocess
 import sys
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from typing import TYPE_CHECKING, Any
 
 import pytest
@@ -32,11 +32,11 @@ EXECUTABLES = (
 
 
 class Asking:
-    """The client of `tests/processes/components.py`."""
+    """The client of `tests/processes/components.py`. One that has died is followed by another."""
 
-    def __init__(self, popen: subprocess.Popen[str], environment: dict[str, str]) -> None:
-        self._popen = popen
+    def __init__(self, environment: dict[str, str]) -> None:
         self._environment = environment
+        self._popen: subprocess.Popen[str] | None = None
 
     def call(self, service: str, kind: str, /, **fields: Any) -> dict[str, Any]:
         """Return the fields of a service's answer."""
@@ -45,16 +45,20 @@ class Asking:
 
     def meet(self, service: str, kind: str) -> None:
         """Make sure that a call of a service takes no longer than the service does."""
-        assert self._asked({"meet": service, "type": kind}) == service
+        self._asked({"meet": service, "type": kind})
 
     def begin(self, service: str, kind: str, /, **fields: Any) -> None:
         """Call a service and go on at once."""
-        assert self._asked({"begin": service, "type": kind, "fields": fields}) == service
+        self._asked({"begin": service, "type": kind, "fields": fields})
 
     def ended(self, service: str) -> dict[str, Any]:
         """Return the fields of the answer to a call that has begun."""
         found: dict[str, Any] = self._asked({"end": service})
         return found
+
+    def drop(self, service: str) -> None:
+        """Wait no more for the answer to a call that has begun: who goes may take it along."""
+        self._asked({"drop": service})
 
     def graph(self, *but: str) -> list[str]:
         """Return what is in the graph beside these nodes."""
@@ -83,12 +87,49 @@ class Asking:
         found = subprocess.run(command, env=self._environment, capture_output=True, text=True, check=True)
         return found.stdout.split()
 
+    def close(self) -> None:
+        """End the client."""
+        if self._popen is None:
+            return
+        popen, self._popen = self._popen, None
+        kill(popen)
+        for pipe in (popen.stdin, popen.stdout):
+            assert pipe
+            with suppress(BrokenPipeError):
+                pipe.close()
+
     def _asked(self, order: dict[str, Any]) -> Any:
-        assert self._popen.stdin
-        assert self._popen.stdout
-        self._popen.stdin.write(json.dumps(order) + "\n")
-        self._popen.stdin.flush()
-        return json.loads(self._popen.stdout.readline())
+        popen = self._client()
+        assert popen.stdin
+        with suppress(BrokenPipeError):  # it has died, as reading tells
+            popen.stdin.write(json.dumps(order) + "\n")
+            popen.stdin.flush()
+        found = self._read(popen)
+        if "failure" in found:
+            pytest.fail(f"{order}: {found['failure']}")
+        return found["answer"]
+
+    def _client(self) -> subprocess.Popen[str]:
+        if self._popen is not None and self._popen.poll() is not None:
+            self.close()
+        if self._popen is None:
+            self._popen = subprocess.Popen(
+                [sys.executable, str(PROCESSES / "components.py")],
+                env=self._environment,
+                stdin=subprocess.PIPE,
+                stdout=subprocess.PIPE,
+                text=True,
+            )
+            assert self._read(self._popen) == "ready"
+        return self._popen
+
+    def _read(self, popen: subprocess.Popen[str]) -> Any:
+        assert popen.stdout
+        line = popen.stdout.readline()
+        if not line:
+            self.close()
+            pytest.fail("the client has died; the next test has another one")
+        return json.loads(line)
 
 
 class Box:
@@ -155,16 +196,9 @@ def domain(tmp_path_factory: pytest.TempPathFactory) -> Iterator[dict[str, str]]
 
 @pytest.fixture(scope="package")
 def asking(domain: dict[str, str]) -> Iterator[Asking]:
-    command = [sys.executable, str(PROCESSES / "components.py")]
-    with subprocess.Popen(
-        command, env=domain, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
-    ) as popen:
-        try:
-            assert popen.stdout
-            assert popen.stdout.readline() == '"ready"\n'
-            yield Asking(popen, domain)
-        finally:
-            kill(popen)
+    found = Asking(domain)
+    yield found
+    found.close()
 
 
 @contextmanager
@@ -192,13 +226,39 @@ def container(
             kill(popen)
 
 
+class Boxes:
+    """A container for the tests of a module. One that has ended is followed by another."""
+
+    def __init__(self, executable: str, domain: dict[str, str], asking: Asking, folder: Path) -> None:
+        self._wanted = (executable, domain, asking, folder)
+        self._held = ExitStack()
+        self._box: Box | None = None
+
+    def one_that_runs(self) -> Box:
+        if self._box is None or self._box.popen.poll() is not None:
+            self.close()
+            self._box = self._held.enter_context(container(*self._wanted))
+        return self._box
+
+    def close(self) -> None:
+        self._box = None
+        self._held.close()
+
+
 @pytest.fixture(scope="module", params=EXECUTABLES)
-def box(
+def boxes(
     request: pytest.FixtureRequest,
     domain: dict[str, str],
     asking: Asking,
     tmp_path_factory: pytest.TempPathFactory,
-) -> Iterator[Box]:
-    """Each of the containers, shared by the tests of a module."""
-    with container(request.param, domain, asking, tmp_path_factory.mktemp("box")) as found:
-        yield found
+) -> Iterator[Boxes]:
+    """Each of the executables."""
+    found = Boxes(request.param, domain, asking, tmp_path_factory.mktemp("box"))
+    yield found
+    found.close()
+
+
+@pytest.fixture
+def box(boxes: Boxes) -> Box:
+    """A container of each of the executables."""
+    return boxes.one_that_runs()

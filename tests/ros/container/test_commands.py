@@ -13,21 +13,24 @@ import pytest
 
 from orchestra.cli.main import main
 from tests.killing import kill
-from tests.ros.container.conftest import Asking, Box, container
+from tests.ros.container.conftest import Boxes
 from tests.supervise.plans import PATIENCE, wait_for
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
     from pathlib import Path
 
+    from tests.ros.container.conftest import Asking, Box
+
 
 @pytest.fixture(scope="module")
-def box(domain: dict[str, str], asking: Asking, tmp_path_factory: pytest.TempPathFactory) -> Iterator[Box]:
-    with container("component_container", domain, asking, tmp_path_factory.mktemp("box")) as found:
-        found.list()  # it is there
-        yield found
-        found.popen.send_signal(signal.SIGINT)
-        found.popen.wait(PATIENCE)
+def boxes(
+    domain: dict[str, str], asking: Asking, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[Boxes]:
+    found = Boxes("component_container", domain, asking, tmp_path_factory.mktemp("box"))
+    found.one_that_runs().list()  # it is there
+    yield found
+    found.close()
 
 
 def _ask(domain: dict[str, str], *words: str) -> tuple[int, str, str]:

@@ -11,7 +11,7 @@ from tests.supervise.plans import wait_for
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from tests.ros.container.conftest import Box
+    from tests.ros.container.conftest import Box, Boxes
 
 # One value of each type that a parameter can have.
 _VALUES: dict[str, tuple[str, Any]] = {
@@ -28,11 +28,14 @@ _VALUES: dict[str, tuple[str, Any]] = {
 
 
 @pytest.fixture(autouse=True)
-def _nothing_is_left(request: pytest.FixtureRequest) -> Iterator[None]:
+def _nothing_is_left(box: Box, boxes: Boxes) -> Iterator[None]:
     """Unload all after each test, and hold the graph to be as it was."""
     yield
-    if "box" in request.fixturenames:
-        request.getfixturevalue("box").empty()
+    try:
+        box.empty()
+    except BaseException:
+        boxes.close()  # the next test has another one
+        raise
 
 
 def test_a_component_gets_its_names_remaps_and_parameters(box: Box) -> None:
@@ -154,7 +157,7 @@ def test_whose_thread_calls_is_as_the_executable_says(box: Box, request: pytest.
     threads = [
         box.asking.call(f"/{name}/thread", "std_srvs/srv/Trigger")["message"] for name in ("first", "second")
     ]
-    match request.node.callspec.params["box"]:
+    match request.node.callspec.params["boxes"]:
         case "component_container":
             assert threads == ["MainThread"] * 2
         case "component_container_isolated":
