@@ -84,7 +84,7 @@ class FaultyCall:
             return True
         if isinstance(error, ReportedError):
             self.found += error.problems
-            self.is_lost = True
+            self.is_lost = not self._left_out(path_of(error, self.original, self.told))
             return True
         if self.surplus is not None:
             return self._surplus(self.surplus)
@@ -208,13 +208,19 @@ class FaultyCall:
         if wide is not None and suggestion is not None:
             at, suggestion = wide, Rewritten(f"({suggestion[1:-1]},)")
         self._tell(code, message, at, suggestion)
+        self.is_lost = not self._left_out(path)
+        return True
+
+    def _left_out(self, path: tuple[Step, ...] | None) -> bool:
+        """Leave out what stands at a place, and return whether the call does without it."""
+        if path is None or path in self.told:
+            return False
         self.told.add(path)
         name = str(path[0])
         kept = without(self.original, self.told)
         self.named = {key: value for key, value in kept.items() if not key.startswith("*")}
         needed = name.startswith("*") or self.parameters[name].default is _Parameter.empty
-        self.is_lost = needed and name not in self.named
-        return True
+        return name in self.named or not needed
 
     def _rewritten(self, path: tuple[Step, ...], at: Span, message: str) -> str | None:
         value = value_at(path, self.original)

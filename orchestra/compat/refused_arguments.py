@@ -58,7 +58,7 @@ def settled(
         else:
             is_made = True
             break
-    if not call.found and not call.is_lost:
+    if not call.told and not call.found and not call.is_lost:
         return False
     if is_made:
         made._refused = True
@@ -67,6 +67,7 @@ def settled(
         vars(made)["_lost_name"] = (
             call.named.get("name") if type(made).__name__.startswith(_SETTING) else None
         )
+        made._give_up()
     way = dict.fromkeys(f"called at {place.span}" for place in places)
     notes = tuple(way)[1 : _MOST_CALLS + 1]
     for problem in call.found:

@@ -49,6 +49,9 @@ class Refusing:
         """Take the keywords of a call that nothing is wrong with; false where the constructor has to look at them."""
         return False
 
+    def _give_up(self) -> None:
+        """Become what an object of this kind is that could not be made."""
+
     def __init_subclass__(cls, **keywords: Any) -> None:
         super().__init_subclass__(**keywords)
         constructor = vars(cls).get("__init__")
@@ -84,10 +87,9 @@ def _refusing(constructor: Callable[..., None]) -> Callable[..., None]:
         if module.startswith(OURS) if type(module) is str else is_ours(caller):
             constructor(self, *arguments, **keywords)
             return
-        if not arguments and self._taken(keywords, caller):
-            return
         try:
-            constructor(self, *arguments, **keywords)
+            if arguments or not self._taken(keywords, caller):
+                constructor(self, *arguments, **keywords)
         except Exception as error:
             # Here, because only mistakes need it, and what it imports.
             from orchestra.compat.refused_arguments import settled  # noqa: PLC0415

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from orchestra.compat.described import said
 from orchestra.compat.place import here, is_own
 from orchestra.compat.refusing import Refusing
+from orchestra.compat.reported import ReportedError
 from orchestra.description.text import Call, Opaque, Template, Words
 from orchestra.description.written import called, escaped
 
@@ -70,6 +71,9 @@ class Substitution(Refusing):
         """Return the substitution as it would be written in a launch file, or else its description."""
         return said(self, Substitution)
 
+    def _give_up(self) -> None:
+        self.__class__ = LostSubstitution
+
     def __truediv__(self, other: Any) -> Substitution:
         """Join two parts of a path (newer ROS releases)."""
         return _Joined(self, other)
@@ -77,6 +81,17 @@ class Substitution(Refusing):
     def __rtruediv__(self, other: Any) -> Substitution:
         """Join two parts of a path (newer ROS releases)."""
         return _Joined(other, self)
+
+
+class LostSubstitution(Substitution):
+    """What becomes of a substitution that could not be made: a text that nobody knows; the rest is looked at."""
+
+    def perform(self, context: LaunchContext) -> str:  # noqa: ARG002 - it does not get as far
+        """Stop in silence: what is wrong has been told. Raises `ReportedError`."""
+        raise ReportedError("this substitution could not be made, for a reason that is reported")
+
+    def _raw(self) -> str:
+        return ""
 
 
 def _early() -> ModuleType:
