@@ -53,7 +53,7 @@ def _read(words: list[str]) -> int:
     gc.set_threshold(_MANY)
     from orchestra.cli.main import main as command_line
 
-    status = command_line(words)
+    status = command_line(words, heeding=True)
     gc.freeze()  # ... and at the end as long as to look at ten files.
     return status
 

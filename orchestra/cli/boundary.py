@@ -4,6 +4,7 @@ DescriptionError   the problems, in the format that was asked for   2
 UsageError         the message, and where to read more              2
 RunError           the message                                      1
 KeyboardInterrupt  nothing                                          130
+EndedError         nothing: SIGTERM, SIGHUP                         143, 129
 BrokenPipeError    nothing: whoever read the output has gone        141
 OSError            the reason the system gives, and the file        1
 anything else      a bug: a report is written to a file and named   3
@@ -29,8 +30,17 @@ if TYPE_CHECKING:
 
 OK, FAILED, MISTAKE, BUG = 0, 1, 2, 3
 INTERRUPTED, BROKEN_PIPE = 130, 141
+_SIGNALLED = 128
 
 _ResultT = TypeVar("_ResultT")
+
+
+class EndedError(KeyboardInterrupt):
+    """A signal wants the command to end: it goes through code of launch files where an interruption does."""
+
+    def __init__(self, number: int) -> None:
+        super().__init__(number)
+        self.status = _SIGNALLED + number
 
 
 @dataclass(frozen=True, slots=True)
@@ -77,8 +87,8 @@ def guarded(work: Callable[[], _ResultT], telling: Telling) -> _ResultT | int:
     except RunError as error:
         _say("error", str(error))
         return FAILED
-    except KeyboardInterrupt:
-        return INTERRUPTED
+    except KeyboardInterrupt as error:
+        return error.status if isinstance(error, EndedError) else INTERRUPTED
     except BrokenPipeError:
         _forget(sys.stdout)
         return BROKEN_PIPE

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import sys
 from contextlib import ExitStack, nullcontext
 from functools import partial
@@ -76,12 +77,16 @@ def run(options: Namespace) -> int:
     # What each of the three needs is heavy, and `--help` and the other two do not need it.
     if options.show_args:
         from orchestra.cli.arguments import show_arguments  # noqa: PLC0415
+        from orchestra.cli.heeding import heeded  # noqa: PLC0415
 
-        return show_arguments(options)
+        with heeded():
+            return show_arguments(options)
     if options.print_plan:
+        from orchestra.cli.heeding import heeded  # noqa: PLC0415
         from orchestra.plan.render.formats import FORMATS as PLAN_FORMATS  # noqa: PLC0415
 
-        plan = inputs.plan_from(options, launching=False)
+        with heeded():
+            plan = inputs.plan_from(options, launching=False)
         inputs.warn(plan, options)
         sys.stdout.write(PLAN_FORMATS["text"](plan))
         return boundary.OK
@@ -100,8 +105,12 @@ def prepare(options: Namespace, stream: BinaryIO, words: Sequence[str] = ()) -> 
     from orchestra import pipeline  # noqa: F401, PLC0415 - before it is watched what is read
     from orchestra.cli.handover import document_of, warnings_of  # noqa: PLC0415
     from orchestra.cli.remembering import memory  # noqa: PLC0415
+    from orchestra.resolve.python.files import Files  # noqa: PLC0415
+    from orchestra.supervise.keeping.marks import RUN, folder_prefix  # noqa: PLC0415
     from orchestra.supervise.resolver.serving import Settled  # noqa: PLC0415
 
+    if run := os.environ.get(RUN):
+        Files.prefix = folder_prefix(run)  # by which the supervisor finds it that has killed this process
     kept = memory(words) if words else None
     postponed: list[Callable[[], None]] = []
     with ExitStack() as lasting:

@@ -22,11 +22,14 @@ if TYPE_CHECKING:
 _ResultT = TypeVar("_ResultT")
 
 
-def main(words: Sequence[str]) -> int:
-    """Carry out the command line, without the program's name, and return the exit status."""
+def main(words: Sequence[str], *, heeding: bool = False) -> int:
+    """Carry out the command line, without the program's name, and return the exit status.
+
+    With `heeding` SIGTERM and SIGHUP end the command as Ctrl-C does: nothing that it starts is to stay.
+    """
     name = words[0] if words else ""
     before = threads()
-    status = guarded(lambda: _dispatch(words), Telling(name if name in COMMANDS else ""))
+    status = guarded(lambda: _dispatch(words, heeding=heeding), Telling(name if name in COMMANDS else ""))
     if threads() - before:
         end_at_once(status)
     return status
@@ -56,7 +59,7 @@ def _carry_out(name: str, words: Sequence[str], act: Callable[[Any, Namespace], 
     return guarded(lambda: act(module, options), Telling.of(name, options))
 
 
-def _dispatch(words: Sequence[str]) -> int:
+def _dispatch(words: Sequence[str], *, heeding: bool) -> int:
     if not words:
         raise UsageError("a command is missing")
     name, *rest = words
@@ -74,7 +77,18 @@ def _dispatch(words: Sequence[str]) -> int:
         raise UsageError(f"there is no command '{name}'" + (f"; did you mean '{near}'?" if near else ""))
     if name == "plan" and _again(rest):
         return 0
-    return _carry_out(name, rest, lambda module, options: int(module.run(options)))
+    return _carry_out(name, rest, _heed if heeding else _run)
+
+
+def _run(module: Any, options: Namespace) -> int:  # noqa: ANN401 - the module of a command
+    return int(module.run(options))
+
+
+def _heed(module: Any, options: Namespace) -> int:  # noqa: ANN401 - as above
+    from orchestra.cli.heeding import heeded  # noqa: PLC0415 - other commands do not need it
+
+    with heeded():
+        return _run(module, options)
 
 
 def _again(words: Sequence[str]) -> bool:

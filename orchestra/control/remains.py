@@ -15,6 +15,7 @@ from orchestra.control.place import ENDING, folders
 from orchestra.supervise.keeping import proc, shared_memory
 from orchestra.supervise.limits import caps
 from orchestra.supervise.runs import identity
+from orchestra.supervise.runs.directory import bring_home
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -26,7 +27,8 @@ if TYPE_CHECKING:
 def tidy(run: Run) -> None:
     """Remove the socket and the memory caps of a dead run, and let its directory be that of a run that has ended.
 
-    Shared memory that nobody uses any more goes too. Raises `OSError`.
+    What code of its launch files has written elsewhere becomes part of that. Shared memory that nobody uses any more
+    goes. Raises `OSError`.
     """
     caps.clear_run(run.identity.run)
     shared_memory.remove_leftovers(run.identity.began)
@@ -34,6 +36,8 @@ def tidy(run: Run) -> None:
     if path is not None and path.endswith(f"/{run.identity.run}{ENDING}"):
         door.remove(path)
     with contextlib.suppress(FileNotFoundError):  # another command does the same
+        bring_home(run.directory)
+    with contextlib.suppress(FileNotFoundError):  # as above
         identity.settle(run.directory)
 
 

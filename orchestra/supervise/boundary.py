@@ -8,6 +8,7 @@ import time
 from typing import TYPE_CHECKING
 
 from orchestra.supervise.conduct import conduct
+from orchestra.supervise.keeping.marks import folder_prefix
 from orchestra.supervise.keeping.standard_streams import say
 from orchestra.supervise.keeping.sweeping import reap, sweep
 from orchestra.supervise.outcome import BUG
@@ -29,6 +30,7 @@ def guarded_run(beginnings: Beginnings) -> int:
     except Refused as refusal:
         if refusal.message:
             say(refusal.message)
+            _remove_folders(beginnings.run_id)
         return refusal.status
     except Exception as error:  # noqa: BLE001 - whatever else comes here is a bug, and this is where it is shown
         say(
@@ -37,6 +39,17 @@ def guarded_run(beginnings: Beginnings) -> int:
         if os.getppid() != beginnings.keeper:
             sweep(_pause)
         return BUG
+
+
+def _remove_folders(run_id: str) -> None:
+    """Remove temporary folders that the resolver was killed before it could remove, or has kept for a run in vain."""
+    # Here, because few runs are refused by anybody but the resolver.
+    import shutil  # noqa: PLC0415
+    import tempfile  # noqa: PLC0415
+    from pathlib import Path  # noqa: PLC0415
+
+    for folder in Path(tempfile.gettempdir()).glob(f"{folder_prefix(run_id)}*"):
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 def _pause(seconds: float) -> bool:

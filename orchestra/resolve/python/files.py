@@ -9,10 +9,11 @@ from typing import ClassVar
 class Files:
     """The folder for temporary files; it is there when code of a launch file runs for the first time.
 
-    It is made in the folder `above`, None where it goes to the usual place.
+    It is made in the folder `above`, None where it goes to the usual place. Its name begins with `prefix`.
     """
 
     above: ClassVar[str | None] = None
+    prefix: ClassVar[str] = "orchestra-"
 
     def __init__(self) -> None:
         self.folder: str | None = None

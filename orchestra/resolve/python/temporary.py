@@ -25,7 +25,7 @@ def temporary_files(files: Files) -> Iterator[None]:
     The names count up instead of being drawn by lot: two plans of one description name the same files.
     """
     watching = observer()
-    folder = _left_empty(watching.scratch) or tempfile.mkdtemp(prefix="orchestra-", dir=files.above)
+    folder = _left_empty(watching.scratch) or tempfile.mkdtemp(prefix=files.prefix, dir=files.above)
     before = tempfile.tempdir, tempfile._name_sequence  # type: ignore[attr-defined] # there is no public way
     tempfile.tempdir, tempfile._name_sequence = folder, _Names()  # type: ignore[attr-defined]
     files.folder = folder

@@ -24,6 +24,11 @@ def run_mark(nanoseconds: int, keeper: int) -> str:
     return f"{nanoseconds:x}-{keeper}"
 
 
+def folder_prefix(run: str) -> str:
+    """Return how the names of temporary folders begin that are made for a run before it has a directory."""
+    return f"orchestra-{run}-"
+
+
 def number_of(run: str, process: int = 0) -> int | None:
     """Return the number of the n-th process of a run, from 1, 0 for our own; None where the mark is not a run's."""
     began, _, _ = run.partition("-")

@@ -69,16 +69,10 @@ class RunDirectory:
         Without this the kernel unlocks it when the process ends. A run that is not `settled` left processes: it stays
         one that somebody has to look after.
         """
-        files = self.path / "files"
         try:
             if settled:
                 identity.settle(self.path)
-            if files.is_symlink():
-                import shutil  # noqa: PLC0415 - few runs have files of launch files' code
-
-                folder = files.readlink()
-                files.unlink()
-                shutil.move(folder, files)
+            bring_home(self.path)
         finally:
             os.close(self._lock)
 
@@ -105,6 +99,17 @@ def create(runs: Path, wanted: Identity, *, exact: bool = False) -> RunDirectory
     for part in ("params", "logs"):
         (path / part).mkdir()
     return RunDirectory(path, lock, named)
+
+
+def bring_home(path: Path) -> None:
+    """Move files from elsewhere, where there are some, to the run directory that has adopted them. Raises `OSError`."""
+    files = path / "files"
+    if files.is_symlink():
+        import shutil  # noqa: PLC0415 - few runs have files of launch files' code
+
+        folder = files.readlink()
+        files.unlink()
+        shutil.move(folder, files)
 
 
 def prune(runs: Path, keep: int = KEPT_RUNS) -> None:

@@ -1,0 +1,61 @@
+"""SIGTERM and SIGHUP end a command that starts nothing as Ctrl-C does: with all removed that it has made.
+
+Rejected: to remove it in the handler. What there is to remove, and to end, is known where it was made.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+from contextlib import ExitStack, contextmanager
+from typing import TYPE_CHECKING, Final
+
+from orchestra.cli.boundary import EndedError
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+    from types import FrameType
+
+_ENDING: Final = (signal.SIGTERM, signal.SIGHUP)
+_PATIENCE: Final = 5.0  # seconds after which a command ends though code of a launch file does not let go
+
+
+@contextmanager
+def heeded() -> Iterator[None]:
+    """Raise `EndedError` where one of them arrives meanwhile. A second one ends this process at once.
+
+    One that is ignored stays so: that is how nohup(1) says that a command is to go on.
+    """
+    own, told, lasting = os.getpid(), False, ExitStack()
+    before = {number: action for number in _ENDING if (action := signal.getsignal(number)) == signal.SIG_DFL}
+
+    def end(number: int, frame: FrameType | None) -> None:
+        del frame
+        nonlocal told
+        if told or os.getpid() != own:  # another process: code of a launch file has forked
+            signal.signal(number, signal.SIG_DFL)
+            os.kill(os.getpid(), number)
+        told = True
+        error = EndedError(number)
+        lasting.enter_context(_insisting(error.status))
+        raise error
+
+    with lasting:
+        for number, action in before.items():
+            lasting.callback(signal.signal, number, action)
+            signal.signal(number, end)
+        yield
+
+
+@contextmanager
+def _insisting(status: int) -> Iterator[None]:
+    """End this process by and by, whatever its code does about what is raised in it."""
+    from threading import Timer  # noqa: PLC0415 - hardly ever needed
+
+    last = Timer(_PATIENCE, os._exit, (status,))
+    last.daemon = True
+    last.start()
+    try:
+        yield
+    finally:
+        last.cancel()
