@@ -18,6 +18,7 @@ import pytest
 
 from tests.heeding import heed_signals
 from tests.held_up import pytest_runtest_protocol  # noqa: F401 - a hook
+from tests.pressure import Deadline
 from tests.restoring import environment_restored
 
 if TYPE_CHECKING:
@@ -26,7 +27,7 @@ if TYPE_CHECKING:
 # Inherited by every process that a test starts, directly or through Orchestra.
 _SESSION = "ORCHESTRA_TEST_SESSION"
 _MARK = b"ORCHESTRA_RUN="
-# As long as Orchestra itself may take to end everything.
+# As long as Orchestra itself may take to end everything, in seconds; on a machine that is busy up to three times as long.
 _PATIENCE = 6.0
 # In seconds: how long a long check may take that does not say it itself, on a busy machine.
 _LONG = 3_600
@@ -123,8 +124,8 @@ def _state() -> dict[str, object]:
 def nothing_outlives_the_session() -> Iterator[None]:
     """Fail where a process with the mark of a run that this session started is left at its end."""
     yield
-    deadline = time.monotonic() + _PATIENCE
-    while (left := _survivors()) and time.monotonic() < deadline:
+    deadline = Deadline(_PATIENCE)
+    while (left := _survivors()) and not deadline.is_over:
         time.sleep(0.1)
     assert not left, f"left by runs of this session: {left}"
 

@@ -28,9 +28,10 @@ from orchestra.plan.reactions import (
 from orchestra.supervise.keeping import proc
 from orchestra.supervise.options import RunOptions
 from orchestra.supervise.resolver import document
+from tests.pressure import Deadline
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Iterator
+    from collections.abc import Callable, Collection, Iterator
 
     from orchestra.events import Event
     from orchestra.values import Condition
@@ -153,15 +154,6 @@ def wait_for(condition: Callable[[], Any], what: str, seconds: float = PATIENCE)
     return result
 
 
-def pressure() -> float:
-    """Return for how many seconds in all a program of this machine has waited for a processor; 0 if nobody tells (PSI)."""
-    try:
-        first = Path("/proc/pressure/cpu").read_text("ascii").splitlines()[0]
-    except OSError:
-        return 0.0
-    return int(first.rpartition("total=")[2]) / 1e6
-
-
 @dataclass
 class Launched:
     """A run from outside: its keeper, its files, everything below it."""
@@ -252,12 +244,7 @@ class Launched:
 
     def assert_gone(self, seconds: float = 6.0) -> None:
         """Nothing is left of the run after so many seconds, or up to three times as many on a machine that is busy."""
-        began, waited = time.monotonic(), pressure()
-        while left := self.everything():
-            allowed = seconds + min(2 * seconds, pressure() - waited)
-            commands = [proc.command(pid) for pid in left]
-            assert time.monotonic() - began < allowed, f"waited {allowed:.1f} s for the end of {commands}"
-            time.sleep(0.02)
+        await_end(self.everything, seconds)
 
     @property
     def stdout(self) -> str:
@@ -278,7 +265,16 @@ def alive(pid: int) -> bool:
 
 def assert_ended(pids: set[int]) -> None:
     """None of these processes is left. One that is on its way out has no environment any more, but still a state."""
-    wait_for(lambda: not any(map(alive, pids)), f"the end of {[proc.command(pid) for pid in pids]}", 2.0)
+    await_end(lambda: set(filter(alive, pids)), 2.0)
+
+
+def await_end(left: Callable[[], Collection[int]], seconds: float) -> None:
+    """Wait until nothing is `left`, for so many seconds or, on a machine that is busy, up to three times as many."""
+    deadline = Deadline(seconds)
+    while pids := left():
+        commands = [proc.command(pid) for pid in pids]
+        assert not deadline.is_over, f"waited {deadline.allowed:.1f} s for the end of {commands}"
+        time.sleep(0.02)
 
 
 def name_of(pid: int) -> str:

@@ -13,8 +13,13 @@ from pathlib import Path
 import pytest
 
 _LAUNCH = "launch:\n  - executable: {cmd: ./true, name: first}\n"
-# What is kept is kept beside the run, which waits for it only for a while: so the run is not over before it is there.
-_PROGRAM = "#!/bin/sh\nuntil ls cache/plans | grep -qv '[.]'; do sleep 0.02; done\n"
+# What is kept is kept beside the run, which waits for it only for a while: so the run is not over before it is there, and
+# goes on if it never is, as where a file of ours is written to meanwhile.
+_PROGRAM = """\
+#!/bin/sh
+end=$(($(date +%s) + 60))
+until ls cache/plans | grep -qv '[.]' || [ "$(date +%s)" -gt $end ]; do sleep 0.02; done
+"""
 _COUNTING = Path(__file__).with_name("counting.py")
 # Of ours and of the interpreter's library, in the supervisor when it starts its first program.
 _OURS, _ALL = 143, 242
