@@ -57,6 +57,7 @@ class Start:
         self.process = process
         self.spec = spec
         self.pid: int | None = None
+        self.since = loop.clock()  # that it is asked for, or that its process is there
         self.withdrawn = False
         self._loop = loop
         self._told = told
@@ -80,7 +81,7 @@ class Start:
 
     def there(self, pid: int) -> None:
         """Its process is there: let it begin."""
-        self.pid = pid
+        self.pid, self.since = pid, self._loop.clock()
         if self._go is None:
             return
         self._loop.on_readable(self._go.fileno(), self._answered)

@@ -27,7 +27,8 @@ if TYPE_CHECKING:
     from orchestra.supervise.warm.server import Server
     from orchestra.supervise.warm.start import Start, Told
 
-# How long a warm start may take, the server's own imports included, on a machine that is busy; in seconds.
+# How long the server may take for one start, its own imports included, and a node that is there until it begins, on a
+# machine that is busy; in seconds.
 _PATIENCE = 15.0
 _TWICE_WITHIN = 60.0
 # It ends when nobody can ask any more, but not before its imports are over; in seconds.
@@ -70,6 +71,7 @@ class Starts:
         self._lost_at: float | None = None
         self._hopeless: str | None = None
         self._timer: Timer | None = None
+        self._heard_at = 0.0  # when the server has last told of a node
         self._reasons: set[str] = set()
         kin.unborn = self._is_unborn
         if ahead is not None:
@@ -192,6 +194,7 @@ class Starts:
             self._lost("")
             return
         start = self._open.get(message["id"])
+        self._heard_at = self._loop.clock()
         if "pid" in message and start is not None:
             self._kin.add(message["pid"], start.process.id)
             start.there(message["pid"])
@@ -224,19 +227,27 @@ class Starts:
             self._timer = None
 
     def _be_patient(self) -> None:
-        if self._timer is None:
-            self._timer = self._loop.call_later(_PATIENCE, self._lose_patience)
+        if self._timer is None and self._open:
+            seconds = min(map(self._due, self._open.values())) - self._loop.clock()
+            self._timer = self._loop.call_later(max(0.0, seconds), self._lose_patience)
+
+    def _due(self, start: Start) -> float:
+        """Return how long there is patience with a start: the server makes one after the other."""
+        since = start.since if start.pid is not None else max(start.since, self._heard_at)
+        return since + _PATIENCE
 
     def _lose_patience(self) -> None:
-        """What has not begun by now is started cold."""
+        """What should have begun by now is started cold, with all that the server owes if that is silent."""
         self._timer = None
-        server = self._server
-        stuck = [start for start in self._open.values() if start.pid is not None]
-        if server is not None and len(stuck) < len(self._open):
-            server.kill()
+        now = self._loop.clock()
+        late = [start for start in self._open.values() if self._due(start) <= now]
+        if any(start.pid is None for start in late):
+            if self._server is not None:
+                self._server.kill()
             self._lost(f"has not answered for {_PATIENCE:g} s")
-        for start in stuck:
+        for start in [start for start in late if start.pid is not None]:
             start.give_up(f"it has not begun for {_PATIENCE:g} s")
+        self._be_patient()
 
     def _is_unborn(self, pid: int) -> bool:
         """Tell whether a child of ours is a node that the server has forked and not told of yet."""
