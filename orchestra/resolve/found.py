@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 from orchestra.dataclass import dataclass
@@ -9,6 +10,7 @@ from orchestra.description.entity import Conditional
 from orchestra.errors import Problems
 from orchestra.fields import field
 from orchestra.location import Location
+from orchestra.resolve.context import Value
 from orchestra.resolve.model import ResolvedArgument, ResolvedComponent, ResolvedProcess, ResolvedSkip
 from orchestra.resolve.occasions import Occasion
 
@@ -26,6 +28,7 @@ class Found:
     the actions with a condition that have been carried out, `doubts` what is wrong with those that were left out.
     `unpackaged` are programs that are nowhere and stand for nodes without a package. `stand_ins` are containers of ours
     of which it is still open whether they can be. `lets` are the variables that `let` has set, each with its place.
+    `spawned` are the words of spawners of controllers.
     """
 
     processes: list[ResolvedProcess] = field(default_factory=list)
@@ -48,6 +51,7 @@ class Found:
     unpackaged: list[tuple[str, Location]] = field(default_factory=list)
     stand_ins: list[Any] = field(default_factory=list)
     lets: dict[str, Location] = field(default_factory=dict)
+    spawned: list[Sequence[Value]] = field(default_factory=list)
     _by_origin: dict[int, list[int]] = field(default_factory=dict)
     _sorted: int = 0
 

@@ -166,6 +166,15 @@ def read_file(
     return FileParameters(path, sections, location, within=reads, sound=sound)
 
 
+def sections_in(path: str) -> tuple[Section, ...]:
+    """Return the sections of a file that a program reads by itself; none where it cannot be read. Nothing is told."""
+    try:
+        text = once(("parameters", path), lambda: decoded(_content(path)))
+    except (OSError, UndecodableError):
+        return ()
+    return _read(text, path, bare=False)[0]
+
+
 def _warn_of_kept(sections: tuple[Section, ...], given_at: Location, run: Resolution) -> None:
     """Tell of the first substitution that stays a text, because those of the file are not asked for."""
     for entry in (entry for section in sections for entry in section.entries):

@@ -62,6 +62,10 @@ def carry_through(description: Description, run: Resolution) -> Resolved:
             warn_of_idle_lets(ledger, run)
     _tell_doubts(run)
     warn_of_unpackaged(run)
+    if run.found.spawned:
+        from orchestra.resolve.spawners import warn_of_spawned  # noqa: PLC0415 - as above
+
+        warn_of_spawned(run)
     return outcome(description.file, run)
 
 

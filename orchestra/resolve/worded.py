@@ -15,9 +15,8 @@ if TYPE_CHECKING:
     from orchestra.resolve.model import FileParameters, ResolvedRemap
     from orchestra.resolve.resolution import Resolution
 
-ARGUED: Final = frozenset(
-    {"controller_manager", "tf2_ros"}
-)  # packages with programs whose arguments are known
+_SPAWNING: Final = "controller_manager"
+ARGUED: Final = frozenset({_SPAWNING, "tf2_ros"})  # packages with programs whose arguments are known
 _SETTING: Final = frozenset({"-p", "--param", "--params-file", "-r", "--remap"})
 
 
@@ -54,6 +53,8 @@ def texts(
         from orchestra.resolve.known_arguments import check_arguments  # noqa: PLC0415 - as above
 
         check_arguments(*started_by, words, run.problems)
+        if started_by[0] == _SPAWNING and started_by[1].endswith("spawner"):
+            run.found.spawned.append(words)
     if for_ros is not None:
         look_at_paths(words, run, for_ros=for_ros)
     if given is not None and not _SETTING.isdisjoint(said):
