@@ -26,6 +26,7 @@ from orchestra.compat.forms_of_entities import (
     uncalled,
 )
 from orchestra.compat.forms_of_sets import as_list, as_pair, with_colon
+from orchestra.compat.quoted import quoted
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -200,7 +201,9 @@ def _listed(source: str, value: Any) -> str | None:
 
 def _choices(source: str, value: Any) -> str | None:
     """Return a text with choices as a list of them."""
-    return repr(re.split(r"[\s,|/]+", value.strip())) if source[1:-1] == value else None
+    if source[1:-1] != value:
+        return None
+    return repr(quoted(value) or re.split(r"[\s,|/]+", value.strip()))
 
 
 def _pairs(source: str, value: Any) -> str | None:

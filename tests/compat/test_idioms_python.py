@@ -45,6 +45,12 @@ COMMANDS: dict[str, tuple[str, list[str]]] = {
         "Node(package='demo', executable='talker', remappings={'c': 'd'}.items())]",
         ["talker --ros-args -r a:=b", "talker --ros-args -r c:=d"],
     ),
+    "choices are one text that lists them": (
+        """[DeclareLaunchArgument("rover", default_value="f120", choices="'mega3', 'f120'"),
+            DeclareLaunchArgument("option", default_value="", choices="'', '_lrf'"),
+            Node(package="demo", executable="talker", arguments=[LC("rover"), [LC("option"), "."]])]""",
+        ["talker f120 . --ros-args"],
+    ),
     "arguments come out of a generator": (
         "[Node(package='demo', executable='talker', arguments=(str(item) for item in range(2)))]",
         ["talker 0 1 --ros-args"],

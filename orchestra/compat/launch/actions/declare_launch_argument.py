@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.explanation import told
 from orchestra.compat.launch.action import ModelledAction
@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from orchestra.compat.launch.launch_description_entity import LaunchDescriptionEntity
     from orchestra.compat.launch.substitution import Substitution
     from orchestra.description.entity import Action as Model
+
+
+_ONE_TEXT: Final = "the choices of a launch argument are a list of texts, this is {!r}"
 
 
 class DeclareLaunchArgument(ModelledAction):
@@ -44,12 +47,16 @@ class DeclareLaunchArgument(ModelledAction):
             raise WrongType(f"the name of a launch argument is a text, this is {told(name)}", path=("name",))
         self.__name = name
         self.__default_value = None if default_value is None else normalized(_text(default_value))
-        self.__choices = None if choices is None else list(choices)
+        self.__choices = None if choices is None else _listed(choices)
         self.__description = _described(description, self.__choices)
         self.__given_description = description
         # Whether a condition decides on the declaration, as `get_launch_arguments` has found.
         self._conditionally_included = False
         _check(name, default_value, self.__choices, choices)
+        if isinstance(choices, str):
+            from orchestra.compat.remarks import remark_of_value  # noqa: PLC0415 - only mistakes need it
+
+            remark_of_value(_ONE_TEXT.format(choices), choices, self._place, "choices")
         if isinstance(default_value, int | float):
             from orchestra.compat.remarks import remark_of_value  # noqa: PLC0415 - only mistakes need it
 
@@ -107,13 +114,23 @@ def _text(default: Any) -> Sub:
     return str(default) if isinstance(default, bool) else written(default)
 
 
+def _listed(choices: Iterable[str]) -> list[str]:
+    """Return choices as a list; a text that is one in all but its brackets (`"'a', 'b'"`) is what it lists.
+
+    Upstream takes any part of such a text, so that those launch files run.
+    """
+    if not isinstance(choices, str):
+        return list(choices)
+    from orchestra.compat.quoted import quoted  # noqa: PLC0415 - only mistakes need it
+
+    return quoted(choices) or list(choices)
+
+
 def _check(name: str, default: Any, choices: list[str] | None, given: Any) -> None:
     if choices is None:
         return
-    if isinstance(given, str):
-        raise WrongType(
-            f"the choices of a launch argument are a list of texts, this is {given!r}", path=("choices",)
-        )
+    if isinstance(given, str) and choices == list(given):
+        raise WrongType(_ONE_TEXT.format(given), path=("choices",))
     if not choices:
         raise WrongRuntime(f"the launch argument '{name}' has no choice at all", path=("choices",))
     if isinstance(default, str) and default not in map(str, choices):
