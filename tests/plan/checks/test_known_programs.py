@@ -78,11 +78,14 @@ def test_a_costmap_stands_below_its_namespace(tmp_path: Path) -> None:
     assert [item for item in found if item[0] in _TOLD] == [(Code.UNMATCHED_SECTION, "local_costmap", None)]
 
 
-def test_arguments_of_a_known_program_are_evaluated_once(tmp_path: Path) -> None:
+def test_arguments_of_a_known_program_are_evaluated_once(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     """What fails in them is told once, and a command among them runs once."""
-    (tmp_path / "count").write_text("#!/bin/sh\necho ran >> $1\necho 0\n", "utf-8")
+    (tmp_path / "count").write_text("#!/bin/sh\necho ran >> runs\necho 0\n", "utf-8")
     (tmp_path / "count").chmod(0o755)
-    command = f"$(command '{tmp_path}/count {tmp_path}/runs') 0 0 0 0 0 a b"
+    monkeypatch.chdir(tmp_path)
+    command = "$(command ./count) 0 0 0 0 0 a b"
     assert not [item for item in told(tmp_path, f"- node: {_TRANSFORM % command}\n") if item[0] in _TOLD]
     assert (tmp_path / "runs").read_text("utf-8").split() == ["ran"]
     lacking = "$(env NOBODY_HAS_THIS) 0 0 0 0 0 a b"
