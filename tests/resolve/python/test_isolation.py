@@ -191,6 +191,16 @@ CHANGES: dict[str, tuple[str, Callable[[], Any]]] = {
 
 
 @pytest.fixture
+def _own_zone(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
+    """Let the clock be that of the environment in which the files are resolved, wherever this machine is."""
+    with monkeypatch.context() as changed:
+        changed.setenv("TZ", "UTC")
+        time.tzset()
+        yield
+    time.tzset()
+
+
+@pytest.fixture
 def _own_folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Nobody else writes temporary files here."""
     folder = tmp_path / "temporary"
@@ -314,7 +324,7 @@ def _standing() -> Iterator[Callable[[Path], dict[str, Any]]]:
         yield resolve
 
 
-@pytest.mark.usefixtures("_own_folder")
+@pytest.mark.usefixtures("_own_folder", "_own_zone")
 @pytest.mark.parametrize("what", CHANGES)
 def test_a_process_that_goes_on_is_as_before_each_file(tmp_path: Path, what: str) -> None:
     code, look = CHANGES[what]
