@@ -19,6 +19,7 @@ from orchestra.compat.source_text import text_at
 from orchestra.compat.suggestions import in_place
 from orchestra.compat.syntax_trees import node_span, tree_of
 from orchestra.compat.too_early import IN_PATHS
+from orchestra.compat.trailing_commas import NOTE
 from orchestra.errors import Problems, Severity
 from orchestra.location import is_within
 from orchestra.witness.origins import INSTALLED, PYTHON
@@ -63,8 +64,9 @@ class CarryingOn:
         if len(found) != 1 or len(self._told) >= _MOST:
             return None
         self._told += found
-        meant = _meant(error, in_place(found[0]), self._source.file) or _path_meant(
-            found[0], self._source.file
+        file = self._source.file
+        meant = (
+            _comma_meant(found[0]) or _meant(error, in_place(found[0]), file) or _path_meant(found[0], file)
         )
         is_import = isinstance(error, ImportError) or (meant is not None and IMPORT.fullmatch(meant[1]))
         self.has_guessed = self.has_guessed or not is_import
@@ -146,6 +148,11 @@ def _meant(error: BaseException, problem: Problem, file: str) -> tuple[Span, str
         name = _imported(file, span.line, missing[1])
         return None if name is None else (name, f"from {meant} import {missing[1]}")
     return span, meant
+
+
+def _comma_meant(problem: Problem) -> tuple[Span, str] | None:
+    """Return the comma that makes a tuple of something, and nothing in its place."""
+    return (problem.span, "") if problem.span is not None and NOTE in problem.notes else None
 
 
 def _path_meant(problem: Problem, file: str) -> tuple[Span, str] | None:

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from orchestra.errors import Problems
     from orchestra.location import Span
 
+_BYTE: Final = 0xFF
 _PIECE: Final = 16  # names of a dictionary that are one constant, at most
 _KEY: Final = re.compile(rb"""[{}]|(['"])([^'"\n\\]+)\1\s*:""")
 _SIGN: Final = re.compile(rb"""oin(?:Substitution)?\((?:[^()]|\([^()]*\))*?,\s*['"]/""")
@@ -25,10 +26,8 @@ _OUTSIDE: Final = re.compile(
     rb"|(?:async|class|el|except|finally|for|if|match|try|w[hi]))",
     re.MULTILINE,
 )
-_BLANKS: Final = b" \t\r\n\f"
-_QUOTES: Final = b"'\""
-_OPTIONS: Final = (b"'-", b'"-')
-_TOPICS: Final = (b"'/", b'"/')
+# The end of a word in quotes, and the beginning of another one.
+_SIDE_BY_SIDE: Final = re.compile(rb"""['"](?<=[^\s"'\\=:].)\s+['"][\w/-]""")
 
 
 class Compiled:
@@ -131,21 +130,41 @@ def has_late_roots(source: bytes) -> bool:
 
 
 def has_joined_words(source: bytes) -> bool:
-    """Return whether an option, or a topic of a bridge, may stand in quotes right behind another text."""
-    signs = _OPTIONS if b"@" not in source else (*_OPTIONS, *_TOPICS)
-    return any(_is_behind_text(source, sign) for sign in signs)
+    """Return whether a word may stand in quotes right behind another one."""
+    return _SIDE_BY_SIDE.search(source) is not None
 
 
-def _is_behind_text(source: bytes, sign: bytes) -> bool:
-    place = source.find(sign)
-    while place > 0:
-        last = place - 1
-        while last > 0 and source[last] in _BLANKS:
-            last -= 1
-        if last < place - 1 and source[last] in _QUOTES:
-            return True
-        place = source.find(sign, place + 2)
-    return False
+def _sets_tuples(code: CodeType, _source: bytes) -> bool:
+    """Return whether a name is set to a tuple of one."""
+    written, storing = code.co_code, _storing()
+    if storing.search(written) is not None:
+        return True
+    ones = any(type(item) is tuple and len(item) == 1 for item in code.co_consts)
+    if ones and any(_is_one_set(code, place) for place in range(0, len(written) - 2, 2)):
+        return True
+    return any(_sets_tuples(item, b"") for item in code.co_consts if type(item) is CodeType)
+
+
+def _is_one_set(code: CodeType, place: int) -> bool:
+    """Return whether the instruction at a place is followed by one that sets a name to a constant tuple of one."""
+    from opcode import opmap  # noqa: PLC0415 - once
+
+    written = code.co_code
+    if written[place] != opmap["LOAD_CONST"] or _storing(b"").match(written, place + 2) is None:
+        return False
+    # The number of a late constant is longer, which the instruction before says.
+    one = code.co_consts[written[place + 1]] if written[place + 1] < len(code.co_consts) else None
+    return (type(one) is tuple and len(one) == 1) or len(code.co_consts) > _BYTE
+
+
+@cache
+def _storing(built: bytes | None = None) -> re.Pattern[bytes]:
+    """Return the instructions that build a tuple of one, unless others are given, and set a name to it."""
+    from opcode import opmap  # noqa: PLC0415 - once
+
+    built = re.escape(bytes((opmap["BUILD_TUPLE"], 1))) if built is None else built
+    setting = bytes(number for name, number in opmap.items() if name.startswith("STORE_") and number <= _BYTE)
+    return re.compile(built + b"[" + re.escape(setting) + b"]", re.DOTALL)
 
 
 def _changes_nothing(code: CodeType, _source: bytes) -> bool:
@@ -170,11 +189,17 @@ LOOKS: Final[dict[str, Callable[[CodeType, bytes], bool]]] = {
     "doubled": lambda code, source: _may_double([code], source),
     "roots": lambda _, source: has_late_roots(source),
     "joined": lambda _, source: has_joined_words(source),
+    "tuples": _sets_tuples,
     "misused": _may_be_misused,
 }
 # By the looks that say whether a file may have such slips: the modules that tell of them.
 OF_CODE: Final = {"misused": "misused"}
-OF_TEXTS: Final = {"foreign": "foreign_substitutions", "roots": "late_roots", "joined": "joined_words"}
+OF_TEXTS: Final = {
+    "foreign": "foreign_substitutions",
+    "roots": "late_roots",
+    "joined": "joined_words",
+    "tuples": "trailing_commas",
+}
 
 
 def tell_slips(

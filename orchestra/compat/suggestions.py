@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Final
 from orchestra.compat.as_texts import without_echoes
 from orchestra.compat.belongings import without_needs
 from orchestra.compat.glued_paths import without_slash
+from orchestra.compat.joined_words import without_what_is_joined
 from orchestra.compat.late_loops import without_last_ones
 from orchestra.compat.late_roots import without_followers
 from orchestra.compat.literals import Literal, argument
@@ -21,6 +22,7 @@ from orchestra.compat.returning_none import without_nothings
 from orchestra.compat.rewritten import Rewritten
 from orchestra.compat.source_text import quoted_in, text_at
 from orchestra.compat.syntax_trees import node_span, tree_of
+from orchestra.compat.trailing_commas import at_commas
 from orchestra.compat.uncalled import without_methods
 from orchestra.compat.unset_by import without_readings
 from orchestra.compat.without_f import without_what_braces_cause
@@ -49,10 +51,12 @@ def point_into_code(problems: Problems) -> None:
     problems.amend(without_readings(tuple(problems)))
     problems.amend(in_place)
     problems.amend(without_what_braces_cause(tuple(problems)))
+    problems.amend(without_what_is_joined(tuple(problems)))
     problems.amend(without_last_ones(tuple(problems)))
     problems.amend(without_nothings(tuple(problems)))
     problems.amend(without_needs(tuple(problems)))
     problems.amend(without_methods(tuple(problems)))
+    problems.amend(at_commas(tuple(problems)))
     problems.amend(together(tuple(problems)))
     problems.amend(corrected_alike(tuple(problems)))
     problems.amend(behind_exceptions(tuple(problems)))
