@@ -23,6 +23,7 @@ from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Bool, String
 
 import bringup
+from tests.bringup.greeting import greeting
 from tests.killing import kill
 
 # What rclpy imports to find its types still uses the old name of a standard module.
@@ -111,6 +112,8 @@ class Base:
     def set(self, name: str, value: float) -> tuple[bool, str]:
         client = self.node.create_client(SetParameters, f"{NODE}/set_parameters")
         self.until(client.service_is_ready, "parameters can be set")
+        with greeting(self.node, NODE) as known:
+            self.until(known, "the arbiter knows its client")
         wanted = ParameterValue(type=ParameterType.PARAMETER_DOUBLE, double_value=value)
         answer = client.call_async(SetParameters.Request(parameters=[Parameter(name=name, value=wanted)]))
         self.until(answer.done, "the parameter is answered")

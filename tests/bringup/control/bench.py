@@ -20,6 +20,7 @@ from rosgraph_msgs.msg import Clock
 from sensor_msgs.msg import LaserScan
 from std_msgs.msg import String
 
+from tests.bringup.greeting import greeting
 from tests.killing import kill
 
 DEADLINE = 40.0
@@ -111,7 +112,10 @@ class Bench:
         return scan
 
     def call(self, kind: Any, name: str, request: Any, *, again: bool = True) -> Any:
-        """Ask, and where it does no harm ask again: an answer that comes before both sides know each other is lost."""
+        """Ask, and where it does no harm ask again: an answer that comes before both sides know each other is lost.
+
+        Else they get to know each other first.
+        """
         client = self.node.create_client(kind, name)
         asked: list[tuple[float, Any]] = []
 
@@ -122,10 +126,17 @@ class Bench:
 
         try:
             self.until(client.service_is_ready, f"{name} is there")
+            if not again:
+                self.greet()
             self.until(answered, f"{name} answers")
             return next(answer.result() for _, answer in asked if answer.done())
         finally:
             self.node.destroy_client(client)
+
+    def greet(self) -> None:
+        """Wait until the controller knows all clients that there are so far."""
+        with greeting(self.node, NODE) as known:
+            self.until(known, "the controller knows its clients")
 
     def set(self, atomically: bool = False, **values: Any) -> list[tuple[bool, str]]:
         wanted = [Parameter(name=name, value=value_of(value)) for name, value in values.items()]

@@ -46,6 +46,7 @@ class Room(Bench):
         self.x = self.y = self.yaw = 0.0
         self.frame = "robot1/odom"
         self.client = ActionClient(self.node, GoToGoal, "/robot1/go_to_goal")
+        self._known = False
         self._used, self._since = 0, time.monotonic()
 
     def close(self) -> None:
@@ -103,7 +104,10 @@ class Room(Bench):
 
     def send(self, goal: Any, feedback: Any = None) -> Any:
         """The handle of the goal, which has been accepted."""
-        self.until(self.client.server_is_ready, "the action is there")
+        if not self._known:
+            self.until(self.client.server_is_ready, "the action is there")
+            self.greet()
+            self._known = True
         sent = self.client.send_goal_async(goal, feedback_callback=feedback)
         self.until(sent.done, "the goal is answered")
         handle = sent.result()

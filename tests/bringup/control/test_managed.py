@@ -54,6 +54,7 @@ def refused(bench: Bench) -> Any:
     client = ActionClient(bench.node, GoToGoal, "/robot1/go_to_goal")
     try:
         bench.until(client.server_is_ready, "the action is there")
+        bench.greet()
         sent = client.send_goal_async(GoToGoal.Goal())
         bench.until(sent.done, "the goal is answered")
         future = sent.result().get_result_async()

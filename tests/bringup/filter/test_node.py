@@ -31,6 +31,7 @@ from bringup.filter_node.ticks import next_tick
 from bringup.filter_node.visits import VisitedSubscriptions
 from orchestra.ros.interfaces import tf_message_type
 from orchestra.ros.interfaces.definitions import provide
+from tests.bringup.greeting import greeting
 from tests.killing import let_nobody_hang
 
 # lark, which the ROS wheels load, still imports a module that Python 3.11 has renamed.
@@ -71,9 +72,18 @@ class Bench:
         self.node.create_subscription(kind, topic, received.append, 50)
         return received
 
-    def call(self, kind: Any, name: str, request: Any, step: Callable[[], object] | None = None) -> Any:
+    def call(
+        self,
+        kind: Any,
+        name: str,
+        request: Any,
+        step: Callable[[], object] | None = None,
+        server: str = "/robot7/ekf",
+    ) -> Any:
         client = self.node.create_client(kind, name)
         self.until(client.service_is_ready, step)
+        with greeting(self.node, server) as known:
+            self.until(known, step)
         answer = client.call_async(request)
         self.until(answer.done, step)
         self.node.destroy_client(client)
@@ -342,7 +352,7 @@ def test_a_filter_in_the_map_corrects_an_odometry_that_moves(
     bench.until(lambda: bench.sees("/mapper/global_filter"), step)
     bench.until(lambda: len(diagnostics) > 0, step)
     assert not filtered
-    bench.call(Empty, "/mapper/enable", Empty.Request(), step)
+    bench.call(Empty, "/mapper/enable", Empty.Request(), step, server="/mapper/global_filter")
     bench.until(lambda: filtered and accelerations, step)
     assert filtered[-1].header.frame_id == "map"
     assert filtered[-1].pose.pose.position.x == pytest.approx(7.0, abs=0.01)

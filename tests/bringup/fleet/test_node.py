@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
+from tests.bringup.greeting import greeting
 from tests.killing import kill
 
 pytest.importorskip("rclpy", reason="needs ROS")
@@ -93,6 +94,8 @@ class _World:
         """Ask several things at once."""
         client = self.node.create_client(kind, name)
         self.until(client.service_is_ready, f"{name} is there")
+        with greeting(self.node, "/fleet_monitor") as known:
+            self.until(known, "the monitor knows its client")
         answers = [client.call_async(each) for each in asked]
         self.until(lambda: all(each.done() for each in answers), f"{name} answers")
         self.node.destroy_client(client)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import signal
 import threading
+import time
 import xml.etree.ElementTree as ET
 from dataclasses import dataclass
 from itertools import pairwise
@@ -23,6 +24,7 @@ from std_srvs.srv import SetBool, Trigger
 from bringup.world.interfaces import Contacts, SetSpeed, Step, Teleport
 from bringup.world.messages import ticks_of
 from orchestra.ros.interfaces import tf_message_type
+from tests.bringup.greeting import greeting
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -117,11 +119,21 @@ def asked(start: Start, listen: Listen, tmp_path_factory: pytest.TempPathFactory
             assert parameters.wait_for_services(60.0)
             for robot in "ab":
                 ears.wait(f"/fleet/{robot}/robot_description", lambda messages: messages)
+            _known(ears)
             _connected(ears, clients["step"])
             yield Asked(ears, clients, parameters, run)
             run.process.send_signal(signal.SIGINT)
             status, said = run.end()
             assert (status, "Traceback" in said) == (0, False)
+
+
+def _known(ears: Any) -> None:
+    """Wait until the simulation knows the clients: what it answers before is lost."""
+    end = time.monotonic() + 60.0
+    with greeting(ears.node, "/fleet/simulation") as known:
+        while not known():
+            assert time.monotonic() < end
+            time.sleep(0.02)
 
 
 def _connected(ears: Any, step: Any) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import sys
+import time
 
 import rclpy
 from rclpy.parameter import parameter_value_to_python
@@ -21,9 +22,15 @@ def main() -> None:
         client = AsyncParameterClient(node, target)
         if not client.wait_for_services(PATIENCE):
             sys.exit(f"{target} has no parameter services")
-        future = client.get_parameters(names)
-        rclpy.spin_until_future_complete(node, future, timeout_sec=PATIENCE)
-        answers[target] = [parameter_value_to_python(value) for value in future.result().values]
+        end = time.monotonic() + PATIENCE
+        answer = None
+        while answer is None:  # one that comes before the node knows its client is lost
+            if time.monotonic() > end:
+                sys.exit(f"{target} has not answered")
+            future = client.get_parameters(names)
+            rclpy.spin_until_future_complete(node, future, timeout_sec=5.0)
+            answer = future.result()
+        answers[target] = [parameter_value_to_python(value) for value in answer.values]
     print(json.dumps(answers))  # noqa: T201 - the product
     node.destroy_node()
     rclpy.shutdown()

@@ -23,6 +23,7 @@ from rclpy.qos import DurabilityPolicy, QoSProfile
 
 from bringup.control_node.interfaces import GoToGoal
 from bringup.fleet_node.interfaces import FleetSummary
+from tests.bringup.greeting import greeting
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
@@ -61,11 +62,16 @@ class _Operator:
             assert not late, f"not within {_PATIENCE} s: {what}; {self.robots}\n{self.run.output}"
             self.executor.spin_once(timeout_sec=0.1)
 
+    def _greet(self, robot: str) -> None:
+        with greeting(self.node, f"/{robot}/velocity_controller") as known:
+            self.until(known, f"{robot} knows its client")
+
     def send(self, robot: str, x: float, y: float) -> Any:
         """Send a robot to a place in its own frame; return what gives the result."""
         client = ActionClient(self.node, GoToGoal, f"/{robot}/go_to_goal")
         self.clients.append(client)
         self.until(client.server_is_ready, f"{robot} takes goals")
+        self._greet(robot)
         goal = GoToGoal.Goal()
         goal.pose.header.frame_id = f"{robot}/odom"
         goal.pose.pose.position.x, goal.pose.pose.position.y = x, y
@@ -78,6 +84,7 @@ class _Operator:
         """Let a robot drive that was started with no speed at all."""
         client = AsyncParameterClient(self.node, f"/{robot}/velocity_controller")
         self.until(client.services_are_ready, f"{robot} has parameters")
+        self._greet(robot)
         changed = client.set_parameters([Parameter("max_linear_vel", value=0.5)])
         self.until(changed.done, f"{robot} has taken its speed")
         assert changed.result().results[0].successful
