@@ -13,7 +13,7 @@ from orchestra.description.source import Keyed, Listed
 from orchestra.errors import Code
 from orchestra.load.elements import Tagged, emptied, noun
 from orchestra.load.pairs import whole_item, written_item
-from orchestra.load.words import ELSEWHERE, HINTS, KEYS_ELSEWHERE, snake
+from orchestra.load.words import ELSEWHERE, HINTS, KEYS_ELSEWHERE, REMARKS, snake
 from orchestra.nearest import is_slip, nearest
 from orchestra.patterns import pattern
 
@@ -150,10 +150,16 @@ class _Strangers:
         taken = next((other for other in KEYS_ELSEWHERE.get(snake(key), ()) if other in present), None)
         return None if taken is None else f"'{taken}' stands here already"
 
+    def remark(self, key: str, near: str) -> str | None:
+        """Return what else than the key that is suggested may have been meant."""
+        beside, remark = REMARKS.get((snake(key), near), ("", None))
+        return remark if beside in self.known else None
+
     def told(self, key: str, at: Span, near: str | None, report: Report) -> frozenset[str]:
         """Report a key; return the known ones that it stands for, which are not missing then."""
         message, instead, notes = f"unknown {noun(self.mapping, key)}", near, list[str]()
-        if near is None and (hint := self.hint(key)) is not None:
+        hint = self.hint(key) if near is None else self.remark(key, near)
+        if hint is not None:
             message += f": {hint}"
         stands_for = frozenset() if near is None else frozenset({near})
         joined = _JOINED.fullmatch(key)

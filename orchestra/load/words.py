@@ -181,6 +181,9 @@ HINTS: Final = {
     "clear_params": ({"exec"}, "nodes of ROS 2 have no parameters of an earlier run"),
 }
 
+# What else may have been meant by a key, beside the one that is suggested: by that one, and a key of the same action.
+REMARKS: Final = {("value", "default"): ("choices", "an arg has a default; what nobody may set is a let")}
+
 
 def snake(word: str) -> str:
     """Return a word as keys are spelled: `DeclareLaunchArgument`, `launch-prefix` as words joined with `_`."""

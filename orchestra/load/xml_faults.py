@@ -33,11 +33,15 @@ _KNOWN_ENTITIES = "XML knows &amp; &lt; &gt; &quot; &apos; and numbers such as &
 
 @dataclass(frozen=True, slots=True)
 class Opened:
-    """The innermost element that is open where a fault is found, and the names of those around it."""
+    """The innermost element that is open where a fault is found, and the names of those around it.
+
+    `ended` has the places of the `/>` by which elements in it end, the last one of each name.
+    """
 
     name: str
     span: Span
-    around: tuple[str, ...] = ()
+    around: tuple[str, ...]
+    ended: dict[str, Span]
 
 
 def explained(code: int, at: int, whole: Source, opened: Opened | None) -> Fault:
@@ -62,11 +66,14 @@ def _mismatch(at: int, whole: Source, opened: Opened | None) -> Fault:
     if is_slip(opened.name, name) and _is_known(name) and not _is_known(opened.name):
         message = f"<{opened.name}> is closed by </{name}>, which is what it is called"
         return Fault(message, opened.span, suggestion=name)
+    note = f"<{opened.name}> is opened at {opened.span}"
+    if name in opened.ended:
+        note = f"<{name}> is closed already: the '/>' at {opened.ended[name]} does so"
     return Fault(
         f"</{name}> stands where </{opened.name}> is expected",
         whole.span(at, at + len(name)),
         suggestion=opened.name if is_slip(name, opened.name) else None,
-        notes=(f"<{opened.name}> is opened at {opened.span}",),
+        notes=(note,),
     )
 
 

@@ -64,6 +64,9 @@ def _mismatch(error: NotXmlError, text: str, begin: int, end: int) -> Iterator[M
     opened, tag = error.opened[-1], text.rfind("<", 0, error.at)
     found = _TAG.match(text, tag)
     name = text[tag + 2 : found.end() - 1].strip() if found else ""
+    ended = next((child for child in reversed(opened.children) if child.name == name), None)
+    if found is not None and ended is not None and text.endswith("/>", 0, ended.end):
+        yield Mend(((ended.end - 2, ended.end, ">"),), found.span())  # what follows belongs in it
     if any(element.name == name for element in error.opened):
         yield from _crossed(opened, text, tag)
         yield from _closed(opened, text, tag, (begin, end))

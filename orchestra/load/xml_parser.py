@@ -99,7 +99,12 @@ class _Elements:
         if not self.open:
             return None
         around = tuple(element.name for element in self.open[:-1])
-        return Opened(self.open[-1].name, self.open[-1].span(self.whole), around)
+        inner = {
+            child.name: self.whole.span(child.end - 2, child.end)
+            for child in self.open[-1].children
+            if self.whole.text.endswith("/>", 0, child.end)
+        }
+        return Opened(self.open[-1].name, self.open[-1].span(self.whole), around, inner)
 
     def start(self, name: str, pairs: list[str]) -> None:
         at = self.offset(self.parser.CurrentByteIndex) + 1

@@ -11,6 +11,7 @@ from typing import Final
 
 _SHORTEST: Final = 4  # below that, one letter makes another word
 _SHORTEST_FOR_TWO: Final = 8
+_NODE: Final = "node"  # the last word of many names, which means nothing: no other word is `nod` or `noe`
 
 
 def is_typo(word: str, meant: str) -> bool:
@@ -25,7 +26,10 @@ def is_typo(word: str, meant: str) -> bool:
     if len(ones) != len(others):
         return _is_near("".join(ones), "".join(others))
     differing = [pair for pair in zip(ones, others, strict=True) if pair[0] != pair[1]]
-    return len(differing) == 1 and _is_near(*differing[0])
+    if len(differing) != 1:
+        return False
+    one, other = differing[0]
+    return _is_near(one, other) or (_NODE in (one, other) and distance(one, other, 1) <= 1)
 
 
 def distance(one: str, other: str, most: int) -> int:

@@ -16,6 +16,7 @@ from orchestra.dataclass import dataclass
 from orchestra.errors import Code
 from orchestra.fields import field
 from orchestra.location import Location
+from orchestra.plan.checks.section_keys import absolute, is_for_any, is_one_key, key_for, words_of
 from orchestra.plan.ids import node_name
 from orchestra.resolve.model import FileParameters, ResolvedProcess
 from orchestra.resolve.rcl.indexed import Indexed
@@ -34,7 +35,6 @@ if TYPE_CHECKING:
 
 
 _MOST = 100
-_ANY_NODE = frozenset({"node", "ros", "ros2"})  # words that a name has or has not
 _SHORTEST = 3  # letters of a word that says what a node is about
 _MADE = "${run}/"  # what code of a launch file has written is nothing to show
 
@@ -81,12 +81,12 @@ class _Names:
     def any(self, pattern: str) -> bool:
         """Return whether a pattern matches a node."""
         if "*" not in pattern:
-            return _absolute(pattern) in self._names
+            return absolute(pattern) in self._names
         if pattern not in self._known:
             last = pattern.rpartition("/")[2]
             names: Collection[str] = self._names if "*" in last else self._lasts.get(last, ())
             if len(names) > 1:
-                names = min(names, self._below.get(_absolute(pattern).partition("/*")[0], ()), key=len)
+                names = min(names, self._below.get(absolute(pattern).partition("/*")[0], ()), key=len)
             self._known[pattern] = any(matches(pattern, name) for name in names)
         return self._known[pattern]
 
@@ -132,22 +132,28 @@ def _hands_on(node: _Node) -> bool:
 
 def _check(file: _File, names: _Names, resolved: Resolved, problems: Problems, told: set[object]) -> None:
     sections = file.source.sections
-    exact = {_absolute(section.pattern) for section in sections}
+    exact = {absolute(section.pattern) for section in sections}
     index = Indexed(sections)
     idle: dict[str, list[Section]] = {}
     for section in sections:
         if not names.any(section.pattern):
             idle.setdefault(section.pattern.rpartition("/")[2], []).append(section)
     without: list[str] = []
+    narrow = next((section for section in idle.get("*", ()) if is_for_any(section.pattern)), None)
+    if narrow is not None and file.users and not file.open:
+        name = next((name for name in file.users if name not in exact), next(iter(file.users)))
+        _report(narrow, name, key_for(narrow, name), file.users[name], problems, told)
     for name in file.users:
         if name in exact:
             continue
-        served = index.has_wildcard_for(name)
-        meant = _meant(name, idle, served=served, resolved=resolved) if idle and not file.open else None
-        if meant is None and idle and not served and not file.open:
-            meant = _renamed(name, file.programs.get(name, ()), idle)
+        served = narrow is not None or index.has_wildcard_for(name)
+        meant = None
+        if idle and not file.open:
+            programs = file.programs.get(name, ())
+            meant = _meant(name, idle, served=served, resolved=resolved)
+            meant = meant or (_of_program if served else _renamed)(name, programs, idle)
         if meant is not None:
-            _report(meant, name, _instead(meant, name), file.users[name], problems, told)
+            _report(meant, name, key_for(meant, name), file.users[name], problems, told)
         elif not served:
             without.append(name)
     _report_rest(file, without, idle, problems, told)
@@ -167,7 +173,7 @@ def _report_rest(
     if len(without) == len(over) == 1 < len(file.users):
         name = without[0]
         if _is_about(over[0], name, file.programs.get(name, ())):
-            _report(over[0], name, _instead(over[0], name), file.users[name], problems, told)
+            _report(over[0], name, key_for(over[0], name), file.users[name], problems, told)
     elif len(without) == len(file.users):
         _report_without(file, without, problems, told, idle=bool(idle))
 
@@ -181,7 +187,7 @@ def _meant(
     """
     namespace, _, own = name.rpartition("/")
     for section in idle.get(own, ()):
-        there = _absolute(section.pattern).rpartition("/")[0]
+        there = absolute(section.pattern).rpartition("/")[0]
         if there != namespace and (not there or not served):
             return section  # beside a wildcard, one for another namespace is for another robot
     if len(idle) > _MOST:
@@ -190,7 +196,7 @@ def _meant(
         if last in resolved.lost or not is_typo(last, own):
             continue
         for section in sections:
-            if _absolute(section.pattern).rpartition("/")[0] in ("", "/**", namespace):
+            if absolute(section.pattern).rpartition("/")[0] in ("", "/**", namespace):
                 return section
     return None
 
@@ -200,13 +206,29 @@ def _renamed(
 ) -> Section | None:
     """Return the one section whose name has the words of a node's, or is that of its program; None for several."""
     namespace, _, own = name.rpartition("/")
-    words = _words(own)
+    words = words_of(own)
     found = [
         section
         for last, sections in idle.items()
-        if len(idle) <= _MOST and (last in programs or _words(last) == words)
+        if len(idle) <= _MOST and (last in programs or words_of(last) == words)
         for section in sections
-        if _absolute(section.pattern).rpartition("/")[0] in ("", "/**", namespace)
+        if absolute(section.pattern).rpartition("/")[0] in ("", "/**", namespace)
+    ]
+    return found[0] if len(found) == 1 else None
+
+
+def _of_program(
+    name: str, programs: Sequence[str | None], idle: Mapping[str, Sequence[Section]]
+) -> Section | None:
+    """Return the one section that is called as the program of a node, in its very namespace; None for several.
+
+    One that names no namespace may be for a node of another description.
+    """
+    namespace = name.rpartition("/")[0]
+    found = [
+        section
+        for section in idle.get(programs[-1] or "" if programs else "", ())
+        if namespace and absolute(section.pattern).rpartition("/")[0] == namespace
     ]
     return found[0] if len(found) == 1 else None
 
@@ -214,28 +236,11 @@ def _renamed(
 def _is_about(section: Section, name: str, programs: Sequence[str | None]) -> bool:
     """Return whether a section that is over has a word in common with a node that lacks one, or with its program."""
     namespace, _, own = name.rpartition("/")
-    there, _, last = _absolute(section.pattern).rpartition("/")
-    words = {word for text in (own, *programs) if text is not None for word in _words(text)}
+    there, _, last = absolute(section.pattern).rpartition("/")
+    words = {word for text in (own, *programs) if text is not None for word in words_of(text)}
     return there in ("", "/**", namespace) and any(
-        len(word) >= _SHORTEST and word in words for word in _words(last)
+        len(word) >= _SHORTEST and word in words for word in words_of(last)
     )
-
-
-def _words(name: str) -> list[str]:
-    words = sorted(name.lower().split("_"))
-    return [word for word in words if word not in _ANY_NODE] or words
-
-
-def _instead(section: Section, name: str) -> str | None:
-    """Return what should stand in place of the key of a section, None where one key cannot say it."""
-    namespace, _, own = name.rpartition("/")
-    there, _, last = _absolute(section.pattern).rpartition("/")
-    if not _is_one_key(section):
-        return own if there == namespace else None
-    if last == own:
-        return f"/**/{own}"
-    lead = section.pattern[: len(section.pattern) - len(last)]
-    return f"{lead}{own}" if there in (namespace, "/**") else name
 
 
 def _report(
@@ -252,7 +257,7 @@ def _report(
     told.add(place.span)
     if place.span.file.startswith(_MADE):
         place, instead = given_at, None
-    message = f"no node is called '{_absolute(section.pattern)}', and '{name}' is given this file"
+    message = f"no node is called '{absolute(section.pattern)}', and '{name}' is given this file"
     notes = [f"it is given at {given_at}"]
     if instead is None:
         notes.append(f"did you mean '{name}'?")
@@ -268,7 +273,9 @@ def _report_without(
         alone = names[0] if len(names) == 1 else "/**"
         if alone == names[0] and not sections[0].pattern.startswith("/"):
             alone = alone.removeprefix("/")  # as the key was written; rcl takes both
-        instead = alone if _is_one_key(sections[0]) else None
+        if "*" in sections[0].pattern.rpartition("/")[2]:
+            alone = key_for(sections[0], names[0]) or alone
+        instead = alone if is_one_key(sections[0]) else None
         _report(sections[0], names[0], instead, file.users[names[0]], problems, told)
         return
     patterns = list(dict.fromkeys(section.pattern for section in sections))
@@ -282,13 +289,3 @@ def _report_without(
         )
         if file.source.everywhere:
             return
-
-
-def _is_one_key(section: Section) -> bool:
-    span = section.location.span
-    width = span.end_column - span.column
-    return span.line == span.end_line and width - len(section.pattern) in (0, 2)
-
-
-def _absolute(pattern: str) -> str:
-    return pattern if pattern.startswith("/") else f"/{pattern}"

@@ -67,15 +67,14 @@ def instead(keys: Sequence[str]) -> str | None:
 
 
 def _with_whole_wildcards(key: str) -> str | None:
-    """Return a pattern with a wildcard for each namespace that has one in it, for all nodes where the name has one.
+    """Return a pattern with a wildcard for each part that has one in it; for all nodes where no namespace is left.
 
     None where more than that is wrong.
     """
-    *namespaces, name = key.split("/")
-    if "*" in name or not name:
+    parts = [("**" if "**" in part else "*") if "*" in part else part for part in key.split("/")]
+    if not parts[-1] or (parts[-1] in _WILDCARDS and _WILDCARDS.issuperset(filter(None, parts))):
         return "/**"
-    wild = "/".join(("**" if "**" in part else "*") if "*" in part else part for part in namespaces)
-    instead = f"{wild}/{name}"
+    instead = "/".join(parts)
     return None if pattern_fault(instead) is not None else instead
 
 

@@ -104,6 +104,36 @@ MISSED: dict[str, tuple[str, str, list[Told]]] = {
         _section("talkre"),
         [(_CODE, "talkre", "talker")],
     ),
+    "a wildcard for one level": (
+        node("talker", namespace="ns", param=_FILE),
+        _section("/*"),
+        [(_CODE, "/*", "/**")],
+    ),
+    "a wildcard for one level beside the node's own section": (
+        node("talker", namespace="ns", param=_FILE) + node("listener", namespace="ns/inner", param=_FILE),
+        _section("/ns/talker") + _section("/*/*/*/*"),
+        [(_CODE, "/*/*/*/*", "/**")],
+    ),
+    "the wildcard of a namespace that is above that of the node": (
+        node("talker", namespace="ns/inner", param=_FILE),
+        _section("/ns/*"),
+        [(_CODE, "/ns/*", "/ns/**")],
+    ),
+    "the wildcard of another namespace": (
+        node("talker", namespace="robot1", param=_FILE),
+        _section("/robot2/**"),
+        [(_CODE, "/robot2/**", "/robot1/**")],
+    ),
+    "named after the program, in the node's namespace, beside a wildcard": (
+        node("camera", namespace="ns", param=_FILE),
+        _section("/**") + _section("/ns/sleep"),
+        [(_CODE, "/ns/sleep", "/ns/camera")],
+    ),
+    "a letter of node is missing": (
+        node("driver_node", param=_FILE) + node("other", param=_FILE),
+        _section("/**") + _section("driver_nod"),
+        [(_CODE, "driver_nod", "driver_node")],
+    ),
     "a component": (
         "- node_container: {exec: sleep, name: c, namespace: '', composable_node: "
         "[{pkg: p, plugin: 'p::T', name: talker, param: [{from: p.yaml}]}]}\n",
@@ -155,6 +185,14 @@ FINE: dict[str, tuple[str, str]] = {
     "the program's name beside a wildcard": (
         node("camera", param=_FILE),
         _section("/**") + _section("sleep"),
+    ),
+    "a wildcard for one level, where a node is there": (
+        node("talker", param=_FILE) + node("listener", namespace="ns", param=_FILE),
+        _section("/*") + _section("/**/listener"),
+    ),
+    "words of four letters and three": (
+        node("left_arm", param=_FILE) + node("imu", param=_FILE),
+        _section("/**") + _section("left_arms") + _section("left_army"),
     ),
     "a node whose name is not known": (
         "- node: {exec: sleep, param: [{from: p.yaml}]}\n",
