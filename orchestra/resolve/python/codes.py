@@ -35,6 +35,9 @@ _MOST: Final = 32 * 1024 * 1024  # bytes that all trees may take together
 _MOST_OF_A_TREE: Final = 8 * 1024 * 1024
 _OURS: Final = os.path.dirname(os.path.dirname(os.path.dirname(__file__)))  # noqa: PTH120 - pathlib is slow
 _LOOKING: Final = ("compat/looks.py", "compat/idle_names.py", "compat/misused.py", "witness/harmless.py")
+# Files that are alone of their length so far, by their lines; None where there were several.
+_alone: dict[int, tuple[bytes, CodeType] | None] = {}
+_MOST_ALONE: Final = 64
 _WORTH: Final = 1 << 14  # bytes of source: to compile less takes as long as to write a file
 
 
@@ -109,9 +112,33 @@ def _unpacked(store: Store, key: str) -> dict[str, _Kept]:
 @lru_cache(maxsize=256)
 def _compiled(path: str, source: bytes) -> tuple[Compiled, bool]:
     """Return the code of a file, and whether to compile it again would tell nobody anything."""
+    code, lasting = _formed(path, source)
+    return Compiled(code, source, {}), lasting
+
+
+def _formed(path: str, source: bytes) -> tuple[CodeType, bool]:
+    """Return the code of a file: from that of files that are written alike, which have as many lines."""
+    lines = source.count(b"\n")
+    if lines not in _alone:
+        code, lasting = _from_compiler(path, source)
+        if len(_alone) >= _MOST_ALONE:
+            del _alone[next(iter(_alone))]
+        if lasting:
+            _alone[lines] = source, code
+        return code, lasting
+    # Here, because only the second one needs it, and what it imports.
+    from orchestra.resolve.python.forms import FORMS  # noqa: PLC0415
+
+    first, _alone[lines] = _alone[lines], None
+    if first is not None:
+        FORMS.add(*first)
+    return FORMS.code(path, source, lambda: _from_compiler(path, source))
+
+
+def _from_compiler(path: str, source: bytes) -> tuple[CodeType, bool]:
     with _told() as told:
         code = compile(source, path, "exec", dont_inherit=True)
-    return Compiled(code, source, {}), not told
+    return code, not told
 
 
 def compile_ahead(path: str) -> None:

@@ -282,6 +282,29 @@ def test_what_looks_have_told_is_kept_with_the_code(tree: Tree, monkeypatch: pyt
     assert set(looked) >= {*_SLIPS, "harmless"}
 
 
+def test_files_that_are_alike_are_planned_as_if_each_were_compiled(
+    tree: Tree, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    for number, part in enumerate(tree.parts):
+        tree.write(part, "long_" * number)
+        part.write_text(part.read_text().replace('"true"', f"'$(var {'l' * number}rate)'", 1))
+    asked: list[str] = []
+
+    def counted(path: str, source: bytes) -> Any:
+        asked.append(path)
+        return from_compiler(path, source)
+
+    from_compiler = module._from_compiler
+    monkeypatch.setattr(module, "_from_compiler", counted)
+    module._compiled.cache_clear()
+    formed = tree.plan(keeping=False)
+    assert formed.count('"severity": "warning"') == _FILES
+    assert len(asked) < _FILES
+    module._compiled.cache_clear()
+    monkeypatch.setattr(module, "_formed", from_compiler)
+    assert tree.plan(keeping=False) == formed
+
+
 def test_codes_are_nowhere_without_a_folder(tmp_path: Path) -> None:
     codes = Codes(None, str(tmp_path / "a.launch.py"))
     space: dict[str, Any] = {}

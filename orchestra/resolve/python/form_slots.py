@@ -1,0 +1,129 @@
+"""Where literals stand in the text of a Python file that decide nothing of its code but constants.
+
+Such a literal is a whole element of a call, a list, a tuple or a dictionary, or all that a statement assigns: no
+operator is applied to it, so that the compiler works nothing out with it, and whether it is true decides no jump.
+"""
+
+from __future__ import annotations
+
+import re
+from keyword import iskeyword
+from typing import TYPE_CHECKING, Any, Final
+
+if TYPE_CHECKING:
+    from collections.abc import Iterable, Sequence
+
+# A comment, a text, or a number; short texts first, then those in three quotes and those with backslashes.
+_LEXEME: Final = re.compile(
+    r"""([\#"'0-9](?:
+        (?<=")(?!"")[^"\\\n]*" | (?<=')(?!'')[^'\\\n]*' | (?<=\#)[^\n]* | (?<![\w.].)(?<=[0-9])[\w.]*
+        | (?<=")""(?:[^"\\]|\\.|"(?!""))*"{3} | (?<=')''(?:[^'\\]|\\.|'(?!''))*'{3}
+        | (?<=")(?:[^"\\\n]|\\.)*" | (?<=')(?:[^'\\\n]|\\.)*'
+    ))""",
+    re.DOTALL | re.VERBOSE,
+)
+_TOKEN: Final = re.compile(
+    r"\n|[A-Za-z_][\w.]*|\*\*=?|//=?|<<=?|>>=?|->|[-+*/%@&|^=!<>:]=|\\\n|[^\s]", re.ASCII
+)
+_TEXT: Final = re.compile(r"""'[^'\\\n]*'|"[^"\\\n]*\"""")
+_QUOTES: Final = "'\""
+_BEFORE: Final = frozenset("([{,=:")
+_BEHIND: Final = frozenset(")]},:")
+_OPENING: Final = frozenset("([{")
+_CLOSING: Final = frozenset(")]}")
+_OPERATORS: Final = frozenset(
+    ("%", "*", "**", "+", "-", "/", "//", "@", "|", "&", "^", "~", "<", ">", "<<", ">>")
+)
+
+
+def split(text: str) -> list[str]:
+    """Return the parts of a text, one between literals and comments and one of those in turn."""
+    return _LEXEME.split(text)
+
+
+def key_of(literal: str) -> Any:
+    """Return the value of a literal, a number with its type, for 1 and 1.0 are two constants.
+
+    None where it is not plain: the same value may be written in several ways.
+    """
+    if literal[0] in _QUOTES:
+        return literal[1:-1] if _TEXT.fullmatch(literal) else None
+    return _number(literal)
+
+
+def _number(literal: str) -> Any:
+    try:
+        number = float(literal) if "." in literal else int(literal)
+    except ValueError:
+        return None
+    return (type(number), number) if repr(number) == literal else None
+
+
+def classes(literals: Iterable[str], *, are_plain: bool) -> tuple[list[int], list[Any]] | None:
+    """Return for each literal the number of its value among those that differ, and the values, as `key_of` has them.
+
+    None where one is not plain; `are_plain` says that all texts among them are.
+    """
+    known: dict[str, int] = dict.fromkeys(literals, 0)
+    numbers: dict[Any, int] = {}
+    for literal in known:
+        key = literal[1:-1] if are_plain and literal[0] in _QUOTES else key_of(literal)
+        if key is None:
+            return None
+        known[literal] = numbers.setdefault(key, len(numbers))
+    return [known[literal] for literal in literals], list(numbers)
+
+
+def slots(parts: Sequence[str]) -> list[int]:
+    """Return the numbers of the literals, in a text that was split, whose values may be others.
+
+    They are equal to none that may decide something, and to no name: that may be a constant too, as those of keywords
+    are. So may 0 be, where nobody has written it.
+    """
+    keys = [None if part[0] == "#" else key_of(part) for part in parts[1::2]]
+    found, words = _candidates(parts)
+    others = {key for index, key in enumerate(keys) if key is not None and index not in found}
+    kept = others | words | {(int, 0), None}
+    return [index for index in found if keys[index] not in kept]
+
+
+def _candidates(parts: Sequence[str]) -> tuple[dict[int, None], set[str]]:
+    """Return the numbers of literals that stand where they decide nothing; and the words of the text."""
+    found: dict[int, None] = {}
+    words: set[str] = set()
+    around: list[tuple[str, str]] = []
+    before, last = "\n", -1
+    for index, part in enumerate(parts):
+        if index & 1:
+            if part[0] != "#":
+                last, token, before = index, before, part
+            continue
+        for sign in _TOKEN.findall(part):
+            if (sign == "\n" and around) or sign == "\\\n":
+                continue
+            if last >= 0:
+                if _decides_nothing(parts[last], token, sign, around):
+                    found[last // 2] = None
+                last = -1
+            if sign in _OPENING:
+                around.append((sign, before))
+            elif sign in _CLOSING and around:
+                around.pop()
+            else:
+                words.update(sign.split("."))
+            before = sign
+    return found, words
+
+
+def _decides_nothing(literal: str, before: str, behind: str, around: Sequence[tuple[str, str]]) -> bool:
+    """Return whether a literal is a whole element, by the tokens next to it and the brackets that are open there."""
+    if not around:  # a statement that assigns it
+        return before == "=" and behind == "\n"
+    sign, outside = around[-1]
+    if before not in _BEFORE or behind not in _BEHIND or outside in _OPERATORS:
+        return False
+    named = outside[-1].isalnum() or outside[-1] == "_"
+    named = named and outside[0] not in _QUOTES and not iskeyword(outside)
+    if sign == "[" and (named or outside in _CLOSING or outside[-1] in _QUOTES):
+        return named and literal[0] in _QUOTES  # a subscript, else of what the compiler may look into
+    return named or not (before == "(" and behind == ")")  # else in brackets alone
