@@ -45,7 +45,7 @@ def unshare_words() -> tuple[str, ...] | None:
     for words in (_AS_ROOT, _AS_USER):
         command = ["unshare", *words, "mount", "-t", "tmpfs", "trial", "/dev/shm"]  # noqa: S108 - of its own
         with contextlib.suppress(OSError):
-            if subprocess.run(command, capture_output=True, check=False, timeout=20).returncode == 0:
+            if subprocess.run(command, capture_output=True, check=False, timeout=60).returncode == 0:
                 return words
     return None
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
     from orchestra.probes.protocol import Cancel, Probe, Request, Result
 
-PATIENCE = 30.0
+PATIENCE = 60.0
 
 
 class Place:

@@ -39,7 +39,7 @@ if TYPE_CHECKING:
 HERE = Location(point("by_hand.yaml"))
 PROCESSES = Path(__file__).parents[1] / "processes"
 # Generous: it only ends tests that would otherwise hang.
-PATIENCE = 40.0
+PATIENCE = 90.0
 # Signals 32 and 33 in a set: the C library lets what it starts begin with them ignored, and nobody else can use them.
 INTERNAL = 0x180000000
 _PLAIN = RunOptions()

@@ -41,7 +41,7 @@ told = {
 }
 with open(sys.argv[1], "w") as file: json.dump(told, file)
 """
-_PATIENCE = 20.0
+_PATIENCE = 60.0
 _BY_SHELL = {"shell": True}
 
 
