@@ -14,7 +14,7 @@ import pytest
 from orchestra.cli.main import main
 from tests.killing import kill
 from tests.ros.container.conftest import Boxes
-from tests.supervise.plans import PATIENCE, wait_for
+from tests.supervise.plans import PATIENCE
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -100,7 +100,7 @@ def test_a_component_runs_in_a_container_of_its_own(domain: dict[str, str], aski
             assert popen.wait(PATIENCE) == 130
         finally:
             kill(popen)
-    wait_for(lambda: not [one for one in asking.graph() if "sole" in one or "stubborn" in one], "its end")
+    asking.left_by("sole", "stubborn")
 
 
 def test_the_components_that_packages_register_are_listed(
