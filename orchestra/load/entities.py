@@ -26,6 +26,7 @@ if TYPE_CHECKING:
 PARAMETERS: Final = "this is a parameter file, not a launch file"
 _NODE: Final = frozenset({"pkg", "exec"})
 _SECTION: Final = "ros__parameters"
+_OF_LYRICAL: Final = frozenset({"log_debug", "log_error", "log_info", "log_warning"})
 _EntityT = TypeVar("_EntityT", bound="Entity")
 
 
@@ -221,7 +222,9 @@ class _Builder:
             return None, False
         near, slip = action_meant(name)
         instead = as_written(near, name) if near is not None and slip else near
-        self.reader.error(Code.UNKNOWN_ACTION, f"unknown action '{name}'", at, suggestion=instead)
+        newer = ": it came with ROS 2 Lyrical" if spelled(name) in _OF_LYRICAL else ""
+        instead = "log" if newer else instead
+        self.reader.error(Code.UNKNOWN_ACTION, f"unknown action '{name}'{newer}", at, suggestion=instead)
         return (model_of(near) if near is not None and slip else None), False
 
     def _no_mapping(self, content: Any, at: Span, model: type[Entity]) -> None:  # noqa: ANN401 - a tree

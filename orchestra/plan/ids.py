@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from orchestra.errors import Problems
     from orchestra.location import Location, Span
+    from orchestra.resolve.model import Resolved
 
 _TWICE = 2
 _TRANSFORM = "static_transform_publisher"
@@ -82,8 +83,8 @@ def check_names(
         earlier = first.setdefault(name, process)
         if earlier is process:
             continue
-        domain = _domain(process, containers)
-        if domain != _domain(earlier, containers):
+        domain = domain_of(process, containers)
+        if domain != domain_of(earlier, containers):
             earlier = first.setdefault(f"{name} of {domain}", process)
             if earlier is process:
                 continue
@@ -132,7 +133,7 @@ def _tell_twice(processes: Sequence[ResolvedProcess | ResolvedComponent], proble
     return found
 
 
-def _domain(
+def domain_of(
     process: ResolvedProcess | ResolvedComponent | None, containers: Sequence[ResolvedProcess]
 ) -> str | None:
     """Return the ROS domain that a node is given, where it is; a component has that of its container."""
@@ -149,6 +150,14 @@ def _domain(
             process = next(there, None)
     changes = () if process is None else process.environment.get("ROS_DOMAIN_ID", ())
     return changes[-1].value if changes else None
+
+
+def domains_of(resolved: Resolved) -> dict[int, str | None] | None:
+    """Return the ROS domains of processes and components by their `id`; None where none is given any."""
+    if not any("ROS_DOMAIN_ID" in process.environment for process in resolved.processes):
+        return None
+    nodes: tuple[ResolvedProcess | ResolvedComponent, ...] = (*resolved.processes, *resolved.components)
+    return {id(node): domain_of(node, resolved.processes) for node in nodes}
 
 
 def _is_refused(process: ResolvedProcess | ResolvedComponent) -> bool:

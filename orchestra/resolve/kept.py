@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+from orchestra.dataclass import dataclass
 from orchestra.resolve.context import Value
+from orchestra.resolve.scope import Scope
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -13,6 +15,13 @@ if TYPE_CHECKING:
     from orchestra.location import Location
     from orchestra.resolve.context import Evaluated
     from orchestra.resolve.resolution import Resolution
+
+
+@dataclass(slots=True)
+class Apart(Scope):
+    """A scope that sees no more of the variables `outside` than it keeps."""
+
+    outside: tuple[str, ...] = ()
 
 
 def kept(pairs: Sequence[Pair], run: Resolution) -> list[tuple[str, Evaluated, Location]]:

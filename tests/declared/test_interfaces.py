@@ -69,6 +69,12 @@ def test_two_types_of_one_name(
     ]
 
 
+def test_nodes_of_two_domains_do_not_meet(tmp_path: Path) -> None:
+    publishers = _topic("publishers"), _topic("subscriptions", kind_of_message="std_msgs/msg/Int32")
+    apart = _LAUNCH.replace("name: talker}", "name: talker, env: [{name: ROS_DOMAIN_ID, value: '3'}]}")
+    assert _checked(tmp_path, *publishers, apart) == ()
+
+
 def test_the_rule_that_leads_to_the_wrong_name_is_the_place(tmp_path: Path) -> None:
     launch = _LAUNCH.replace("name: talker}", "name: talker, remap: [{from: out, to: /chatter}]}")
     (problem,) = _checked(

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.declared.interfaces.finding import may_be_declared
 from orchestra.plan.checks.declared import nodes_of
+from orchestra.plan.ids import domains_of
 from orchestra.resolve.model import ResolvedComponent
 
 if TYPE_CHECKING:
@@ -27,4 +28,9 @@ def check_interfaces(resolved: Resolved, plan: Plan, problems: Problems) -> None
     # Here, because few packages declare interfaces, and for what it imports.
     from orchestra.plan.connections import check_connections  # noqa: PLC0415
 
-    check_connections(nodes, problems)
+    domains = domains_of(resolved)
+    if domains is None:
+        check_connections(nodes, problems)
+        return
+    for domain in dict.fromkeys(domains.values()):  # nodes of two never meet
+        check_connections([item for item in nodes if domains[id(item[0])] == domain], problems)

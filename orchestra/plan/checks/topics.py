@@ -10,11 +10,12 @@ from typing import TYPE_CHECKING, Final, TypeAlias
 
 from orchestra.dataclass import dataclass, maker
 from orchestra.errors import Code
+from orchestra.plan.ids import domains_of
 from orchestra.resolve.context import Value
 from orchestra.resolve.names import InvalidName, expanded
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Iterator
+    from collections.abc import Iterable, Iterator, Sequence
 
     from orchestra.errors import Problems
     from orchestra.plan.model import Component, Plan, Process
@@ -47,10 +48,21 @@ def check_topics(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     uses = list(_uses(resolved, plan))
     if not uses:
         return
+    told: set[object] = {problem.span for problem in problems if problem.code in _KNOWN}
+    domains = domains_of(resolved)
+    if domains is None:
+        _check_domain(uses, plan, told, problems)
+        return
+    of_nodes = {planned.id: domains[id(written)] for planned, written in _pairs(resolved, plan)}
+    for domain in dict.fromkeys(of_nodes.values()):  # nodes of two never meet
+        _check_domain([use for use in uses if of_nodes[use.node] == domain], plan, told, problems)
+
+
+def _check_domain(uses: Sequence[_Use], plan: Plan, told: set[object], problems: Problems) -> None:
+    """Report such names of nodes that may meet."""
     users: dict[str, set[str]] = {}
     for use in uses:
         users.setdefault(use.name, set()).add(use.node)
-    told: set[object] = {problem.span for problem in problems if problem.code in _KNOWN}
     for alike in _alike(uses, plan):
         _check(alike, users, told, problems)
 
@@ -117,11 +129,7 @@ def _above(name: str) -> Iterator[str]:
 
 
 def _uses(resolved: Resolved, plan: Plan) -> Iterator[_Use]:
-    pairs: list[tuple[_Planned, _Written]] = [
-        *zip(plan.processes, resolved.processes, strict=True),
-        *zip(plan.components, resolved.components, strict=True),
-    ]
-    for planned, written in pairs:
+    for planned, written in _pairs(resolved, plan):
         if not written.faulty:
             yield from _remapped(planned, written)
     for process, item in zip(plan.processes, resolved.processes, strict=True):
@@ -136,6 +144,12 @@ def _uses(resolved: Resolved, plan: Plan) -> Iterator[_Use]:
         for name, value in names:
             if name is not None and value is not None:
                 yield _Use(name, value, process.id, process.namespace or "/")
+
+
+def _pairs(resolved: Resolved, plan: Plan) -> Iterator[tuple[_Planned, _Written]]:
+    """Yield the processes and components of a plan, each with what it was resolved to."""
+    yield from zip(plan.processes, resolved.processes, strict=True)
+    yield from zip(plan.components, resolved.components, strict=True)
 
 
 def _remapped(planned: _Planned, written: _Written) -> Iterator[_Use]:

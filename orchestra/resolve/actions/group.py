@@ -6,9 +6,8 @@ from contextlib import nullcontext
 from typing import TYPE_CHECKING
 
 from orchestra.resolve.impossible.late_settings import check_late
-from orchestra.resolve.kept import kept
+from orchestra.resolve.kept import Apart, kept
 from orchestra.resolve.repetition import repeated
-from orchestra.resolve.scope import Scope
 from orchestra.witness.variables import copied
 
 if TYPE_CHECKING:
@@ -33,5 +32,6 @@ def _scope(action: Group, run: Resolution) -> AbstractContextManager[None]:
         return nullcontext()
     check_late(action.children, run)
     if run.flag(action.forwarding, default=True) is False:
-        return run.scoped(Scope(run.problems, run.scope.ledger, copied(run.inputs.environment)))
+        environment = copied(run.inputs.environment)
+        return run.scoped(Apart(run.problems, run.scope.ledger, environment, outside=run.scope.names()))
     return run.scope.nested()

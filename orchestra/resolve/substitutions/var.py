@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.description.text import Words
 from orchestra.errors import Code
+from orchestra.location import is_python
 from orchestra.nearest import nearest, one_slip
 from orchestra.patterns import pattern
 from orchestra.resolve.context import POISON, Value, new_value
@@ -64,4 +65,7 @@ def _report(name: str, written: Template, context: Context) -> Poison:
     if meant is None and getattr(context.variables, "left_open", False):
         return POISON
     told = f"no launch argument or variable {name!r} is set here"
+    if name in getattr(context.variables, "outside", ()):
+        meant, way = None, "launch_configurations" if is_python(written.span) else "`keep`"
+        told += f": {way} of the group around it lets the one outside in"
     return refuse(written, context, Code.UNDEFINED_VARIABLE, told, meant=meant)
