@@ -94,15 +94,43 @@ def domain() -> Iterator[dict[str, str]]:
         }
 
 
+class Nodes:
+    """The nodes of `tests/processes/talked_with.py`. Where their process has ended another one follows."""
+
+    def __init__(self, domain: dict[str, str]) -> None:
+        self._domain = domain
+        self._process: subprocess.Popen[str] | None = None
+
+    def start(self) -> None:
+        """See that they are there."""
+        if self._process is not None and self._process.poll() is None:
+            return
+        self.close()
+        self._process = subprocess.Popen(
+            [sys.executable, str(_PROGRAM)], env=self._domain, stdout=subprocess.PIPE, text=True
+        )
+        assert self._process.stdout is not None
+        assert "ready\n" in self._process.stdout  # the middleware may say something before
+
+    def close(self) -> None:
+        """End them."""
+        if self._process is not None:
+            kill(self._process)
+            assert self._process.stdout is not None
+            self._process.stdout.close()
+            self._process = None
+
+
 @pytest.fixture(scope="session")
-def graph(domain: dict[str, str]) -> Iterator[Graph]:
-    """The nodes of `tests/processes/talked_with.py`."""
-    with subprocess.Popen(
-        [sys.executable, str(_PROGRAM)], env=domain, stdout=subprocess.PIPE, text=True
-    ) as process:
-        try:
-            assert process.stdout is not None
-            assert "ready\n" in process.stdout  # the middleware may say something before
-            yield Graph(domain)
-        finally:
-            kill(process)
+def nodes(domain: dict[str, str]) -> Iterator[Nodes]:
+    """The nodes of a session."""
+    found = Nodes(domain)
+    yield found
+    found.close()
+
+
+@pytest.fixture
+def graph(nodes: Nodes, domain: dict[str, str]) -> Graph:
+    """A graph with those nodes."""
+    nodes.start()
+    return Graph(domain)
