@@ -28,6 +28,8 @@ _OUTSIDE: Final = re.compile(
 )
 # The end of a word in quotes, and the beginning of another one.
 _SIDE_BY_SIDE: Final = re.compile(rb"""['"](?<=[^\s"'\\=:].)\s+['"][\w/-]""")
+# A function that is given an event, by the names that people give it.
+_OF_EVENT: Final = re.compile(rb"(?:lambda[ \t]+|def[ \t]+\w+\((?:self,[ \t]*)?)(?:\w*event\w*|_?ev?|evt)\b")
 
 
 class Compiled:
@@ -134,6 +136,12 @@ def has_joined_words(source: bytes) -> bool:
     return _SIDE_BY_SIDE.search(source) is not None
 
 
+def has_event_functions(source: bytes) -> bool:
+    """Return whether a function may be called with what an event handler waits for."""
+    has_handler = any(sign in source for sign in (b"OnProcess", b"OnShutdown", b"OnExecution"))
+    return has_handler and _OF_EVENT.search(source) is not None
+
+
 def _sets_tuples(code: CodeType, _source: bytes) -> bool:
     """Return whether a name is set to a tuple of one."""
     written, storing = code.co_code, _storing()
@@ -190,6 +198,7 @@ LOOKS: Final[dict[str, Callable[[CodeType, bytes], bool]]] = {
     "roots": lambda _, source: has_late_roots(source),
     "joined": lambda _, source: has_joined_words(source),
     "tuples": _sets_tuples,
+    "events": lambda _, source: has_event_functions(source),
     "misused": _may_be_misused,
 }
 # By the looks that say whether a file may have such slips: the modules that tell of them.
@@ -199,6 +208,7 @@ OF_TEXTS: Final = {
     "roots": "late_roots",
     "joined": "joined_words",
     "tuples": "trailing_commas",
+    "events": "event_functions",
 }
 
 

@@ -55,7 +55,7 @@ _CHANGING: Final = frozenset(
     {*("append", "extend", "insert", "update", "sort", "reverse", "add_action", "add_entity")}
 )
 _CHANGED: Final = pattern(rb"\.(?:%s)\(" % "|".join(sorted(_CHANGING)).encode())
-_TAKES: Final = pattern(rb"(?:=|return|[(\[,])[ \t]*[\w.]*(?:\([^()]*\)|\[[^\[\]]*\])?$")
+_TAKES: Final = pattern(rb"(?:=|return|[(\[,])[ \t]*[\w.]*(?:\([^()]*\)|\[[^\[\]]*\]|\{[^{}]*\})?$")
 _WAITED_FOR: Final = pattern(rb"\b(?:target_action|target_lifecycle_node)[ \t]*=[ \t]*(\w+)")
 _DONE: Final = pattern(rb"\b(?:on_\w+|entities|actions)[ \t]*=[ \t]*\[?\s{0,80}(\w+)")
 _DOTTED: Final = pattern(rb"['\"]\w+(?:\.\w+)+['\"][ \t]*:")

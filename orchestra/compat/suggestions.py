@@ -93,6 +93,8 @@ def _where_found(problem: Problem, span: Span, found: Literal) -> Problem:
         undeclared = _UNSET.fullmatch(problem.message) if problem.code is Code.UNDEFINED_VARIABLE else None
         way = "" if undeclared is None else f"; DeclareLaunchArgument({undeclared[1]}) declares it"
         return replace(problem, span=_narrower(problem, found), message=problem.message + way)
+    if problem.code is Code.UNKNOWN_DEPENDENCY and isinstance(found.node, ast.Constant):
+        return replace(problem, span=found.span)  # a whole name
     is_name = not isinstance(span, Argument)  # else it may stand for what is wrong
     wrong = (
         part_of(found, meant, problem.message)

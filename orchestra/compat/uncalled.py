@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.rewritten import Rewritten
 from orchestra.compat.syntax_trees import called_by, node_span
-from orchestra.errors import Code
+from orchestra.errors import Code, Severity
 from orchestra.fields import replace
 from orchestra.location import Location
 
@@ -32,6 +32,9 @@ _NOT_CALLED: Final = " is not called: "
 _CONDITIONS: Final = frozenset(
     {"IfCondition", "LaunchConfigurationEquals", "LaunchConfigurationNotEquals", "UnlessCondition"}
 )
+_OF_TRUTHS: Final = {"IfCondition": "UnlessCondition", "UnlessCondition": "IfCondition"}
+_TWO: Final = 2
+_LOGIC: Final = "conditions of Python's are always true: substitutions have a logic of their own"
 
 
 def tell_uncalled(path: str, tree: Tree, problems: Problems, chain: tuple[Span, ...]) -> None:
@@ -47,8 +50,13 @@ def tell_uncalled(path: str, tree: Tree, problems: Problems, chain: tuple[Span, 
             if at is not None and id(found) not in done:
                 done.add(id(found))
                 _tell(path, found, at, problems, chain)
+        logic = _logic(node, tree)
+        if logic is not None:
+            done.update(map(id, ast.walk(node)))
+            span = node_span(path, logic[0])
+            problems.warning(Code.IMPOSSIBLE_CONDITION, _LOGIC, Location(span, chain), suggestion=logic[1])
         for tested in _decided(node):
-            if called_by(tree.meaning(tested)) in _CONDITIONS:
+            if called_by(tree.meaning(tested)) in _CONDITIONS and id(tested) not in done:
                 context = tree.context_around(tested) or "context"
                 span = node_span(path, tested, quotes=True)
                 message = "a condition of Python's is always true: evaluate(context) tells what it comes to"
@@ -56,11 +64,45 @@ def tell_uncalled(path: str, tree: Tree, problems: Problems, chain: tuple[Span, 
                 problems.warning(Code.IMPOSSIBLE_CONDITION, message, Location(span, chain), suggestion=meant)
 
 
+def _logic(node: ast.AST, tree: Tree) -> tuple[ast.expr, Rewritten | None] | None:
+    """Return what Python makes one condition of others by, and the condition that was meant, where that is known."""
+    match node:
+        case ast.UnaryOp(op=ast.Not(), operand=operand):
+            given = [operand]
+        case ast.BoolOp(values=given):
+            pass
+        case _:
+            return None
+    calls = [tree.meaning(item) for item in given]
+    if any(called_by(call) not in _OF_TRUTHS for call in calls):
+        return None
+    tested = [(called_by(call), call.args) for call in calls if isinstance(call, ast.Call)]
+    if any(len(args) != 1 for _, args in tested):
+        return node, None
+    texts = [(str(name), ast.unparse(args[0])) for name, args in tested]
+    if isinstance(node, ast.UnaryOp):
+        return node, Rewritten(f"{_OF_TRUTHS[texts[0][0]]}({texts[0][1]})")
+    kind = (
+        "AndSubstitution"
+        if isinstance(node, ast.BoolOp) and isinstance(node.op, ast.And)
+        else "OrSubstitution"
+    )
+    inner = (text if name == "IfCondition" else f"NotSubstitution({text})" for name, text in texts)
+    return node, Rewritten(f"IfCondition({kind}({', '.join(inner)}))") if len(texts) == _TWO else None
+
+
 def without_methods(problems: Iterable[Problem]) -> Callable[[Problem], Problem | None]:
     """Return what leaves out the problems of a value that is a method, in a file where that is told."""
     files = {item.span.file for item in problems if item.span is not None and _NOT_CALLED in item.message}
+    logic = {item.span: item for item in problems if item.message == _LOGIC}
+    same = [item for item in problems if item.span in logic and item.message != _LOGIC]
+    grave = {item.span for item in same if item.severity is Severity.ERROR}
 
     def kept(problem: Problem) -> Problem | None:
+        if problem.span in logic:
+            is_grave = problem.span in grave
+            told = replace(problem, severity=Severity.ERROR) if is_grave else problem
+            return told if problem.message == _LOGIC else None
         is_there = problem.span is not None and problem.span.file in files
         is_of_method = "method" in problem.message and _NOT_CALLED not in problem.message
         return None if is_there and is_of_method else problem

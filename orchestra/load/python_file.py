@@ -130,11 +130,12 @@ def _ran(
     """
     carrying: CarryingOn | None = None
     code: Compiled | None = None
+    ran: Compiled | None = None  # the file as it is, where it is Python
     known: dict[str, Any] = {}
     while True:
         try:
             with collecting(problems, included_from):
-                code = connection().code(path, source) if code is None else code
+                code = ran = connection().code(path, source) if code is None else code
                 _get_ready(path, at, code)
                 module = load_module(path, code.code, known)
                 at = _definition(module, at)
@@ -157,6 +158,9 @@ def _ran(
                 from orchestra.compat.calls_behind import tell_keywords  # noqa: PLC0415 - as above
 
                 tell_keywords(path, FUNCTION, problems, included_from)
+                if ran is not None:
+                    for kinds in (OF_CODE, OF_TEXTS):
+                        tell_slips(ran, kinds, path, problems, included_from)
                 return None
 
 

@@ -131,13 +131,23 @@ def _report_missing(
     known = containers.names
     if is_mistake(component.container.text, known, resolved):
         message = f"no process of this plan is the container '{component.container.text}'"
-        suggestion = nearest(component.container.text, known)
+        suggestion = nearest(component.container.text, known) or _elsewhere(
+            component.container.text, resolved
+        )
         at = component.container.location
         if suggestion is not None or any(map(_is_container, resolved.processes)):
             problems.warning(Code.UNKNOWN_DEPENDENCY, message, at, suggestion=suggestion)
         else:
             told = f"{message}; whoever includes this, or another launch, starts it"
             problems.weighed(Severity.NOTE, Code.UNKNOWN_DEPENDENCY, told, at)
+
+
+def _elsewhere(name: str, resolved: Resolved) -> str | None:
+    """Return the container that has a name in another namespace, where it is the only one."""
+    last = name.rpartition("/")[2]
+    names = {node_name(process) for process in filter(_is_container, resolved.processes)}
+    found = [known for known in names if known is not None and known.rpartition("/")[2] == last]
+    return found[0] if len(found) == 1 else None
 
 
 def _is_container(process: ResolvedProcess) -> bool:

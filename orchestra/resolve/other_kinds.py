@@ -24,6 +24,11 @@ if TYPE_CHECKING:
 
 _BY_NAME: Final = pattern(r"\.py$|\.launch(\.\w+)?$")
 _ENDINGS: Final = {"python": (".py",), "xml": (".xml",), "yaml": (".yaml", ".yml")}
+_OWN: Final = {
+    ".xml": "XMLLaunchDescriptionSource",
+    ".yaml": "YAMLLaunchDescriptionSource",
+    ".yml": "YAMLLaunchDescriptionSource",
+}
 _BY_TEXT: Final = pattern(r"\A\s*<|^launch[ \t]*:", re.MULTILINE)
 
 
@@ -51,7 +56,8 @@ def refused_as_language(path: str, action: Include, location: Location, run: Res
     span = location.span if call is None or place is None else node_span(place.file, call.func)
     meant = "PythonLaunchDescriptionSource" if ending in _ENDINGS["python"] else "AnyLaunchDescriptionSource"
     language = {"python": "Python"}.get(action.language or "", str(action.language).upper())
-    message = f"{displayed(path)} is no launch file in {language}: {meant} reads it"
+    others = "" if ending in _ENDINGS["python"] else f" or {_OWN[ending]}"
+    message = f"{displayed(path)} is no launch file in {language}: {meant}{others} reads it"
     run.problems.error(
         Code.UNKNOWN_FORMAT,
         message,
