@@ -213,8 +213,16 @@ assert os.listdir(tempfile.gettempdir()) == []
 def generate_launch_description():
     return LaunchDescription([])
 """
-    deeds = ("", "tempfile.mkstemp()", "", "os.chmod(tempfile.gettempdir(), 0)", "", "tempfile.mkstemp()")
+    deeds = (
+        "",
+        "tempfile.mkstemp()",
+        "",
+        "os.chmod(tempfile.gettempdir(), 0)",
+        "",
+        "os.rmdir(tempfile.gettempdir())",
+        "tempfile.mkstemp()",
+    )
     files = {f"{number}.launch.py": code.format(deed) for number, deed in enumerate(deeds)}
     _write(tmp_path / "tree", files)
     done = orchestra("check", "--jobs", "1", str(tmp_path / "tree"))
-    assert (done.returncode, done.stdout) == (0, "no problems in 6 files\n")
+    assert (done.returncode, done.stdout) == (0, "no problems in 7 files\n")

@@ -15,10 +15,10 @@ if TYPE_CHECKING:
 def paths(begun: str, wanted: Callable[[Path], bool] = lambda path: path.is_file()) -> Iterator[Candidate]:
     """Yield the folders, and the files that are wanted, that a begun path can become; hidden ones where asked for."""
     written, _, name = begun.rpartition(os.sep)
-    folder = Path(written or os.sep if os.sep in begun else ".").expanduser()
+    folder = os.path.expanduser(written or os.sep if os.sep in begun else ".")  # noqa: PTH111 - no `~x` fails
     before = begun[: len(begun) - len(name)]
     try:
-        entries = sorted(folder.iterdir())
+        entries = sorted(Path(folder).iterdir())
     except OSError:
         return
     for entry in entries:

@@ -72,7 +72,8 @@ def inherited() -> dict[str, str]:
 def symbols(plan: Plan) -> dict[str, str]:
     """Return what stands for paths of this machine in a portable plan, by the paths."""
     packages = InstalledPackages(as_called(os.environ))
-    found = {str(Path.home()): HOME, sys.prefix: PYTHON_PREFIX}
+    found = {} if (home := os.path.expanduser("~")) == "~" else {home: HOME}  # noqa: PTH111 - nobody may have none
+    found[sys.prefix] = PYTHON_PREFIX
     named = [process.package for process in plan.processes] + [item.package for item in plan.components]
     for package in sorted({*packages.names(), *(name for name in named if name is not None)}):
         prefix, share = packages.prefix(package), packages.share(package)

@@ -128,6 +128,14 @@ def create(options: Namespace) -> tuple[str, object]:
     return text, {"package": name, "folder": str(folder), "files": made}
 
 
+def _user() -> str:
+    """Return the name of who asks; a number that no name is known for, as in a container, may ask too."""
+    try:
+        return getpass.getuser()
+    except (KeyError, OSError):
+        return "nobody"
+
+
 def _files(options: Namespace) -> dict[str, str]:
     """Return the texts of all files by their paths in the folder."""
     name, node, library = options.package, options.node_name, options.library_name
@@ -138,7 +146,7 @@ def _files(options: Namespace) -> dict[str, str]:
         "name": name,
         "description": options.description or f"The package {name}",
         "license": options.license,
-        "maintainer": options.maintainer_name or getpass.getuser(),
+        "maintainer": options.maintainer_name or _user(),
         "email": options.maintainer_email or "nobody@example.com",
     }
     escaped = {key: escape(value) for key, value in about.items()} | {"email": quoteattr(about["email"])}

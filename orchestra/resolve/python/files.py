@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import stat
+from contextlib import suppress
 from typing import ClassVar
 
 
@@ -21,8 +23,14 @@ class Files:
 
     @property
     def used(self) -> bool:
-        """Whether there is a file in it."""
-        return self.folder is not None and bool(os.listdir(self.folder))  # noqa: PTH208 - no paths are wanted
+        """Whether there is a file in it: code may have removed it, or closed it even to us."""
+        if self.folder is None:
+            return False
+        with suppress(OSError):
+            if not os.access(self.folder, os.R_OK):
+                os.chmod(self.folder, stat.S_IRWXU)  # noqa: PTH101 - pathlib is slow
+            return bool(os.listdir(self.folder))  # noqa: PTH208 - no paths are wanted
+        return False
 
     def keep(self, *, more: bool) -> str | None:
         """Let somebody else remove the folder; None where nothing is in it, nor will be: `more` says so."""

@@ -135,7 +135,10 @@ def test_arguments_of_what_is_checked() -> None:
     assert _words("check", "outer.launch.yaml", "spe") == ["speed:="]
 
 
-@pytest.mark.parametrize("words", [("nothing", ""), ("launch", "nowhere.yaml", ""), ("schema", "plan", "")])
+@pytest.mark.parametrize(
+    "words",
+    [("nothing", ""), ("launch", "nowhere.yaml", ""), ("schema", "plan", ""), ("launch", "~nobody_here/")],
+)
 def test_nothing_is_made_up(words: tuple[str, ...]) -> None:
     assert _words(*words) == []
 

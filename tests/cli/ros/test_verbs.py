@@ -136,6 +136,19 @@ def test_a_package_xml_is_shown(orchestra_here: Command, prefix: Path) -> None:
     assert orchestra_here("pkg", "xml", "demo", "-t", "depend", **here).stdout == "a\nb\n"
 
 
+@pytest.mark.parametrize("error", [KeyError("uid not found: 1234"), OSError("No username set")], ids=repr)
+def test_a_package_may_be_created_by_a_user_without_a_name(
+    orchestra_here: Command, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, error: Exception
+) -> None:
+    def refuse() -> str:
+        raise error
+
+    monkeypatch.setattr("getpass.getuser", refuse)
+    made = orchestra_here("pkg", "create", "my_robot", "--destination-directory", str(tmp_path))
+    assert made.returncode == 0
+    assert ">nobody</maintainer>" in (tmp_path / "my_robot" / "package.xml").read_text("utf-8")
+
+
 def test_a_package_is_created_that_can_be_installed(orchestra_here: Command, tmp_path: Path) -> None:
     words = ("pkg", "create", "my_robot", "--destination-directory", str(tmp_path), "--node-name", "my_node")
     made = orchestra_here(*words, "--dependencies", "std_msgs", "--description", "a < b 'c'")
