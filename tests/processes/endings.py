@@ -40,8 +40,8 @@ def hooked() -> None:
 def left() -> None:
     """Let the interpreter's end do the work: what is buffered, what is registered, a thread that goes on."""
     atexit.register(print, "at exit")
-    threading.Timer(0.2, print, ("from a thread",)).start()
     sys.stdout.write("without an end")
+    threading.Timer(0.2, print, ("from a thread",)).start()
 
 
 def handled() -> None:

@@ -22,7 +22,10 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
     from pathlib import Path
 
+# With one that says nothing, with such a one before another that is to answer in time, and with all others.
 QUICK = Patience(every=0.1, answer=0.5, start=1.0, lasting=60.0)
+PATIENT = QUICK._replace(answer=2.0, start=3.0)
+ENDLESS = QUICK._replace(answer=60.0, start=60.0)
 WATCH = {"do": "watch", "fact": "node", "name": "/n"}
 CHANGE = {"do": "change_state", "node": "/n", "transition": 3}
 LOAD = {"do": "load", "container": "/c", "component": {}}
@@ -72,7 +75,10 @@ class Run:
 
 @pytest.fixture
 def run(tmp_path: Path, request: pytest.FixtureRequest) -> Iterator[Run]:
-    manners, patience = request.param if isinstance(request.param, tuple) else (request.param, QUICK)
+    manners, patience = request.param if isinstance(request.param, tuple) else (request.param, None)
+    if patience is None:
+        silent = manners.startswith(("mute", "hang"))
+        patience = ENDLESS if not silent else PATIENT if manners.endswith("good") else QUICK
     run = Run(tmp_path, manners, patience)
     yield run
     run.observers.leave()
@@ -131,7 +137,7 @@ def test_one_that_cannot_begin_is_not_started_again(run: Run) -> None:
     assert run.started == 1
 
 
-@pytest.mark.parametrize("run", [("die", QUICK._replace(lasting=0.0))], indirect=True)
+@pytest.mark.parametrize("run", [("die", ENDLESS._replace(lasting=0.0))], indirect=True)
 def test_one_that_is_lost_after_a_long_time_is_replaced_again(run: Run) -> None:
     run.order("a", WATCH)
     run.until(lambda: run.started > 3)
