@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from contextlib import suppress
 from functools import cache
+from itertools import chain
 from types import CodeType
 from typing import TYPE_CHECKING, Final
 
@@ -45,7 +46,8 @@ _UNCALLED: Final = pattern(rb"\.(?:%s)(?![\w(])" % "|".join(sorted(_METHODS)).en
 _CONDITIONS: Final = frozenset(
     {"IfCondition", "UnlessCondition", "LaunchConfigurationEquals", "LaunchConfigurationNotEquals"}
 )
-_AS_TRUTH: Final = pattern(rb"(?:if|not|and|or) (?:%s)\(" % "|".join(sorted(_CONDITIONS)).encode())
+_ASKING: Final = (b"if", b"not", b"and", b"or")
+_WORD: Final = 3
 _QUOTE: Final = pattern(rb"(?:^|[^\w{])(?:'[^'{}\\]*|\"[^\"{}\\]*)$")
 _IN_LOOP: Final = pattern(
     rb"^([ \t]*)for [^\n]*:[ \t]*\n(\1[ \t]+)\S[^\n]*\n(?:\2[ \t]*\S[^\n]*\n|[ \t]*\n)*?\2return\b",
@@ -59,6 +61,7 @@ _TAKES: Final = pattern(rb"(?:=|return|[(\[,])[ \t]*[\w.]*(?:\([^()]*\)|\[[^\[\]
 _WAITED_FOR: Final = pattern(rb"\b(?:target_action|target_lifecycle_node)[ \t]*=[ \t]*(\w+)")
 _DONE: Final = pattern(rb"\b(?:on_\w+|entities|actions)[ \t]*=[ \t]*\[?\s{0,80}(\w+)")
 _DOTTED: Final = pattern(rb"['\"]\w+(?:\.\w+)+['\"][ \t]*:")
+_ENDS_DOTTED: Final = pattern(rb"\.\w+['\"][ \t]*:")
 _SIDE_BY_SIDE: Final = pattern(rb"parameters\s{0,4}=\s{0,4}\[[^\]]{0,800}\}\s{0,80},\s{0,80}\{")
 _ITEMS: Final = pattern(rb"[\[,]\s{0,80}(\w+)[ \t]{0,80}(?=,|\s{0,80}\])")
 _IN_WORDS: Final = pattern(
@@ -69,21 +72,31 @@ _CLOSING: Final = frozenset((b")", b"]", b"}"))
 _OF_TEXTS: Final = (b"['", b'["', b"('", b'("')
 _IN_LISTS: Final = (b"[[", b", ['", b', ["', b", [\n")
 _LONG: Final = 400
-_SETTING: Final = (b"Dec", b"Set", b"App", b"Log", b"Pus")
-_ACTIONS: Final = (
-    *(b"Node(", b"GroupAction(", b"TimerAction(", b"DeclareLaunchArgument(", b"SetLaunchConfiguration("),
-    *(
-        b"ComposableNodeContainer(",
-        b"IncludeLaunchDescription(",
-        b"OpaqueFunction(",
-        b"RegisterEventHandler(",
-    ),
-    *(b"LogInfo(", b"PushRosNamespace(", b"PushROSNamespace(", b"SetParameter(", b"ExecuteProcess("),
-    *(b"SetRemap(", b"SetEnvironmentVariable(", b"AppendEnvironmentVariable(", b"LoadComposableNodes("),
+_SETTING: Final = ("Dec", "Set", "App", "Log", "Pus")
+_ACTIONS: Final = frozenset(
+    {
+        *("Node", "GroupAction", "TimerAction", "DeclareLaunchArgument", "SetLaunchConfiguration", "LogInfo"),
+        *("ComposableNodeContainer", "IncludeLaunchDescription", "OpaqueFunction", "RegisterEventHandler"),
+        *("PushRosNamespace", "PushROSNamespace", "SetParameter", "ExecuteProcess", "LoadComposableNodes"),
+        *("SetRemap", "SetEnvironmentVariable", "AppendEnvironmentVariable"),
+    }
 )
 # What stands behind a variable that is set, or added to.
 _ONLY: Final = (b" = ", b".add_action(", b".add_entity(", b".append(", b".extend(", b".insert(")
-_KEPT: Final = (b"[", b"LaunchDescription", *(name for name in _ACTIONS if name[:3] in _SETTING))
+_KEPT: Final = (
+    *(b"[", b"LaunchDescription"),
+    *(f"{name}(".encode() for name in sorted(_ACTIONS) if name[:3] in _SETTING),
+)
+
+
+# The modules that tell of each kind of misuse, with their functions.
+_TELLING: Final = {"texts_as_truths": "tell_truths"} | {
+    name: f"tell_{name}"
+    for name in (
+        *("uncalled", "unreached", "without_f", "late_loops", "waiting_in_vain"),
+        *("left_out", "nested_keys", "nested_words", "returning_none"),
+    )
+}
 
 
 def may_be_misused(code: CodeType, source: bytes) -> bool:
@@ -95,18 +108,21 @@ def may_be_misused(code: CodeType, source: bytes) -> bool:
 
 
 class _Words:
-    """The names and constant texts of some code, and of what is in it; whether a function leaves a value alone."""
+    """The names and constant texts of some code, and of what is in it; names of functions that leave a value alone."""
 
     def __init__(self, code: CodeType) -> None:
-        self.names = set[str]()
-        self.has_dots = self.has_braces = self.leaves_alone = False
+        self.names, self.left_alone = set[str](), set[str]()
+        self.has_dots = self.has_braces = False
         self._add(code, {*_operations()})
 
     def _add(self, code: CodeType, leaving: set[int]) -> None:
         self.names.update(code.co_names)
         for item in code.co_consts:
             if type(item) is CodeType:
-                self.leaves_alone = self.leaves_alone or not leaving.isdisjoint(item.co_code[::2])
+                if not leaving.isdisjoint(item.co_code[::2]):
+                    self.left_alone.update(
+                        item.co_names, item.co_varnames, item.co_freevars, item.co_cellvars
+                    )
                 self._add(item, leaving)
             elif type(item) is str:
                 self._say(item)
@@ -121,10 +137,6 @@ class _Words:
         if "{" in text:
             self.has_braces = True
 
-    def have(self, words: AbstractSet[str]) -> bool:
-        """Return whether one of these is among the names."""
-        return not self.names.isdisjoint(words)
-
 
 @cache
 def _operations() -> tuple[int, ...]:
@@ -136,22 +148,47 @@ def _operations() -> tuple[int, ...]:
 
 def _signs(words: _Words, source: bytes) -> Iterator[bool]:
     """Yield whether there is a sign of each kind of misuse."""
-    yield words.have(_PERFORMING) and _asks_for_texts(source)
-    yield words.have(_METHODS) and _is_uncalled(source)
-    yield words.have(_CONDITIONS) and _AS_TRUTH.search(source) is not None
+    names = words.names
+    yield bool(names & _PERFORMING) and _asks_for_texts(source)
+    yield bool(names & _METHODS) and _UNCALLED.search(source) is not None
+    yield _is_asked_for(names & _CONDITIONS, source)
     yield words.has_braces and _has_braces(source)
-    is_later = (b"function" in source or b"on_" in source) and (b"lambda" in source or b"  def " in source)
-    yield is_later and b"for " in source
-    yield words.has_dots and _DOTTED.search(source) is not None
-    yield b"}, {" in source and _SIDE_BY_SIDE.search(source) is not None
-    yield b"},\n" in source and b"parameters" in source and _SIDE_BY_SIDE.search(source) is not None
-    has_words = b"arguments" in source or b"cmd" in source
-    yield has_words and any(sign in source for sign in _IN_LISTS) and _IN_WORDS.search(source) is not None
+    is_later = b"for " in source and (b"function" in source or b"on_" in source)
+    yield is_later and (b"lambda" in source or b"  def " in source)
+    has_keys = words.has_dots and _ENDS_DOTTED.search(source) is not None
+    yield has_keys and _DOTTED.search(source) is not None
+    yield (b"}, {" in source or b"},\n" in source) and _SIDE_BY_SIDE.search(source) is not None
+    places = [at for word in (b"arguments", b"cmd") for at in _places(word, source)]
+    has_lists = any(_holds_list(source, at) for at in places) and any(sign in source for sign in _IN_LISTS)
+    yield has_lists and any(_IN_WORDS.match(source, at) for at in places)
     yield b"target_" in source and not set(_WAITED_FOR.findall(source)).isdisjoint(_DONE.findall(source))
-    yield words.leaves_alone and _stands_alone(source)
-    yield words.have(_CHANGING) and _takes_nothing(source)
+    yield _stands_alone(words.left_alone & _ACTIONS, source)
+    yield bool(names & _CHANGING) and _takes_nothing(source)
     yield _is_left_out(source)
-    yield _is_behind(source.splitlines()) or (b"for " in source and _IN_LOOP.search(source) is not None)
+    returned = source.find(b"return")
+    behind = [] if returned < 0 else source[source.rfind(b"\n", 0, returned) + 1 :].splitlines()
+    yield _is_behind(behind) or (b"for " in source and _IN_LOOP.search(source) is not None)
+
+
+def _places(word: bytes, source: bytes) -> Iterator[int]:
+    """Yield where a word stands: a pattern that begins with it would look for it for longer."""
+    at = source.find(word)
+    while at >= 0:
+        yield at
+        at = source.find(word, at + 1)
+
+
+def _holds_list(source: bytes, at: int) -> bool:
+    """Return whether a bracket is opened inside of the first one behind a place, before one is closed."""
+    begin = source.find(b"[", at) + 1
+    return source.find(b"[", begin, source.find(b"]", begin)) >= 0
+
+
+def _is_asked_for(conditions: AbstractSet[str], source: bytes) -> bool:
+    """Return whether one of some conditions is asked whether it is true where it is made."""
+    made = [f" {name}(".encode() for name in conditions]
+    places = (at for word in made for at in _places(word, source))
+    return any(source.endswith(_ASKING, max(at - _WORD, 0), at) for at in places)
 
 
 def _asks_for_texts(source: bytes) -> bool:
@@ -159,11 +196,6 @@ def _asks_for_texts(source: bytes) -> bool:
     names = set(_SET.findall(source))
     is_asked = not names.isdisjoint(_ASKED.findall(source)) or _ASKED_AT_ONCE.search(source) is not None
     return is_asked or _OTHER.search(source) is not None or b"choices" in source
-
-
-def _is_uncalled(source: bytes) -> bool:
-    """Return whether one of the methods stands without brackets behind it."""
-    return _UNCALLED.search(source) is not None
 
 
 def _has_braces(source: bytes) -> bool:
@@ -189,18 +221,13 @@ def _takes_nothing(source: bytes) -> bool:
     return False
 
 
-def _stands_alone(source: bytes) -> bool:
-    """Return whether a line that goes on with nothing before it makes an action."""
-    for name in _ACTIONS:
-        at = source.find(name)
-        while at >= 0:
-            begin = _line(source, at)
-            if (
-                not source[begin:at].strip()
-                and source[max(begin - _LONG, 0) : begin].rstrip()[-1:] not in _GOING_ON
-            ):
-                return True
-            at = source.find(name, at + 1)
+def _stands_alone(actions: AbstractSet[str], source: bytes) -> bool:
+    """Return whether a line that goes on with nothing before it makes one of some actions."""
+    for at in (at for name in actions for at in _places(f"{name}(".encode(), source)):
+        begin = _line(source, at)
+        is_first = not source[begin:at].strip()
+        if is_first and source[max(begin - _LONG, 0) : begin].rstrip()[-1:] not in _GOING_ON:
+            return True
     return False
 
 
@@ -212,14 +239,11 @@ def _line(source: bytes, place: int) -> int:
 def _is_left_out(source: bytes) -> bool:
     """Return whether a variable is only set and added to, never read, or a list of texts one item of another list."""
     kept, lists = set[bytes](), set[bytes]()
-    at = source.find(b" = ")
-    while at >= 0:
-        name = source[_line(source, at) : at].strip()
+    for at in _places(b" = ", source):
         if source.startswith(_KEPT, at + 3):
-            kept.add(name)
+            kept.add(source[_line(source, at) : at].strip())
         if source.startswith(_OF_TEXTS, at + 3):
-            lists.add(name)
-        at = source.find(b" = ", at + 3)
+            lists.add(source[_line(source, at) : at].strip())
     if lists and not lists.isdisjoint(_ITEMS.findall(source)):
         return True
     return any(_is_only_set(name, source) for name in kept)
@@ -227,15 +251,14 @@ def _is_left_out(source: bytes) -> bool:
 
 def _is_only_set(name: bytes, source: bytes) -> bool:
     """Return whether a variable stands nowhere but where it is set and added to."""
-    uses, at = 0, source.find(name)
-    while at >= 0:
+    uses = 0
+    for at in chain((source.rfind(name),), _places(name, source)):  # most are read at last
         end = at + len(name)
         if not (_is_of_name(source[end : end + 1]) or (at and _is_of_name(source[at - 1 : at]))):
             is_first = not source[_line(source, at) : at].strip()
             if not is_first or not source.startswith(_ONLY, end):
                 return False
             uses += 1
-        at = source.find(name, end)
     return uses > 0
 
 
@@ -265,31 +288,12 @@ def _is_behind(lines: Sequence[bytes]) -> bool:
 def tell(path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
     """Report what a launch file misuses."""
     # Here, because only what may be a mistake needs them, and what they import.
-    from orchestra.compat.late_loops import tell_late_loops  # noqa: PLC0415
-    from orchestra.compat.left_out import tell_left_out  # noqa: PLC0415
-    from orchestra.compat.nested_keys import tell_nested_keys  # noqa: PLC0415
-    from orchestra.compat.nested_words import tell_nested_words  # noqa: PLC0415
-    from orchestra.compat.returning_none import tell_returning_none  # noqa: PLC0415
+    from importlib import import_module  # noqa: PLC0415
+
     from orchestra.compat.syntax_trees import tree_of  # noqa: PLC0415
-    from orchestra.compat.texts_as_truths import tell_truths  # noqa: PLC0415
-    from orchestra.compat.uncalled import tell_uncalled  # noqa: PLC0415
-    from orchestra.compat.unreached import tell_unreached  # noqa: PLC0415
-    from orchestra.compat.waiting_in_vain import tell_waiting_in_vain  # noqa: PLC0415
-    from orchestra.compat.without_f import tell_without_f  # noqa: PLC0415
 
     tree = tree_of(path)
-    for tell_of in (
-        tell_truths,
-        tell_uncalled,
-        tell_unreached,
-        tell_without_f,
-        tell_late_loops,
-        tell_waiting_in_vain,
-        tell_left_out,
-        tell_nested_keys,
-        tell_nested_words,
-        tell_returning_none,
-    ):
+    for module, name in _TELLING.items():
         if tree is not None:
             with suppress(RecursionError):  # what is put together of a thousand pieces is left alone
-                tell_of(path, tree, problems, chain)
+                getattr(import_module(f"orchestra.compat.{module}"), name)(path, tree, problems, chain)
