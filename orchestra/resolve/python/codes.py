@@ -112,12 +112,16 @@ def _unpacked(store: Store, key: str) -> dict[str, _Kept]:
 @lru_cache(maxsize=256)
 def _compiled(path: str, source: bytes) -> tuple[Compiled, bool]:
     """Return the code of a file, and whether to compile it again would tell nobody anything."""
-    code, lasting = _formed(path, source)
-    return Compiled(code, source, {}), lasting
+    told: dict[str, bool] = {}
+    code, lasting = _formed(path, source, told)
+    return Compiled(code, source, told), lasting
 
 
-def _formed(path: str, source: bytes) -> tuple[CodeType, bool]:
-    """Return the code of a file: from that of files that are written alike, which have as many lines."""
+def _formed(path: str, source: bytes, told: dict[str, bool]) -> tuple[CodeType, bool]:
+    """Return the code of a file: from that of files that are written alike, which have as many lines.
+
+    What looks tell of those is `told` of it too.
+    """
     lines = source.count(b"\n")
     if lines not in _alone:
         code, lasting = _from_compiler(path, source)
@@ -132,7 +136,7 @@ def _formed(path: str, source: bytes) -> tuple[CodeType, bool]:
     first, _alone[lines] = _alone[lines], None
     if first is not None:
         FORMS.add(*first)
-    return FORMS.code(path, source, lambda: _from_compiler(path, source))
+    return FORMS.code(path, source, lambda: _from_compiler(path, source), told)
 
 
 def _from_compiler(path: str, source: bytes) -> tuple[CodeType, bool]:

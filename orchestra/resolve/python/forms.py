@@ -19,6 +19,7 @@ import sys
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.compat.looks import LOOKS
 from orchestra.resolve.python.form_codes import CodeForm, Columns, Marks, is_same, may_be_marked
 from orchestra.resolve.python.form_slots import classes, slots, split
 
@@ -34,6 +35,10 @@ _SIGHTS: Final = (
     3  # more files that are alike but for literals and are compiled first: to learn takes as long
 )
 _MOST: Final = 64
+_ASKING_NO_TEXT: Final = (
+    "harmless",
+    "tuples",
+)  # looks at names and instructions alone, and at kinds of constants
 _PATIENCE: Final = 6  # files of one length that are compiled before no more forms are looked for among them
 
 
@@ -45,18 +50,19 @@ class Forms:
         self._missed: dict[int, int] = {}
 
     def code(
-        self, path: str, source: bytes, compiled: Callable[[], tuple[CodeType, bool]]
+        self, path: str, source: bytes, compiled: Callable[[], tuple[CodeType, bool]], told: dict[str, bool]
     ) -> tuple[CodeType, bool]:
         """Return the code of a file, and whether to compile it again would tell nobody anything.
 
-        `compiled` returns both from the compiler, which is asked where no form is known. Raises what it does.
+        `compiled` returns both from the compiler, which is asked where no form is known. Raises what it does. What
+        looks tell of all files of a form is added to what is `told`.
         """
         lines = source.count(b"\n")
         parts = _parts(source) if self._missed.get(lines, 0) < _PATIENCE else None
         if parts is None:
             return compiled()
         known = self._kept(parts)
-        made = _made(known, path, source, parts)
+        made = _made(known, path, source, parts, told)
         if made is not None:
             self._missed.pop(lines, None)
             return made, True
@@ -83,7 +89,9 @@ class Forms:
         return known
 
 
-def _made(known: list[Form | First], path: str, source: bytes, parts: list[str]) -> CodeType | None:
+def _made(
+    known: list[Form | First], path: str, source: bytes, parts: list[str], told: dict[str, bool]
+) -> CodeType | None:
     """Return the code of a file by one of the forms of its text, which may be learned now; None where none fits."""
     literals = parts[1::2]
     are_plain = not any(sign in source for sign in _NOT_PLAIN)
@@ -93,6 +101,7 @@ def _made(known: list[Form | First], path: str, source: bytes, parts: list[str])
             known[index] = learned
             made = learned.code(path, literals, are_plain=are_plain)
             if made is not None:
+                told.update(learned.told)
                 return made
     return None
 
@@ -178,6 +187,7 @@ class Form:
             code, compile("".join(marked), "a form", "exec", dont_inherit=True), marks, self._columns
         )
         self._taken = self._code.fixed
+        self.told = {look: LOOKS[look](code, b"") for look in _ASKING_NO_TEXT}
         if len(marks.seen) != len(marks.values):
             raise ValueError("a literal has become no constant")
 

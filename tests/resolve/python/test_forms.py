@@ -10,6 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from orchestra.compat.looks import LOOKS
 from orchestra.resolve.python import forms as module
 from orchestra.resolve.python.form_codes import is_same
 from orchestra.resolve.python.forms import Forms
@@ -66,9 +67,11 @@ class Files:
             self.compiled += 1
             return compile(text, "a.launch.py", "exec", dont_inherit=True), True
 
-        code, lasting = self.forms.code("a.launch.py", text.encode(), compiled)
+        told: dict[str, bool] = {}
+        code, lasting = self.forms.code("a.launch.py", text.encode(), compiled, told)
         assert lasting
         assert is_same(code, compile(text, "a.launch.py", "exec", dont_inherit=True)), text
+        assert told == {look: LOOKS[look](code, text.encode()) for look in told}
         return code
 
 
@@ -179,5 +182,5 @@ def test_what_the_compiler_tells_of_is_no_form() -> None:
             compiled += 1
             return compile(text, "a", "exec"), False
 
-        assert forms.code("a", text.encode(), told)[1] is False
+        assert forms.code("a", text.encode(), told, {})[1] is False
     assert compiled == 3
