@@ -122,7 +122,8 @@ def test_folders_are_files_too(tmp_path: Path, name: str) -> None:
 def test_where_a_server_may_not_answer_a_program_asks(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(file, "_mounts", lambda: f"1 0 0:1 / {tmp_path} rw - fuse.sshfs robot: rw")
+    folder = str(tmp_path).replace(" ", r"\040")
+    monkeypatch.setattr(file, "_mounts", lambda: f"1 0 0:1 / {folder} rw - fuse.sshfs robot: rw")
     with place(tmp_path) as here:
         probe = file_probe("it", 0.02)
         here.begin(probe)

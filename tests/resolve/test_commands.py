@@ -144,7 +144,7 @@ def test_nothing_outlives_a_command_that_ran_too_long() -> None:
 _CALLER = """
 import os
 from orchestra.resolve.commands import run_command
-run_command(("sh", "-c", "setsid sh -c 'echo $$ >&9; exec sleep 1000' & echo $$ >&9; exec sleep 1000"), os.environ)
+run_command(("sh", "-c", "setsid sh -c 'echo $$ >>$PIDS; exec sleep 1000' & echo $$ >>$PIDS; exec sleep 1000"), os.environ)
 """
 
 
@@ -162,8 +162,9 @@ def _children_of(caller: subprocess.Popen[str], pids: Path, count: int) -> list[
 def test_nothing_outlives_the_caller(ended_by: signal.Signals, tmp_path: Path) -> None:
     pids = tmp_path / "pids"
     pids.touch()
-    script = _CALLER.replace(">&9", f">>{pids}")
-    with subprocess.Popen([sys.executable, "-c", script], stderr=subprocess.DEVNULL, text=True) as caller:
+    environment = {**os.environ, "PIDS": str(pids)}
+    words = [sys.executable, "-c", _CALLER]
+    with subprocess.Popen(words, env=environment, stderr=subprocess.DEVNULL, text=True) as caller:
         left = _children_of(caller, pids, 2)
         caller.send_signal(ended_by)
     for pid in left:
