@@ -16,8 +16,12 @@ from orchestra.testing.domain import free_domain
 from tests.killing import kill
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
 
+# What looks at the graph, and for how many seconds without anything new: on a busy machine that may be long, and an answer
+# that is whole waits for none of it.
+_LOOKING = {"action", "graph", "lifecycle", "node", "param", "service", "tf", "topic"}
+_PATIENT = ("--spin-time", "60")
 _PROGRAM = Path(__file__).parents[2] / "processes" / "talked_with.py"
 
 
@@ -75,10 +79,19 @@ class Graph:
             finally:
                 kill(process)
 
+    def in_time(self, is_right: Callable[[Done], bool], *words: str) -> Done:
+        """Ask for what is to come in one second (`SECONDS` among the words), then in more: a busy machine takes longer."""
+        for seconds in ("1", "5", "25"):
+            done = self.ask(*(seconds if word == "SECONDS" else word for word in words))
+            if is_right(done):
+                break
+        return done
+
     @staticmethod
     def command(*words: str) -> list[str]:
         """Return the words of a command line."""
-        return [sys.executable, "-m", "orchestra", *words]
+        patient = _PATIENT if words[0] in _LOOKING and _PATIENT[0] not in words else ()
+        return [sys.executable, "-m", "orchestra", *words, *patient]
 
 
 @pytest.fixture(scope="session")

@@ -114,7 +114,8 @@ def test_services_are_listed_found_and_told_of(graph: Graph) -> None:
 
 
 def test_frames_are_drawn(graph: Graph) -> None:
-    lines = graph.told("tf", "tree", "--wait", "1", "--spin-time", "60").splitlines()
+    words = ("tf", "tree", "--wait", "SECONDS")
+    lines = graph.in_time(lambda done: len(done.output.splitlines()) == 3, *words).output.splitlines()
     assert lines[0] == "odom"
     assert lines[1].startswith("└─ base  (")
     assert lines[2] == "   └─ laser  (static)"
@@ -127,7 +128,8 @@ def test_a_frame_is_told_in_another(graph: Graph) -> None:
 
 
 def test_a_frame_that_nobody_knows_ends_the_wait_in_time(graph: Graph) -> None:
-    done = graph.ask("tf", "echo", "odom", "lasr", "--timeout", "1.5")
+    words = ("tf", "echo", "odom", "lasr", "--timeout", "SECONDS")
+    done = graph.in_time(lambda done: "laser" in done.errors.splitlines()[-1], *words)
     assert done.status == 1
     assert done.errors.endswith("there is no frame lasr; did you mean laser?\n")
 
@@ -204,6 +206,8 @@ def test_who_does_not_answer_is_told_of(graph: Graph) -> None:
     ):
         deaf.bind(("127.0.0.1", first))
         beside.bind(("127.0.0.1", first + 1))
-        done = graph.ask("node", "list", "--spin-time", "1")
+        done = graph.in_time(
+            lambda done: len(done.output.splitlines()) == 2, "node", "list", "--spin-time", "SECONDS"
+        )
     assert (done.status, done.output) == (0, "/robot1/actor\n/robot1/machine\n")
     assert done.errors.startswith("warning: not everybody has answered")
