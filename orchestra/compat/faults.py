@@ -79,7 +79,14 @@ def _calls(traceback: TracebackType | None) -> list[TracebackType]:
 
 def _explained(error: BaseException, call: TracebackType | None) -> Explanation:
     """Return what the exception means; what Python says of it where nothing better is known."""
-    found = None if call is None else _of_unset(error, call) or _of_tuple(error, call) or _better(error, call)
+    found = (
+        None
+        if call is None
+        else _of_unset(error, call)
+        or _of_tuple(error, call)
+        or _of_machine(error, call)
+        or _better(error, call)
+    )
     if found is not None:
         return found
     if isinstance(error, WrongValue):
@@ -110,6 +117,13 @@ def _of_unset(error: BaseException, call: TracebackType) -> Explanation | None:
     from orchestra.compat import unset_variables  # noqa: PLC0415
 
     return unset_variables.explained(error, call)
+
+
+def _of_machine(error: BaseException, call: TracebackType) -> Explanation | None:
+    # Here, because only mistakes need it, and what it imports.
+    from orchestra.compat import of_the_machine  # noqa: PLC0415
+
+    return of_the_machine.explained(error, Place(call.tb_frame.f_code, call.tb_lasti))
 
 
 def _of_tuple(error: BaseException, call: TracebackType) -> Explanation | None:

@@ -7,15 +7,17 @@
 | an environment variable          | error  | error   | a note                                                  |
 | a file of the machine            | error  | error   | a note                                                  |
 | what runs, for a command         | error  | error   | a note                                                  |
+| what code asks of the machine    | error  | error   | a note                                                  |
 | the working directory            | error  | error   | a note                                                  |
 | a required argument              | error  | error   | a note; an error where arguments are given              |
 
 What comes in packages are their executables, components, Python modules and actions, and interpreters. A program of the
 PATH, such as xacro, is started for what it gives. A file of the machine is neither in the project of the launch file
-nor where packages are. What runs is asked for by `ros2 param get` and its like. From another working directory a
-relative path may lead to a file: one of the folders above the launch file has it. Where a workspace is sourced, what
-the files need of packages should be in it. A name that is hardly anything but a slip for one that is here is an error
-in any case: that is decided where the names are known.
+nor where packages are. Code asks the machine for devices, networks, and what programs tell of them. What runs is asked
+for by `ros2 param get` and its like. From another working directory a relative path may lead to a file: one of the
+folders above the launch file has it. Where a workspace is sourced, what the files need of packages should be in it. A
+name that is hardly anything but a slip for one that is here is an error in any case: that is decided where the names
+are known.
 """
 
 from __future__ import annotations
@@ -28,7 +30,7 @@ from orchestra.errors import Code, Severity
 from orchestra.fields import field
 
 _SOURCED: Final = "AMENT_PREFIX_PATH"
-_OUTSIDE: Final = (Code.UNSET_ENVIRONMENT, Code.MISSING_FILE)  # which no workspace has
+_OUTSIDE: Final = (Code.UNSET_ENVIRONMENT, Code.MISSING_FILE, Code.COMMAND_FAILED)  # which no workspace has
 
 
 @dataclass(frozen=True, slots=True)

@@ -47,7 +47,7 @@ _COLLECTING = 1000  # files, of some 30 kB each, after which memory is tidied up
 # What another machine may have: for want of it a file cannot be read, or an action.
 _LACKING = (
     *(Code.MISSING_PACKAGE, Code.UNSET_ENVIRONMENT, Code.USER_CODE),
-    *(Code.MISSING_EXECUTABLE, Code.MISSING_FILE),
+    *(Code.MISSING_EXECUTABLE, Code.MISSING_FILE, Code.COMMAND_FAILED),
 )
 _ADDED = (Code.UNKNOWN_ACTION,)
 
