@@ -1,6 +1,7 @@
-"""Publishes on topics once it is told to by a line on standard input, or at once.
+"""Publishes on topics.
 
-publisher.py [wait] TOPIC,RELIABILITY,DURABILITY,COUNT ...   ten times a second; COUNT 0 is for ever, - never
+publisher.py TOPIC,RELIABILITY,DURABILITY,COUNT ...   ten times a second; COUNT 0 is for ever, - never; 1 is at once, more are
+                                                      counted from the first subscription
 """
 
 import itertools
@@ -18,9 +19,12 @@ from std_msgs.msg import String
 def publish_on(node: Node, publisher: Publisher, count: int | None) -> None:
     """Publish so many times, None for ever."""
     rest = itertools.repeat(String(data="again")) if count is None else iter([String(data="again")] * count)
+    begun = count is None
 
     def tick() -> None:
-        message = next(rest, None)
+        nonlocal begun
+        begun = begun or bool(publisher.get_subscription_count())
+        message = next(rest, None) if begun else None
         if message:
             publisher.publish(message)
 
