@@ -30,6 +30,9 @@ if TYPE_CHECKING:
 
 MOST_CLIENTS = 128
 _ACCEPTED_PER_TURN = 16
+# No client gets the last descriptors: what starts and ends processes needs some, and imports modules then.
+_KEPT_BACK = 16
+_NONE_LEFT = "the supervisor has no file descriptor left for clients"
 # How long the last events may take on their way to clients that read slowly, all together, in seconds.
 _PARTING = 0.2
 
@@ -84,6 +87,8 @@ class Server:
             _send_away(connection, Refusal("foreign", "only the user whose run it is may control it"))
         elif len(self._guests) >= MOST_CLIENTS and not self._makes_room():
             _send_away(connection, Refusal("busy", f"there are {MOST_CLIENTS} clients already"))
+        elif 0 < os.sysconf("SC_OPEN_MAX") <= connection.fileno() + _KEPT_BACK:  # the kernel gives the lowest
+            _send_away(connection, Refusal("busy", _NONE_LEFT))
         else:
             guest = Guest(self._loop, connection, self._serve, self._guests.discard)
             self._guests.add(guest)
@@ -104,7 +109,7 @@ class Server:
             pass
         else:
             connection.setblocking(False)
-            _send_away(connection, Refusal("busy", "the supervisor has no file descriptor left"))
+            _send_away(connection, Refusal("busy", _NONE_LEFT))
         finally:
             self._reserve = os.open(os.devnull, os.O_RDONLY | os.O_CLOEXEC)
 
