@@ -205,7 +205,7 @@ def test_what_a_run_adds_is_there(tmp_path: Path) -> None:
 )
 def test_a_signal_ends_everything_gently(tmp_path: Path, sent: signal.Signals, status: int) -> None:
     """Each process hears the signal that it wants."""
-    program = 'trap "echo ended >>$1; exit 0" INT; touch $2; while :; do sleep 0.05; done'
+    program = """trap 'echo ended >>"$1"; exit 0' INT; touch "$2"; while :; do sleep 0.05; done"""
     started = [
         process(name, "sh", "-c", program, "-", str(tmp_path / "log"), str(tmp_path / name)) for name in "ab"
     ]
@@ -218,7 +218,7 @@ def test_a_signal_ends_everything_gently(tmp_path: Path, sent: signal.Signals, s
 
 
 def test_what_does_not_heed_signals_is_killed_with_all_that_it_has_started(tmp_path: Path) -> None:
-    program = "trap '' INT TERM; sleep 1000 & echo $! >$1.new; mv $1.new $1; wait"
+    program = """trap '' INT TERM; sleep 1000 & echo $! >"$1.new"; mv "$1.new" "$1"; wait"""
     stop = Stop(timeout=0.3, kill_timeout=0.3)
     stubborn = process("c", "sh", "-c", program, "-", str(tmp_path / "pid"), stop=stop)
     with _running(_script(tmp_path, plan(stubborn))) as running:
