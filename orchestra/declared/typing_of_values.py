@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 from orchestra.declared.texts import written
 from orchestra.nearest import nearest
 from orchestra.resolve.rcl.commas import without_slip
+from orchestra.resolve.rcl.computed import computed
 
 if TYPE_CHECKING:
     from orchestra.declared.model import Parameter, RosType
@@ -96,4 +97,4 @@ def _unquoted(text: str, kind: str) -> str | None:
     try:
         return str(int(text)) if kind == "integer" else written(float(text)) if kind == "double" else None
     except ValueError:
-        return None
+        return computed(text) if kind == "double" else None

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 from xml.parsers.expat import ErrorString, errors
 
 from orchestra.description.actions import ACTIONS, model_of
+from orchestra.load.conflicts import TOLD, settled
 from orchestra.load.forms import forms_of
 from orchestra.load.keys import spelled
 from orchestra.load.mended import Mend
@@ -54,6 +55,10 @@ def mends(error: RefusedError, whole: Source) -> Iterator[Mend]:
 
 
 def _guesses(error: NotXmlError, text: str, begin: int, end: int) -> Iterator[Mend]:
+    conflict = tuple(settled(text, begin)) if error.fault.message == TOLD else ()
+    if conflict:
+        yield from conflict
+        return
     by_reason = _BY_REASON.get(ErrorString(error.code))
     if by_reason is not None:
         yield from by_reason(error, text, begin, end)

@@ -6,6 +6,7 @@ import re
 from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
+from orchestra.load.conflicts import TOLD, is_mark
 
 if TYPE_CHECKING:
     from orchestra.load.elements import Element
@@ -22,7 +23,11 @@ def tell_text(element: Element, lacking: frozenset[str], whole: Source, reader: 
     assert element.text is not None  # noqa: S101 - asked by the caller
     message = "text between tags is ignored"
     if not lacking:
-        reader.warning(Code.WRONG_TYPE, message, whole.span(*element.text))
+        begin, end = element.text
+        line = whole.text[begin:].partition("\n")[0].rstrip()
+        if is_mark(line):
+            message, end = TOLD, begin + len(line)
+        reader.warning(Code.WRONG_TYPE, message, whole.span(begin, end))
         return
     key = min(lacking)
     told = f'{message}: write it as {key}="..."'

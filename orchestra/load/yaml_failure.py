@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any, Final
 import yaml
 
 from orchestra.dataclass import dataclass
+from orchestra.load.conflicts import TOLD, conflict_in
 from orchestra.load.faults import Fault
 from orchestra.load.offsets import Source
 
@@ -17,7 +18,6 @@ if TYPE_CHECKING:
 _PARSER: type[Any] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
 _WORD = re.compile(r"[^\s:,\[\]{}#]+")
-_CONFLICT = re.compile(r"^(<{7})(?: .*)?$", re.MULTILINE)
 _INNER = re.compile(r"\[[^][{}]*\]|\{[^][{}]*\}")
 _QUOTES: Final = ("'", '"')
 _OPENS: Final = " \t\n[{(,:"
@@ -115,8 +115,8 @@ class Failure:
 
     def of_conflict(self) -> Fault | None:
         """Return the fault of a merge whose conflict is left in the text, None where it is none of that."""
-        found = _CONFLICT.search(self.text)
-        return self.fault("a conflict of a merge is left here", *found.span(1)) if found else None
+        found = conflict_in(self.text)
+        return None if found is None else self.fault(TOLD, *found)
 
     def of_quotes(self) -> Fault | None:
         """Return the fault of a quote that is missing or stands in a quoted text, None where it is none of that."""

@@ -200,14 +200,11 @@ def _above_items(failure: Failure, begin: int) -> Fault | None:
 
 
 def _is_item(failure: Failure, begin: int) -> bool:
-    """Return whether the line above is an item of a list that stands where this line does."""
+    """Return whether the line above is an item of a list that stands where this line does; behind a '-' that below."""
     line, column = failure.place(begin)
-    above = failure.whole.lines[line - 2] + column - 1 if line > 1 else -1
-    return (
-        above >= 0
-        and failure.text.startswith("- ", above)
-        and not failure.text[above - column + 1 : above].strip()
-    )
+    starts, item = failure.whole.lines, re.compile(f" {{{column - 1}}}- ")
+    beside = (line - 2, line) if failure.text.startswith("-", begin) else (line - 2,)
+    return any(0 <= at < len(starts) and item.match(failure.text, starts[at]) for at in beside)
 
 
 def _no_key(failure: Failure) -> Fault | None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.description.actions import ACTIONS
 from orchestra.load import yaml_plain
+from orchestra.load.conflicts import TOLD, settled
 from orchestra.load.mended import Mend
 from orchestra.load.yaml_escapes import escaped
 from orchestra.load.yaml_file import EXPANDED, tree_of
@@ -22,8 +23,6 @@ if TYPE_CHECKING:
 _BROKEN: Final = re.compile(r"[\r\n]")
 _COMMENT: Final = re.compile(r"(?<!\s)\s+#.*$")  # blanks are gone through once, from the first of them
 _CLOSERS: Final = {"[": "]", "{": "}"}
-_BETWEEN: Final = re.compile(r"^={7}.*\n", re.MULTILINE)
-_MERGED: Final = re.compile(r"^>{7}.*$", re.MULTILINE)
 _AGAIN: Final = re.compile(r"---.*\n(?:launch:.*)?")
 _ITEM: Final = re.compile(r"( *)- (?:" + "|".join(map(re.escape, ACTIONS)) + r")\s*:")
 _TABS: Final = re.compile(r"( *\t[ \t]*)")
@@ -53,8 +52,8 @@ def mends(error: RefusedError, whole: Source) -> Iterator[Mend]:
 
 def _guesses(error: RefusedError, text: str, begin: int, end: int) -> Iterator[Mend]:
     written = text[begin:end]
-    if text.startswith("<<<<<<<", begin):
-        yield from _merged(text, begin)
+    if TOLD in error.fault.message:
+        yield from settled(text, begin)
     elif written in ("'", '"'):
         yield from _quoted(text, begin)
     elif written in _CLOSERS:
@@ -108,16 +107,6 @@ def _without_tabs(text: str, at: int) -> Iterator[Mend]:
         line = (text.find("\n", line) + 1) or len(text)
     for width in (4, 2, 8):
         yield Mend(tuple((begin, end, text[begin:end].replace("\t", " " * width)) for begin, end in tabs))
-
-
-def _merged(text: str, begin: int) -> Iterator[Mend]:
-    """Take the first side of a conflict."""
-    # One after the other: an expression for all of it tries each line between with all that follow.
-    between = _BETWEEN.search(text, begin)
-    end = None if between is None else _MERGED.search(text, between.end())
-    if between is not None and end is not None:
-        first = _line_end(text, begin) + 1
-        yield Mend(((begin, first, ""), (between.start(), end.end(), "")), (begin, end.end()))
 
 
 def _quoted(text: str, begin: int) -> Iterator[Mend]:

@@ -11,6 +11,7 @@ from orchestra.plan.checks.interfaces import check_interfaces
 from orchestra.plan.checks.nameless import check_nameless
 from orchestra.plan.checks.sections import check_sections
 from orchestra.plan.checks.topics import check_topics
+from orchestra.plan.checks.unlike import check_unlike
 from orchestra.plan.checks.waits import check_waits
 from orchestra.witness.once import once
 from orchestra.witness.variables import ObservedEnvironment
@@ -32,6 +33,7 @@ class Check(Protocol):
 
 CHECKS: Final[tuple[Check, ...]] = (
     check_declared,
+    check_unlike,
     check_interfaces,
     check_sections,
     check_waits,

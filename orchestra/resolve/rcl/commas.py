@@ -16,7 +16,7 @@ _DECIMAL: Final = pattern(r"[-+]?(?:0,[0-9]+|[0-9]+,(?:[0-9]{1,2}|[0-9]{4,}))(?:
 _COMMENTED: Final = pattern(rf"({_NUMBER}|true|True|false|False)(?:#+\s?|\s+//\s*)(\S.*)")
 _SUFFIXED: Final = pattern(r"([-+]?[0-9]*\.[0-9]+)[fFdD]")  # as in C
 _BOOLEANS: Final = ("true", "false")
-_SEVERAL: Final = pattern(rf"{_NUMBER}(?:\s*,\s*{_NUMBER})+,?")
+_SEVERAL: Final = pattern(rf"(\()?({_NUMBER}(?:\s*,\s*{_NUMBER})+),?(?(1)\))")
 
 
 # A number with a point, and a letter that looks like a digit.
@@ -41,6 +41,6 @@ def without_slip(text: str) -> tuple[str, str] | None:
         return "a number is written with a point", text.replace(",", ".")
     if "." in text and _LETTERED.fullmatch(text):
         return "a letter stands among its digits", text.translate(_DIGITS)
-    if "." in text and _SEVERAL.fullmatch(text):
-        return "a list stands in [ ]", f"[{text.rstrip(',')}]"
+    if "." in text and (several := _SEVERAL.fullmatch(text)):
+        return "a list stands in [ ]", f"[{several[2]}]"
     return None

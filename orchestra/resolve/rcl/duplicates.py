@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
 from orchestra.resolve.rcl.table import Slots
+from orchestra.resolve.rcl.widened import widened
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -29,6 +30,13 @@ def report_duplicates(sections: Sequence[Section], problems: Problems) -> None:
                 _report_displaced(entry, displaced, slot, problems)
             elif earlier is not None and entry.value is not None and earlier.key != entry.key:
                 _report_duplicate(section.pattern, entry, earlier, slot, problems)
+    for entry, earlier, name in widened(sections):
+        problems.warning(
+            Code.DUPLICATE_PARAMETER,
+            f"'{entry.name}' is set for '/{name}' before; this value counts",
+            entry.key,
+            notes=[f"set first at {earlier.location}"],
+        )
 
 
 def _report_duplicate(pattern: str, entry: Entry, earlier: Entry, slot: Slot, problems: Problems) -> None:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.nearest import nearest
 from orchestra.patterns import pattern
+from orchestra.resolve.rcl.computed import computed
 from orchestra.resolve.rcl.scalars import typed
 
 if TYPE_CHECKING:
@@ -63,6 +64,8 @@ def in_place(text: str, wanted: type, *, quoted: bool, quote: str = '"') -> str 
         return _boolean(text, value)
     if wanted in (int, float) and type(value) is str and _NUMBERS.fullmatch(text):
         return ", ".join(text.split())
+    if wanted is float and type(value) is str:
+        return computed(text)
     if wanted is float:
         return f"{text}.0" if type(value) is int and _WHOLE.fullmatch(text) else None
     pointed = _POINTED.fullmatch(text) if wanted is int else None

@@ -14,6 +14,7 @@ from orchestra.resolve.rcl.patterns import pattern_fault
 from orchestra.resolve.rcl.plain_values import Unlike, value_of
 from orchestra.resolve.rcl.sections import Section, new_entry
 from orchestra.resolve.rcl.strays import SECTION_KEY, is_misspelt_section
+from orchestra.resolve.rcl.widened import widened
 
 if TYPE_CHECKING:
     import re
@@ -58,6 +59,8 @@ def sections_of(text: str, file: str) -> tuple[Section, ...] | None:
         reader.nodes(0, ())
     except (Unlike, IndexError):  # the end where something has to follow
         return None
+    if reader.is_widened and any(widened(reader.found)):
+        return None
     return tuple(reader.found) if reader.next == len(lines) else None
 
 
@@ -68,8 +71,18 @@ class _Lines:
     """
 
     __slots__ = (
-        *("_dotted", "_end_line", "_entries", "_file", "_grouped", "_lines", "_patterns", "_plugged"),
-        *("_taken", "found", "next"),
+        *(
+            "_bare",
+            "_dotted",
+            "_end_line",
+            "_entries",
+            "_file",
+            "_grouped",
+            "_lines",
+            "_patterns",
+            "_plugged",
+        ),
+        *("_taken", "found", "is_widened", "next"),
     )
 
     def __init__(self, file: str, lines: list[tuple[int, re.Match[str]]], end: int | None) -> None:
@@ -77,8 +90,10 @@ class _Lines:
         self._lines = lines
         self._end_line = end
         self._patterns: set[str] = set()
+        self._bare: set[str] = set()
         self.next = 0
         self.found: list[Section] = []
+        self.is_widened = False
 
     def nodes(self, column: int, names: tuple[str, ...]) -> None:
         """Take the mapping from the next line on whose keys begin in a column, below the names of namespaces."""
@@ -109,7 +124,10 @@ class _Lines:
             or self._lines[self.next][1][3] is not None
         ):
             raise Unlike
+        bare = name.removeprefix("/")
+        self.is_widened = self.is_widened or bare in self._bare or ("*" in name and bool(self._patterns))
         self._patterns.add(name)
+        self._bare.add(bare)
         self._entries: list[Entry] = []
         self._taken: set[str] = set()
         self._dotted = self._grouped = self._plugged = False

@@ -36,7 +36,8 @@ _PREFIXED: Final = pattern(r"[-+]?0(?:o(?P<octal>[0-7]+)|b(?P<binary>[01]+))")
 
 
 _NOT_PLAIN: Final = ("'", '"', "!", "&", "|", ">", "")
-_NUMERIC: Final = frozenset("0123456789.+-tTfF")
+_NUMERIC: Final = frozenset("0123456789.+-tTfF(")
+_ENDS: Final = frozenset("0123456789)iI")  # of what may be computed
 _TYPESET: Final = frozenset("\u201c\u201d\u201e\u2018\u2019\u201a\u00ab\u00bb")
 _OPENING: Final = {"]": "[", "}": "{"}
 BREAK: Final = pattern("\r\n|[\r\n\x85\u2028\u2029]")
@@ -146,7 +147,19 @@ def _of_text(text: str) -> Surprise | None:
         number = int(prefixed["octal"], 8) if prefixed["octal"] else int(prefixed["binary"], 2)
         sign = "-" if text.startswith("-") else ""
         return Surprise(f"'{text}' is read as a text, not as the number {sign}{number}", f"{sign}{number}")
-    return of_commas(text)
+    return of_commas(text) or _of_computed(text)
+
+
+def _of_computed(text: str) -> Surprise | None:
+    """Return what is to be said of a text that a number was to be computed from."""
+    if text[-1:] not in _ENDS or text.isdigit():
+        return None
+    from orchestra.resolve.rcl.computed import computed  # noqa: PLC0415 - few texts end so
+
+    number = computed(text)
+    if number is None:
+        return None
+    return Surprise(f"'{text}' is read as a text: nothing is computed in a parameter file", number)
 
 
 def of_commas(text: str) -> Surprise | None:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final
 
 from orchestra.errors import Code
+from orchestra.patterns import pattern
 from orchestra.resolve.context import POISON, Poison
 from orchestra.resolve.refusals import refuse
 from orchestra.resolve.substitutions.arguments import made
@@ -17,6 +18,7 @@ if TYPE_CHECKING:
     from orchestra.resolve.substitutions.arguments import Evaluate
 
 _SEPARATORS: Final = (",", ":", "=")
+_OF_A_SHELL: Final = pattern(r"\$(?:(\w+)|\{(\w+)\})")
 
 
 def looked_up(
@@ -40,6 +42,9 @@ def looked_up(
     value = find(name.text)
     if kind is not None and isinstance(value, str):
         context.variables.note(kind, name.text, value)
+    if value is None and written.constant is not None and (shell := _OF_A_SHELL.fullmatch(name.text)):
+        told = "a name alone stands here, without '$'"
+        return refuse(written, context, Code.SUBSTITUTION_SYNTAX, told, meant=shell[1] or shell[2])
     if value is None and len(call.arguments) > 1:
         if name.text[-1:] in _SEPARATORS and written.constant is not None:
             told = f"blanks alone separate arguments: the name is '{name.text}' here"

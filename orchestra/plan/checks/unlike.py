@@ -1,0 +1,86 @@
+"""Parameters that nodes of one program are given with values of different types, of which one is refused.
+
+A parameter keeps the type it is declared with: `10` for one that another node of the program has as `10.0`, a number in
+quotes. Where the program's parameters are known, they are judged by that (`declared`).
+"""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Final
+
+from orchestra.declared.texts import written
+from orchestra.errors import Code
+from orchestra.plan.checks.declared import nodes_of
+from orchestra.plan.written import Places
+from orchestra.resolve.model import ResolvedComponent
+from orchestra.resolve.rcl.scalars import typed
+
+if TYPE_CHECKING:
+    from typing import TypeAlias
+
+    from orchestra.errors import Problems
+    from orchestra.location import Span
+    from orchestra.plan.model import Component, Plan, Process
+    from orchestra.resolve.model import Resolved, ResolvedProcess
+    from orchestra.values import ParameterValue
+
+    _Node: TypeAlias = "tuple[ResolvedProcess | ResolvedComponent, Process | Component]"
+    _Given: TypeAlias = "tuple[ResolvedProcess | ResolvedComponent, Process | Component, ParameterValue]"
+    _Types: TypeAlias = "dict[str, type]"
+
+_KINDS: Final = {float: "a float", int: "an integer", bool: "a boolean"}
+_TOLD: Final = (Code.DECLARED_TYPE, Code.SURPRISING_SCALAR, Code.REFUSED_VALUE)
+
+
+def check_unlike(resolved: Resolved, plan: Plan, problems: Problems) -> None:
+    """Report values that are no floats where another node of the same program has one, and such in quotes."""
+    programs: dict[tuple[str, str], tuple[_Types, list[_Node], set[str]]] = {}
+    for node, planned in nodes_of(resolved, plan):
+        if node.package is None or node.faulty or not planned.parameters:
+            continue
+        called = node.plugin if isinstance(node, ResolvedComponent) else node.executable
+        types, nodes, odd = programs.setdefault((node.package, called), ({}, [], set()))
+        nodes.append((node, planned))
+        for name, value in planned.parameters.items():
+            if types.setdefault(name, type(value)) is not type(value):
+                odd.add(name)
+    if any(odd for _, _, odd in programs.values()):
+        places, told = Places(resolved), {item.span for item in problems if item.code in _TOLD}
+        for (_, called), (_, nodes, odd) in programs.items():
+            for name in sorted(odd):
+                _tell(name, called, nodes, places, told, problems)
+
+
+def _tell(
+    name: str, called: str, nodes: list[_Node], places: Places, told: set[Span | None], problems: Problems
+) -> None:
+    """Report the values of a parameter that would be of another node's type if they were written as such."""
+    given = [
+        (node, planned, planned.parameters[name]) for node, planned in nodes if name in planned.parameters
+    ]
+    firsts: dict[type, _Given] = {}
+    for item in given:
+        firsts.setdefault(type(item[2]), item)
+    for node, planned, value in given:
+        wanted = next((kind for kind in _KINDS if kind in firsts and _as(value, kind) is not None), None)
+        place = None if wanted is None else places.of(name, node, planned).value
+        if wanted is None or place is None or place.span in told:
+            continue
+        told.add(place.span)
+        other, another, its = firsts[wanted]
+        at = places.of(name, other, another).value
+        problems.warning(
+            Code.DECLARED_TYPE,
+            f"'{name}' is {written(value)} here and {written(its)} for another node of '{called}': "
+            f"one of the two has the wrong type, this should be {_KINDS[wanted]}",
+            place,
+            suggestion=_as(value, wanted),
+            notes=() if at is None else (f"the other one is at {at}",),
+        )
+
+
+def _as(value: ParameterValue, wanted: type) -> str | None:
+    """Return how a value is written with another type, None where it is of that type or cannot be."""
+    if type(value) is int and wanted is float:
+        return written(float(value))
+    return value if isinstance(value, str) and type(typed(value)) is wanted else None
