@@ -8,6 +8,7 @@ from orchestra.errors import Code
 from orchestra.plan.absent import is_mistake
 from orchestra.plan.ids import node_name
 from orchestra.resolve.typos import is_typo
+from orchestra.resolve.typos_among import Names
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
@@ -31,11 +32,11 @@ def check_waits(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     if all(process.ready is None for process in plan.processes):
         return
     nodes: list[ResolvedProcess | ResolvedComponent] = [*resolved.processes, *resolved.components]
-    names = {name for node in nodes if (name := node_name(node)) is not None}
+    started = _Started({name for node in nodes if (name := node_name(node)) is not None})
     for process, written in zip(plan.processes, resolved.processes, strict=True):
         if process.ready is not None and written.ready is not None:
             for name, place in _nodes(process.ready, written.ready):
-                _check_node(name, place, names, resolved, problems)
+                _check_node(name, place, started, resolved, problems)
 
 
 def _check_end(awaited: Process | None, condition: str, location: Location, problems: Problems) -> None:
@@ -61,21 +62,39 @@ def _nodes(ready: Ready, written: ResolvedReady) -> Iterator[tuple[str | None, V
         yield ready.lifecycle.node, written.lifecycle.node
 
 
+class _Started:
+    """The full names of the nodes of a plan, by what they end with and by their namespaces."""
+
+    def __init__(self, names: Collection[str]) -> None:
+        self.names = names
+        self._by_last: dict[str, list[str]] = {}
+        self._by_namespace: dict[str, list[str]] = {}
+        for name in names:
+            namespace, _, last = name.rpartition("/")
+            self._by_last.setdefault(last, []).append(name)
+            self._by_namespace.setdefault(namespace, []).append(last)
+        self._near: dict[str, Names] = {}
+
+    def near(self, name: str) -> list[str]:
+        """Return the names that one is a slip for, in the namespace or in the name itself."""
+        namespace, _, last = name.rpartition("/")
+        found = [
+            known
+            for known in self._by_last.get(last, ())
+            if not namespace or is_typo(namespace, known.rpartition("/")[0])
+        ]
+        if namespace not in self._near:
+            self._near[namespace] = Names(self._by_namespace.get(namespace, ()))
+        return [*found, *(f"{namespace}/{own}" for own in self._near[namespace].meant_by(last))]
+
+
 def _check_node(
-    name: str | None, place: Value | None, names: Collection[str], resolved: Resolved, problems: Problems
+    name: str | None, place: Value | None, started: _Started, resolved: Resolved, problems: Problems
 ) -> None:
     """Report a node that is not of the plan where a near name is: others may be started elsewhere."""
-    if not name or place is None or name in names or not is_mistake(name, names, resolved):
+    if not name or place is None or name in started.names or not is_mistake(name, started.names, resolved):
         return
-    meant = sorted(known for known in names if _is_near(name, known))
+    meant = started.near(name)
     if meant:
         message = f"no node of this plan is called '{name}'"
-        problems.warning(Code.UNKNOWN_DEPENDENCY, message, place.location, suggestion=meant[0])
-
-
-def _is_near(name: str, known: str) -> bool:
-    namespace, _, last = name.rpartition("/")
-    there, _, its = known.rpartition("/")
-    if last == its:
-        return is_typo(namespace, there) or not namespace
-    return namespace == there and is_typo(last, its)
+        problems.warning(Code.UNKNOWN_DEPENDENCY, message, place.location, suggestion=min(meant))

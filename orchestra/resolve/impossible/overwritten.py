@@ -10,8 +10,43 @@ from orchestra.resolve.mentions import names_in
 
 if TYPE_CHECKING:
     from orchestra.description.actions.let import Let
+    from orchestra.description.launch import Description
     from orchestra.resolve.context import Value
+    from orchestra.resolve.ledger import Ledger
     from orchestra.resolve.resolution import Resolution
+
+
+class _Seen:
+    """What a look at the actions of a file has found, for all that it sets: a file may set thousands of variables."""
+
+    def __init__(self, description: Description) -> None:
+        self.description = description
+        self.places: dict[int, int] = {}
+        self.declared: dict[str | None, list[tuple[int, Arg]]] = {}
+        for at, action in enumerate(description.actions):
+            self.places.setdefault(id(action), at)
+            if isinstance(action, Arg):
+                self.declared.setdefault(action.name.constant, []).append((at, action))
+        self._ledger: Ledger | None = None
+        self._hidden, self._names = 0, set[str]()
+
+    def hidden_by(self, ledger: Ledger) -> set[str]:
+        """Return the names in what conditions have left out; more of that comes only at its end."""
+        if ledger is not self._ledger:
+            self._ledger, self._hidden, self._names = ledger, 0, set()
+        self._names |= names_in(part.action for part in ledger.hidden[self._hidden :])
+        self._hidden = len(ledger.hidden)
+        return self._names
+
+
+_last: list[_Seen] = []
+
+
+def _seen(description: Description) -> _Seen:
+    """Return what was found in a file, which is kept for that alone that was looked at last."""
+    if not _last or _last[0].description is not description:
+        _last[:] = [_Seen(description)]
+    return _last[0]
 
 
 def check_overwritten(action: Let, name: Value, run: Resolution) -> None:
@@ -24,13 +59,10 @@ def check_overwritten(action: Let, name: Value, run: Resolution) -> None:
         return
     if action.if_ is not None or action.unless is not None:
         return
-    before = next((at for at, other in enumerate(description.actions) if other is action), 0)
-    declared = [
-        other
-        for other in description.actions[:before]
-        if isinstance(other, Arg) and other.name.constant == name.text
-    ]
-    if not declared or name.text in names_in(part.action for part in run.scope.ledger.hidden):
+    seen = _seen(description)
+    before = seen.places.get(id(action), 0)
+    declared = [other for at, other in seen.declared.get(name.text, ()) if at < before]
+    if not declared or name.text in seen.hidden_by(run.scope.ledger):
         return
     message = (
         f"what is given for the argument '{name.text}' never counts: nothing reads it before it is set here"
