@@ -115,15 +115,15 @@ def _drives(witness: _Witness, robot: str) -> bool:
 
 
 def _kill(witness: _Witness, name: str) -> float:
-    """Kill a process of the run; return when, in simulated time."""
+    """Kill a process of the run; return when, in simulated time: what is heard just after it, whenever that is."""
     robot = name.partition("/")[0] if "/" in name else _ROBOTS[0]
     witness.until(lambda: _drives(witness, robot), f"{robot} drives")
     started = [
         each for each in witness.run.events if each.kind == "process_running" and each.process == f"/{name}"
     ]
     assert started[-1].pid is not None
-    witness.catch_up()
     os.kill(started[-1].pid, signal.SIGKILL)
+    witness.catch_up()
     return witness.now(f"{robot}/ground_truth")
 
 
@@ -135,18 +135,27 @@ def _stands_and_others_go_on(witness: _Witness, name: str) -> float:
     """Kill a node, and return when, in simulated time, after all is seen to go as it should."""
     robot = name.partition("/")[0]
     other = next(each for each in _ROBOTS if each != robot)
-    starts = _starts(witness, name)
-    killed = _kill(witness, name)
+    starts, killed = 0, 0.0
+
+    def is_back() -> bool:
+        return _starts(witness, name) > starts
 
     def stood() -> list[float]:
         truth = witness.since(f"{robot}/ground_truth", killed)
         return [stamp for stamp, message in truth if max(_speed(message)) < _STILL]
 
-    witness.until(lambda: bool(stood()), f"{robot} stands")
+    # The node is back after a second of the machine's clock: a machine that has no time for the simulation tries again.
+    for _ in range(5):
+        starts = _starts(witness, name)
+        killed = _kill(witness, name)
+        witness.until(lambda: bool(stood()) or (is_back() and _drives(witness, robot)), f"{robot} stands")
+        if stood():
+            break
+    assert stood(), f"{name} was back before {robot} stood"
     assert stood()[0] - killed <= _STANDS + _BETWEEN, (
         f"{robot} stands {stood()[0] - killed:.2f} s after {name} was killed"
     )
-    witness.until(lambda: _starts(witness, name) > starts, f"{name} starts again")
+    witness.until(is_back, f"{name} starts again")
     witness.until(lambda: _drives(witness, robot), f"{robot} drives again")
     for topic in ("ground_truth", "odometry/filtered"):
         stamps = [stamp for stamp, _ in witness.since(f"{other}/{topic}", killed)]
