@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from types import FrameType
 
 _ENDING: Final = (signal.SIGTERM, signal.SIGHUP)
-_PATIENCE: Final = 5.0  # seconds after which a command ends though code of a launch file does not let go
+_PATIENCE: Final = 10.0  # seconds after which a command ends though code of a launch file does not let go
 
 
 @contextmanager
