@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Any
 
+from orchestra.errors import Code
 from orchestra.location import Location
 from orchestra.resolve.arguments import Given, settle
 from orchestra.resolve.containers import settle_containers
@@ -61,6 +62,10 @@ def carry_through(description: Description, run: Resolution) -> Resolved:
 
             warn_of_idle_lets(ledger, run)
     _tell_doubts(run)
+    if any(problem.code is Code.UNDEFINED_VARIABLE for problem in run.problems):
+        from orchestra.resolve.set_elsewhere import tell_where_set  # noqa: PLC0415 - only where something is wrong
+
+        tell_where_set(run)
     warn_of_unpackaged(run)
     if run.found.spawned:
         from orchestra.resolve.spawners import warn_of_spawned  # noqa: PLC0415 - as above
