@@ -22,9 +22,10 @@ _PATIENCE: Final = 10.0  # seconds after which a command ends though code of a l
 
 @contextmanager
 def heeded() -> Iterator[None]:
-    """Raise `EndedError` where one of them arrives meanwhile. A second one ends this process at once.
+    """Raise `EndedError` where one of them arrives meanwhile.
 
-    One that is ignored stays so: that is how nohup(1) says that a command is to go on.
+    More of them change nothing: timeout(1), service managers and containers send several. One that is ignored stays so:
+    that is how nohup(1) says that a command is to go on.
     """
     own, told, lasting = os.getpid(), False, ExitStack()
     before = {number: action for number in _ENDING if (action := signal.getsignal(number)) == signal.SIG_DFL}
@@ -32,9 +33,11 @@ def heeded() -> Iterator[None]:
     def end(number: int, frame: FrameType | None) -> None:
         del frame
         nonlocal told
-        if told or os.getpid() != own:  # another process: code of a launch file has forked
+        if os.getpid() != own:  # code of a launch file has forked, and this is the other process
             signal.signal(number, signal.SIG_DFL)
             os.kill(os.getpid(), number)
+        if told:
+            return
         told = True
         error = EndedError(number)
         lasting.enter_context(_insisting(error.status))
