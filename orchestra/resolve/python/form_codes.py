@@ -6,6 +6,8 @@ from operator import sub
 from types import CodeType
 from typing import TYPE_CHECKING, Any, Final
 
+from orchestra.resolve.python.form_slots import Name
+
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Iterator, Sequence
 
@@ -14,10 +16,11 @@ if TYPE_CHECKING:
 _MARK: Final = "qzMarkOfAForm"
 _NUMBER: Final = 731_935_000_000
 _DIGITS: Final = "731935"
+_MORE_ARGUMENTS: Final = (0x04, 0x08)  # flags of codes that take any arguments, and any keywords
 _SERIES: Final = (tuple, frozenset)
 _ALIKE: Final = (
     *("co_name", "co_qualname", "co_firstlineno", "co_flags", "co_stacksize", "co_nlocals"),
-    *("co_argcount", "co_posonlyargcount", "co_kwonlyargcount", "co_names", "co_varnames", "co_cellvars"),
+    *("co_argcount", "co_posonlyargcount", "co_kwonlyargcount", "co_names", "co_cellvars"),
     *("co_freevars", "co_code", "co_exceptiontable"),
 )
 
@@ -28,7 +31,27 @@ class Marks:
     def __init__(self, values: Sequence[object]) -> None:
         self.values: list[Any] = [_mark(value, number) for number, value in enumerate(values)]
         self.seen: set[int] = set()
-        self._numbers = {mark: number for number, mark in enumerate(self.values)}
+        self._numbers = {
+            mark: number for number, mark in enumerate(self.values) if not isinstance(mark, Name)
+        }
+        self._names = {str(mark): number for number, mark in enumerate(self.values) if isinstance(mark, Name)}
+        self._own = values
+
+    def variables(self, marked: CodeType, code: CodeType) -> list[tuple[int, int]]:
+        """Return which variables of a code are marks, and which ones.
+
+        Raises `ValueError` where others are not those of the code without marks, or a mark is one of two codes.
+        """
+        found = [
+            (index, self._names[name]) for index, name in enumerate(marked.co_varnames) if name in self._names
+        ]
+        names = list(marked.co_varnames)
+        for index, number in found:
+            names[index] = str(self._own[number])
+        if tuple(names) != code.co_varnames or not self.seen.isdisjoint(number for _, number in found):
+            raise ValueError("a name has become another variable")
+        self.seen.update(number for _, number in found)
+        return found
 
     def number(self, constant: object) -> int | None:
         """Return the number of a mark, None for another constant. Raises `ValueError` for what was made of one."""
@@ -46,6 +69,10 @@ class Marks:
 
 
 def _mark(value: object, number: int) -> Any:
+    if isinstance(value, Name):
+        end = f"{_DIGITS}{number:06}"
+        before = value.rstrip("0123456789")
+        return Name(before + (end if len(before + end) != len(value) else f"{end}0"))
     if isinstance(value, str):
         mark = f"{_MARK}{number}"
         return mark if len(mark) != len(value) else f"{mark}_"
@@ -115,6 +142,7 @@ class CodeForm:
         self._marked = marked
         self._columns = columns
         self._table: LineTable | None = None
+        self._variables = marks.variables(marked, code)
         constants = marked.co_consts
         self._fixed = [item for constant in constants for item in _fixed(constant, marks)]
         pairs = zip(code.co_consts, constants, strict=True)
@@ -153,8 +181,15 @@ class CodeForm:
         known += [form.made(path, values, shifts) for form in self._codes]
         for kind, held in self._series:
             known.append(kind(map(known.__getitem__, held)))
+        names = self._code.co_varnames
+        if self._variables:
+            changed = list(names)
+            for index, number in self._variables:
+                changed[index] = str(values[number])
+            names = tuple(changed)
         return self._code.replace(
             co_filename=path,
+            co_varnames=names,
             co_consts=tuple(map(known.__getitem__, self._order)),
             co_linetable=self._code.co_linetable if shifts is None else self._lines(shifts),
         )
@@ -180,11 +215,36 @@ def _fixed(constant: object, marks: Marks) -> Iterator[Any]:
         yield constant
 
 
+def variables(code: CodeType) -> set[str]:
+    """Return the variables of functions that nothing else in a code knows by their names."""
+    own, others = _variables(code)
+    return {name for name in own if own.count(name) == 1} - others
+
+
+def _variables(code: CodeType) -> tuple[list[str], set[str]]:
+    """Return the variables of the functions in a code, and all other names."""
+    given = (
+        code.co_argcount
+        + code.co_kwonlyargcount
+        + sum(bool(code.co_flags & flag) for flag in _MORE_ARGUMENTS)
+    )
+    own = list(code.co_varnames[given:])
+    others = {*code.co_varnames[:given], *code.co_names, *code.co_cellvars, *code.co_freevars}
+    for item in code.co_consts:
+        if isinstance(item, CodeType):
+            more, known = _variables(item)
+            own, others = own + more, others | known
+    return own, others
+
+
 def is_same(made: CodeType, other: CodeType) -> bool:
     """Return whether two codes are the same in all that the compiler says of them."""
     if len(made.co_consts) != len(other.co_consts):
         return False
-    if any(getattr(made, name) != getattr(other, name) for name in (*_ALIKE, "co_linetable", "co_filename")):
+    if any(
+        getattr(made, name) != getattr(other, name)
+        for name in (*_ALIKE, "co_varnames", "co_linetable", "co_filename")
+    ):
         return False
     return all(map(_is_same_constant, made.co_consts, other.co_consts))
 

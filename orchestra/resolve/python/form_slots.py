@@ -1,7 +1,8 @@
-"""Where literals stand in the text of a Python file that decide nothing of its code but constants.
+"""Where literals stand in the text of a Python file that decide nothing of its code but constants, and names nothing.
 
 Such a literal is a whole element of a call, a list, a tuple or a dictionary, or all that a statement assigns: no
-operator is applied to it, so that the compiler works nothing out with it, and whether it is true decides no jump.
+operator is applied to it, so that the compiler works nothing out with it, and whether it is true decides no jump. Such
+a name ends with a number and is that of a variable of a function, which nothing else is called: `node_12`.
 """
 
 from __future__ import annotations
@@ -11,12 +12,13 @@ from keyword import iskeyword
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
-    from collections.abc import Iterable, Sequence
+    from collections.abc import Collection, Iterable, Iterator, Sequence
 
-# A comment, a text, or a number; short texts first, then those in three quotes and those with backslashes.
+# A comment, a text, a number, or that at the end of a name. Texts of one line without backslashes come first.
 _LEXEME: Final = re.compile(
     r"""([\#"'0-9](?:
         (?<=")(?!"")[^"\\\n]*" | (?<=')(?!'')[^'\\\n]*' | (?<=\#)[^\n]* | (?<![\w.].)(?<=[0-9])[\w.]*
+        | (?<=[A-Za-z_].)(?<=[0-9])[0-9]*(?!\w)
         | (?<=")""(?:[^"\\]|\\.|"(?!""))*"{3} | (?<=')''(?:[^'\\]|\\.|'(?!''))*'{3}
         | (?<=")(?:[^"\\\n]|\\.)*" | (?<=')(?:[^'\\\n]|\\.)*'
     ))""",
@@ -25,6 +27,7 @@ _LEXEME: Final = re.compile(
 _TOKEN: Final = re.compile(
     r"\n|[A-Za-z_][\w.]*|\*\*=?|//=?|<<=?|>>=?|->|[-+*/%@&|^=!<>:]=|\\\n|[^\s]", re.ASCII
 )
+_NAME: Final = re.compile(r"[A-Za-z_]\w*\Z", re.ASCII)
 _TEXT: Final = re.compile(r"""'[^'\\\n]*'|"[^"\\\n]*\"""")
 _QUOTES: Final = "'\""
 _BEFORE: Final = frozenset("([{,=:")
@@ -42,13 +45,19 @@ def split(text: str) -> list[str]:
 
 
 def key_of(literal: str) -> Any:
-    """Return the value of a literal, a number with its type, for 1 and 1.0 are two constants.
+    """Return the value of a literal, a number with its type, for 1 and 1.0 are two constants; a name as such.
 
     None where it is not plain: the same value may be written in several ways.
     """
     if literal[0] in _QUOTES:
         return literal[1:-1] if _TEXT.fullmatch(literal) else None
-    return _number(literal)
+    return _number(literal) if literal[0].isdigit() else (Name, literal)
+
+
+class Name(str):
+    """The name of a variable."""
+
+    __slots__ = ()
 
 
 def _number(literal: str) -> Any:
@@ -74,17 +83,33 @@ def classes(literals: Iterable[str], *, are_plain: bool) -> tuple[list[int], lis
     return [known[literal] for literal in literals], list(numbers)
 
 
-def slots(parts: Sequence[str]) -> list[int]:
-    """Return the numbers of the literals, in a text that was split, whose values may be others.
+def slots(parts: Sequence[str], variables: Collection[str]) -> tuple[dict[int, str], set[str]]:
+    """Return the numbers of the literals, in a text that was split, whose values may be others, and of ends of names.
 
-    They are equal to none that may decide something, and to no name: that may be a constant too, as those of keywords
+    With each goes what stands before it of the same name. Names are those of `variables`. Values are equal to none that
+    may decide something, and to no other name, which are the second: that may be a constant too, as those of keywords
     are. So may 0 be, where nobody has written it.
     """
-    keys = [None if part[0] == "#" else key_of(part) for part in parts[1::2]]
+    names = dict(_ends_of_names(parts))
+    keys = [
+        None if part[0] == "#" or index in names else key_of(part) for index, part in enumerate(parts[1::2])
+    ]
     found, words = _candidates(parts)
+    full = {index: before + parts[2 * index + 1] for index, before in names.items()}
+    words |= {name for name in full.values() if name not in variables}
     others = {key for index, key in enumerate(keys) if key is not None and index not in found}
     kept = others | words | {(int, 0), None}
-    return [index for index in found if keys[index] not in kept]
+    places = {index: "" for index in found if keys[index] not in kept}
+    places |= {index: before for index, before in names.items() if full[index] not in words}
+    return dict(sorted(places.items())), words
+
+
+def _ends_of_names(parts: Sequence[str]) -> Iterator[tuple[int, str]]:
+    """Yield the numbers of what ends names, with what stands before."""
+    for index, part in enumerate(parts[1::2]):
+        before = _NAME.search(parts[2 * index]) if part.isdigit() else None
+        if before is not None:
+            yield index, before[0]
 
 
 def _candidates(parts: Sequence[str]) -> tuple[dict[int, None], set[str]]:

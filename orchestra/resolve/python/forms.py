@@ -1,4 +1,4 @@
-"""Python files that are written alike, but for texts and numbers: the code of one is made from that of another.
+"""Python files that are alike but for texts, numbers and numbered names: the code of one is made from that of another.
 
 Trees that were generated have dozens of such files, and to compile one takes as long as all else that is done to load
 it. The first few of them are compiled. Then a form is learned: the text in which each literal that decides nothing but
@@ -7,10 +7,11 @@ on the form is as good as the compiler where
 
 - the text between literals is the same, and so are the literals that may decide anything else;
 - literals are equal to one another just where they are in the form: equal constants are one constant;
-- none is equal to a constant that the form has besides.
+- none is equal to a constant that the form has besides;
+- of names only those of a function's own variables that end with a number are others (`node_12`), under the same terms.
 
 What it makes of the first file has to be what the compiler made of it, down to the table of positions. Wherever there
-is a doubt there is the compiler. Rejected: names that differ too, as those of variables: the compiler sorts some.
+is a doubt there is the compiler. Rejected: other names too: the compiler sorts some, and some become constants.
 """
 
 from __future__ import annotations
@@ -20,11 +21,11 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.looks import LOOKS
-from orchestra.resolve.python.form_codes import CodeForm, Columns, Marks, is_same, may_be_marked
-from orchestra.resolve.python.form_slots import classes, slots, split
+from orchestra.resolve.python.form_codes import CodeForm, Columns, Marks, is_same, may_be_marked, variables
+from orchestra.resolve.python.form_slots import Name, classes, slots, split
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Collection, Sequence
     from types import CodeType
 
 _KNOWN: Final = ((3, 11), (3, 12), (3, 13))  # versions whose compilers make such codes
@@ -126,7 +127,8 @@ class First:
         self._parts = parts
         self._code = code
         self._literals = parts[1::2]
-        self._places: list[int] | None = None
+        self._places: dict[int, str] | None = None
+        self._words: set[str] = set()
         self._fixed: list[int] = []
         self._wait = _SIGHTS
 
@@ -136,39 +138,40 @@ class First:
             self._wait -= 1
             return None
         if self._places is None:
-            self._places = slots(self._parts)
+            self._places, self._words = slots(self._parts, variables(self._code))
             self._fixed = _others(self._literals, self._places)
         if any(self._literals[index] != literals[index] for index in self._fixed):
             return None
         self._wait = -1  # once is enough
         with suppress(Exception):  # whatever stands against it
-            form = Form(self._parts, self._places, self._code)
+            form = Form(self._parts, self._places, self._words, self._code)
             made = form.code(self._code.co_filename, self._literals)
             if made is not None and is_same(made, self._code):
                 return form
         return None
 
 
-def _others(literals: Sequence[str], places: Sequence[int]) -> list[int]:
+def _others(literals: Sequence[str], places: Collection[int]) -> list[int]:
     """Return the numbers of the literals that have to be the same: neither those at places nor comments."""
-    at = set(places)
-    return [index for index, text in enumerate(literals) if index not in at and not _is_free(text)]
+    return [index for index, text in enumerate(literals) if index not in places and not _is_free(text)]
 
 
 class Form:
     """What the codes of files have in common."""
 
-    def __init__(self, parts: list[str], places: list[int], code: CodeType) -> None:
-        """Learn the form of a text that was split; `places` are the numbers of literals that may be others.
+    def __init__(self, parts: list[str], places: dict[int, str], words: set[str], code: CodeType) -> None:
+        """Learn the form of a text that was split, with its code.
 
-        Raises `ValueError` where it is none.
+        `places` are the numbers of literals and ends of names that may be others, with what stands before these;
+        `words` are all other names. Raises `ValueError` where there is no form.
         """
         literals = parts[1::2]
-        texts = [literals[index] for index in places]
+        texts = [before + literals[index] for index, before in places.items()]
         found = classes(texts, are_plain=False)
         if found is None or len(places) < _FEW or may_be_marked("".join(parts)):
             raise ValueError("nothing to learn")
-        self._places = places
+        self._places = list(places)
+        self._names = [(number, before) for number, before in enumerate(places.values()) if before]
         self._fixed = _others(literals, places)
         self._same = [literals[index] for index in self._fixed]
         self._comments = [index for index, text in enumerate(literals) if _is_free(text)]
@@ -176,9 +179,10 @@ class Form:
         self._kinds = list(map(_kind, keys))
         marks = Marks(_values(keys))
         written = [
-            _written(text, marks.values[number]) for text, number in zip(texts, self._pattern, strict=True)
+            _written(literals[place], before, marks.values[number])
+            for (place, before), number in zip(places.items(), self._pattern, strict=True)
         ]
-        self._columns = Columns(parts, set(places))
+        self._columns = Columns(parts, places)
         self._columns.to_marks = self._columns.shifts(written) or []
         marked = list(parts)
         for index, text in zip(places, written, strict=True):
@@ -186,7 +190,7 @@ class Form:
         self._code = CodeForm(
             code, compile("".join(marked), "a form", "exec", dont_inherit=True), marks, self._columns
         )
-        self._taken = self._code.fixed
+        self._taken = self._code.fixed | {(Name, word) for word in words}
         self.told = {look: LOOKS[look](code, b"") for look in _ASKING_NO_TEXT}
         if len(marks.seen) != len(marks.values):
             raise ValueError("a literal has become no constant")
@@ -200,7 +204,12 @@ class Form:
             return None
         if not all(_is_free(literals[index]) for index in self._comments):
             return None
-        texts = [literals[index] for index in self._places]
+        own = [literals[index] for index in self._places]
+        texts = own.copy()
+        for number, before in self._names:
+            if not own[number].isdigit():  # but a text with a letter before it
+                return None
+            texts[number] = before + own[number]
         found = classes(texts, are_plain=are_plain)
         if found is None:
             return None
@@ -210,7 +219,7 @@ class Form:
         if list(map(_kind, keys)) != self._kinds:
             return None
         try:
-            return self._code.made(path, _values(keys), self._columns.shifts(texts))
+            return self._code.made(path, _values(keys), self._columns.shifts(own))
         except ValueError:
             self._pattern = []  # of no other one either
             return None
@@ -222,11 +231,13 @@ def _kind(key: Any) -> type[Any]:
 
 
 def _values(keys: Sequence[Any]) -> list[Any]:
-    return [key if type(key) is str else key[1] for key in keys]
+    return [key if type(key) is str else Name(key[1]) if key[0] is Name else key[1] for key in keys]
 
 
-def _written(literal: str, mark: object) -> str:
-    return f"{literal[0]}{mark}{literal[0]}" if type(mark) is str else repr(mark)
+def _written(literal: str, before: str, mark: object) -> str:
+    if isinstance(mark, Name):
+        return mark[len(before) :]
+    return f"{literal[0]}{mark}{literal[0]}" if isinstance(mark, str) else repr(mark)
 
 
 FORMS: Final = Forms()

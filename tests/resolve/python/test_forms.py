@@ -143,6 +143,37 @@ _LITERAL = "call({})\n".format(", ".join(f"'{letter}'" for letter in "abcdefghij
         ("class C:\n    x = 'C'\n    y = ['p']\n", "class C:\n    x = 'C'\n    y = ['C']\n"),
         ("x = [lambda: 'p', lambda y='q': y]\n", "x = [lambda: 'p1', lambda y='q1': y]\n"),
         ("from __future__ import annotations\ndef f(x: 'p', y: 'q'): ...\n",) * 2,
+        ("def f():\n    n_1 = 'p'\n    return n_1\n", "def f():\n    n_22 = 'q'\n    return n_22\n"),
+        ("def f():\n    n1 = m1 = 3\n    return n1\n", "def f():\n    n7 = m1 = 3\n    return n7\n"),
+        ("def f():\n    n1, n2 = 3\n    return n2, n1\n", "def f():\n    n2, n1 = 3\n    return n1, n2\n"),
+        ("def f():\n    n1, n2 = 3\n    return n2, n1\n", "def f():\n    n1, n1 = 3\n    return n1, n1\n"),
+        ("def f():\n    n1 = 3\n    return n2, n1\n", "def f():\n    n2 = 3\n    return n2, n2\n"),
+        ("def f():\n    n1 = 3\n    return int, n1\n", "def f():\n    int2 = 3\n    return int, int2\n"),
+        ("def f():\n    n1 = 3\n    return x(n1=n1)\n", "def f():\n    n2 = 3\n    return x(n2=n2)\n"),
+        ("def f():\n    n1 = 3\n    return x.n1, n1\n", "def f():\n    n2 = 3\n    return x.n2, n2\n"),
+        ("def f():\n    n1 = 3\n    return f'{n1}'\n", "def f():\n    n2 = 3\n    return f'{n2}'\n"),
+        ("def f():\n    n1 = 3\n    return lambda: n1\n", "def f():\n    n2 = 3\n    return lambda: n2\n"),
+        (
+            "def f():\n    b1 = a1 = 3\n    return lambda: b1 + a1\n",
+            "def f():\n    b1 = c1 = 3\n    return lambda: b1 + c1\n",
+        ),
+        ("def f():\n    global n1\n    n1 = 3\n", "def f():\n    global n2\n    n2 = 3\n"),
+        ("def f():\n    n1 = 3\ndef g():\n    n1 = 4\n", "def f():\n    n2 = 3\ndef g():\n    n1 = 4\n"),
+        ("def f(n1):\n    m1 = n1\n    return m1, 'm1'\n", "def f(n2):\n    m2 = n2\n    return m2, 'm2'\n"),
+        ("def f():\n    import n1.x\n    return n1\n", "def f():\n    import n2.x\n    return n2\n"),
+        (
+            "def f():\n    from y import n1\n    return n1\n",
+            "def f():\n    from y import n2\n    return n2\n",
+        ),
+        ("def f():\n    f1 = 'p'\n    return f1\n", "def f():\n    f2 = 'p'\n    return f'p'\n"),
+        (
+            "class C:\n    def f(self):\n        __n1 = 3\n        return __n1\n",
+            "class C:\n    def f(self):\n        __n2 = 3\n        return __n2\n",
+        ),
+        (
+            "def f():\n    return [n1 for n1 in ['p', 'q']]\n",
+            "def f():\n    return [n2 for n2 in ['r', 'q']]\n",
+        ),
         ("x = \\\n    'p'\ny = ['q', \\\n 'r']\n", "x = \\\n    'p1'\ny = ['q1', \\\n 'r1']\n"),
     ],
 )
@@ -154,6 +185,18 @@ def test_literals_that_decide_something_are_left_to_the_compiler(first: str, oth
         if not text.startswith("from __future__"):
             known.code(_LITERAL + text)
         known.code(text + _LITERAL)
+
+
+def test_numbered_variables_are_part_of_no_form() -> None:
+    known = Files()
+    for first in range(0, 120, 12):
+        names = range(first, first + 12)
+        nodes = "".join(
+            f"    node{number} = Node(name='node{number}', rate={number}.5)\n" for number in names
+        )
+        added = "".join(f"    found.add_action(node{number})\n" for number in names)
+        known.code(f"def generate_launch_description():\n{nodes}{added}    return found\n")
+    assert known.compiled <= 2
 
 
 def test_shifted_columns_are_those_of_the_compiler_however_far_right() -> None:
