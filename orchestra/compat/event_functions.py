@@ -10,6 +10,7 @@ from importlib import import_module
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from orchestra.compat.borrowed import ROOM
+from orchestra.compat.idle_names import ACTIONS
 from orchestra.compat.rewritten import Rewritten
 from orchestra.compat.scopes import Function
 from orchestra.compat.source_text import text_at
@@ -44,6 +45,7 @@ _WORDS: Final = {
     **dict.fromkeys(("command", "args"), "cmd"),
 }
 _NUMBERS: Final = frozenset({"pid", "returncode"})
+_MADE: Final = ACTIONS | {"EmitEvent", "LogInfo", "SetLaunchConfiguration", "Shutdown"}
 # Methods of bytes that give bytes, and those that are given some.
 _KEEPING: Final = frozenset({"lower", "lstrip", "removeprefix", "rstrip", "strip", "upper"})
 _TAKING: Final = frozenset(
@@ -77,7 +79,7 @@ def tell(path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
     tree = tree_of(path)
     done: set[int] = set()
     for use in () if tree is None else _uses(tree):
-        for fault in _faults(use, tree, path) if tree is not None else ():
+        for fault in (*_faults(use, tree, path), *_unreturned(use)) if tree is not None else ():
             if id(fault.node) not in done:
                 done.add(id(fault.node))
                 span = _place(path, fault)
@@ -124,6 +126,16 @@ def _faults(use: _Use, tree: Tree, path: str) -> Iterator[_Fault]:
         elif use.kind == "OnProcessIO":
             yield from _of_bytes(node, _Bytes(use, tree, path))
         yield from _of_numbers(node, use, path)
+
+
+def _unreturned(use: _Use) -> Iterator[_Fault]:
+    """Yield the actions that a function makes by a statement alone, where it returns nothing."""
+    returned = [node.value for node in use.body if isinstance(node, ast.Return) and node.value is not None]
+    for node in () if returned else use.body:
+        if isinstance(node, ast.Expr) and called_by(node.value) in _MADE and isinstance(node.value, ast.Call):
+            name = node.value.func
+            message = f"this {ast.unparse(name)} is thrown away: the function returns nothing, its `return` is missing"
+            yield _Fault(name, message, f"return {ast.unparse(name)}")
 
 
 def _is_set(node: ast.Name | ast.Attribute) -> bool:

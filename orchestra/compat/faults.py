@@ -137,6 +137,8 @@ def _better(error: BaseException, call: TracebackType) -> Explanation | None:
     # Here, because only mistakes need them, and what they import.
     from orchestra.compat import (  # noqa: PLC0415
         call_meant,
+        idle_logic,
+        loops_meant,
         missing_commas,
         missing_files,
         missing_keys,
@@ -171,12 +173,14 @@ def _better(error: BaseException, call: TracebackType) -> Explanation | None:
         case KeyError():
             return missing_keys.explained(error, frame, place)
         case NameError() if call.tb_next is None:
-            return unknown_names.unbound(error, frame, place)
+            return idle_logic.unset_by_colon(error, place) or unknown_names.unbound(error, frame, place)
         case AttributeError() if call.tb_next is None or isinstance(error.obj, ModuleType | Refusing):
             return unknown_names.no_attribute(error, place)
         case _:
             is_of_set = isinstance(error, ValueError) and "dictionary update sequence" in str(error)
-            return call_meant.explained(error, frame, place) if is_of_set else None
+            return (
+                call_meant.explained(error, frame, place) if is_of_set else None
+            ) or loops_meant.explained(error, place)
 
 
 def _message(error: BaseException) -> str:

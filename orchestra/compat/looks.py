@@ -30,6 +30,26 @@ _OUTSIDE: Final = re.compile(
 _SIDE_BY_SIDE: Final = re.compile(rb"""['"](?<=[^\s"'\\=:].)\s+['"][\w/-]""")
 # A function that is given an event, by the names that people give it.
 _OF_EVENT: Final = re.compile(rb"(?:lambda[ \t]+|def[ \t]+\w+\((?:self,[ \t]*)?)(?:\w*event\w*|_?ev?|evt)\b")
+# An empty list or dictionary that may be the default of a parameter.
+_EMPTY: Final = re.compile(rb"def [^\n:]*=[ \t]*(?:\[[ \t]*\]|\{[ \t]*\}|list\(\)|dict\(\))")
+# Lines that compare, assert in brackets, or call a method of a text.
+_COMPARED: Final = re.compile(rb"""\n[ \t]*+\w[\w.\[\]'"]*+[ \t]*+==""")
+_ASSERTED: Final = re.compile(rb"assert[ \t]*\(")
+_MADE: Final = re.compile(
+    rb"\n[ \t]*+\w++\.(?:capitalize|casefold|format|lower|[lr]?strip|remove(?:pre|suf)fix|replace|title|upper)\("
+)
+_MAKING: Final = frozenset(
+    {
+        *("capitalize", "casefold", "format", "lower", "lstrip", "removeprefix", "removesuffix", "replace"),
+        *("rstrip", "strip", "title", "upper"),
+    }
+)
+# A text that is an alternative, one by itself in brackets, one that something is.
+_IN_QUOTES: Final = re.compile(
+    rb"""\bor[ \t]+['"][^'"\n]*['"][ \t]*(?:\)|:|or\b|\n)|(?:\bin|=)[ \t]*\(['"][^'"\n]+['"]\)"""
+)
+_IS: Final = re.compile(rb"""\bis[ \t]+(?:not[ \t]+)?['"\d]""")
+_ITERATORS: Final = frozenset({"filter", "map", "zip"})
 
 
 class Compiled:
@@ -136,6 +156,42 @@ def has_joined_words(source: bytes) -> bool:
     return _SIDE_BY_SIDE.search(source) is not None
 
 
+def has_idle_logic(code: CodeType, source: bytes) -> bool:
+    """Return whether a test may always be so, or a statement do nothing."""
+    compares, makes = _does(code)
+    if compares and any(sign.search(source) is not None for sign in (_IN_QUOTES, _COMPARED, _IS)):
+        return True
+    if makes and _MADE.search(source) is not None:
+        return True
+    return b"assert" in source and _ASSERTED.search(source) is not None
+
+
+def _does(code: CodeType) -> tuple[bool, bool]:
+    """Return whether code compares or loops, and whether it makes texts of others."""
+    operations = code.co_code[::2]
+    compares = any(number in operations for number in _comparing())
+    makes = not _MAKING.isdisjoint(code.co_names)
+    for item in code.co_consts:
+        if type(item) is CodeType:
+            inner = _does(item)
+            compares, makes = compares or inner[0], makes or inner[1]
+    return compares, makes
+
+
+@cache
+def _comparing() -> tuple[int, ...]:
+    from opcode import opmap  # noqa: PLC0415 - once
+
+    return tuple(opmap[name] for name in ("COMPARE_OP", "IS_OP", "CONTAINS_OP", "FOR_ITER"))
+
+
+def _goes_through(code: CodeType) -> bool:
+    """Return whether there is something that is gone through but once."""
+    if code.co_name == "<genexpr>" or not _ITERATORS.isdisjoint(code.co_names):
+        return True
+    return any(_goes_through(item) for item in code.co_consts if type(item) is CodeType)
+
+
 def has_event_functions(source: bytes) -> bool:
     """Return whether a function may be called with what an event handler waits for."""
     has_handler = any(sign in source for sign in (b"OnProcess", b"OnShutdown", b"OnExecution"))
@@ -144,35 +200,32 @@ def has_event_functions(source: bytes) -> bool:
 
 def _sets_tuples(code: CodeType, _source: bytes) -> bool:
     """Return whether a name is set to a tuple of one."""
-    written, storing = code.co_code, _storing()
-    if storing.search(written) is not None:
-        return True
-    ones = any(type(item) is tuple and len(item) == 1 for item in code.co_consts)
-    if ones and any(_is_one_set(code, place) for place in range(0, len(written) - 2, 2)):
-        return True
-    return any(_sets_tuples(item, b"") for item in code.co_consts if type(item) is CodeType)
-
-
-def _is_one_set(code: CodeType, place: int) -> bool:
-    """Return whether the instruction at a place is followed by one that sets a name to a constant tuple of one."""
-    from opcode import opmap  # noqa: PLC0415 - once
-
     written = code.co_code
-    if written[place] != opmap["LOAD_CONST"] or _storing(b"").match(written, place + 2) is None:
-        return False
-    # The number of a late constant is longer, which the instruction before says.
-    one = code.co_consts[written[place + 1]] if written[place + 1] < len(code.co_consts) else None
-    return (type(one) is tuple and len(one) == 1) or len(code.co_consts) > _BYTE
+    loading, building, setting = _storing()
+    if building.search(written) is not None:
+        return True
+    for number, item in enumerate(code.co_consts):
+        if type(item) is CodeType:
+            if _sets_tuples(item, b""):
+                return True
+        elif type(item) is tuple and len(item) == 1:
+            # The number of a late constant is longer, which the instruction before says.
+            place = written.find(bytes((loading, number & _BYTE)))
+            while place >= 0:
+                if place % 2 == 0 and written[place + 2] in setting:
+                    return True
+                place = written.find(bytes((loading, number & _BYTE)), place + 1)
+    return False
 
 
 @cache
-def _storing(built: bytes | None = None) -> re.Pattern[bytes]:
-    """Return the instructions that build a tuple of one, unless others are given, and set a name to it."""
+def _storing() -> tuple[int, re.Pattern[bytes], bytes]:
+    """Return the operation that loads a constant, the instructions that set a name to a tuple of one, and what sets."""
     from opcode import opmap  # noqa: PLC0415 - once
 
-    built = re.escape(bytes((opmap["BUILD_TUPLE"], 1))) if built is None else built
     setting = bytes(number for name, number in opmap.items() if name.startswith("STORE_") and number <= _BYTE)
-    return re.compile(built + b"[" + re.escape(setting) + b"]", re.DOTALL)
+    building = re.escape(bytes((opmap["BUILD_TUPLE"], 1))) + b"[" + re.escape(setting) + b"]"
+    return opmap["LOAD_CONST"], re.compile(building, re.DOTALL), setting
 
 
 def _changes_nothing(code: CodeType, _source: bytes) -> bool:
@@ -199,6 +252,8 @@ LOOKS: Final[dict[str, Callable[[CodeType, bytes], bool]]] = {
     "joined": lambda _, source: has_joined_words(source),
     "tuples": _sets_tuples,
     "events": lambda _, source: has_event_functions(source),
+    "logic": has_idle_logic,
+    "through": lambda code, source: _EMPTY.search(source) is not None or _goes_through(code),
     "misused": _may_be_misused,
 }
 # By the looks that say whether a file may have such slips: the modules that tell of them.
@@ -209,6 +264,8 @@ OF_TEXTS: Final = {
     "joined": "joined_words",
     "tuples": "trailing_commas",
     "events": "event_functions",
+    "through": "gone_through",
+    "logic": "idle_logic",
 }
 
 

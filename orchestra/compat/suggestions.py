@@ -10,6 +10,9 @@ from typing import TYPE_CHECKING, Final
 from orchestra.compat.as_texts import without_echoes
 from orchestra.compat.belongings import without_needs
 from orchestra.compat.glued_paths import without_slash
+from orchestra.compat.gone_through import without_shared
+from orchestra.compat.handed_on import where_written
+from orchestra.compat.idle_logic import without_letters
 from orchestra.compat.joined_words import without_what_is_joined
 from orchestra.compat.late_loops import without_last_ones
 from orchestra.compat.late_roots import without_followers
@@ -50,9 +53,12 @@ def point_into_code(problems: Problems) -> None:
     problems.amend(without_followers(tuple(problems)))
     problems.amend(without_readings(tuple(problems)))
     problems.amend(in_place)
+    problems.amend(without_echoes(tuple(problems)))
     problems.amend(without_what_braces_cause(tuple(problems)))
     problems.amend(without_what_is_joined(tuple(problems)))
     problems.amend(without_last_ones(tuple(problems)))
+    problems.amend(without_shared(tuple(problems)))
+    problems.amend(without_letters(tuple(problems)))
     problems.amend(without_nothings(tuple(problems)))
     problems.amend(without_needs(tuple(problems)))
     problems.amend(without_methods(tuple(problems)))
@@ -73,7 +79,7 @@ def in_place(problem: Problem) -> Problem:
     if isinstance(meant, Rewritten):
         return replace(problem, span=whole(span), suggestion=str(meant))
     found = _found(span)
-    given = _given_as_text(problem, found)
+    given = where_written(problem, found.whole) or _given_as_text(problem, found)
     return _where_found(problem, span, found) if given is None else given
 
 

@@ -38,9 +38,13 @@ def explained(error: TypeError, frame: FrameType, place: Place) -> Explanation |
     found = next((name for name in _CLASS.findall(str(error)) if name in known), None)
     if found is None:
         # Here, because only such mistakes need them.
-        from orchestra.compat import call_meant, texts_as_numbers  # noqa: PLC0415
+        from orchestra.compat import call_meant, loops_meant, texts_as_numbers  # noqa: PLC0415
 
-        return call_meant.explained(error, frame, place) or texts_as_numbers.explained(error, frame, place)
+        return (
+            call_meant.explained(error, frame, place)
+            or texts_as_numbers.explained(error, frame, place)
+            or loops_meant.explained(error, place)
+        )
     message = f"{found} is no text before the launch file is visited"
     notes: tuple[str, ...] = (_IN_LISTS, IN_PATHS, _IN_FUNCTIONS)
     tree = tree_of(place.file)

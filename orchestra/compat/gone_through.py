@@ -1,0 +1,168 @@
+"""What Python goes through once, or not to its end: generators, lists of other lengths, lists that calls share."""
+
+from __future__ import annotations
+
+import ast
+from pathlib import Path
+from typing import TYPE_CHECKING, Final
+
+from orchestra.compat.rewritten import Rewritten
+from orchestra.compat.scopes import Function, of_scope
+from orchestra.compat.source_text import text_at
+from orchestra.compat.syntax_trees import called_by, node_span, tree_of
+from orchestra.errors import Code
+from orchestra.location import Location
+
+if TYPE_CHECKING:
+    from collections.abc import Callable, Iterable, Iterator
+
+    from orchestra.compat.syntax_trees import Tree
+    from orchestra.errors import Problem, Problems
+    from orchestra.location import Span
+
+_ONCE: Final = frozenset({"filter", "map", "zip"})
+_TO_THE_END: Final = frozenset({"LaunchDescription", "list", "set", "sorted", "sum", "tuple"})
+_CHANGING: Final = frozenset({"append", "extend", "insert", "setdefault", "update"})
+_TWO: Final = 2
+_SHARED: Final = " is one for all calls, which add to it"
+_MOST: Final = 100  # characters: what is longer is read better in the message alone
+
+
+def tell(path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
+    """Warn of what a file goes through a second time, leaves out or shares."""
+    tree = tree_of(path)
+    for node, message, meant in () if tree is None else (*_spent(tree), *_shorter(tree), *_shared(tree)):
+        code = Rewritten(meant) if meant is not None and len(meant) <= _MOST else None
+        at = Location(node_span(path, node, quotes=True), chain)
+        problems.warning(Code.USER_CODE, message, at, suggestion=code)
+
+
+def without_shared(problems: Iterable[Problem]) -> Callable[[Problem], Problem | None]:
+    """Return what leaves out problems of what calls share, in a file where that is told."""
+    told = {
+        (item.span.file, item.message.split("'")[1])
+        for item in problems
+        if item.span and _SHARED in item.message
+    }
+
+    def kept(problem: Problem) -> Problem | None:
+        span = problem.span
+        if not told or span is None or _SHARED in problem.message:
+            return problem
+        written = text_at(str(Path(span.file).absolute()), span)
+        return None if (span.file, written) in told else problem
+
+    return kept
+
+
+def _spent(tree: Tree) -> Iterator[tuple[ast.expr, str, str | None]]:
+    """Yield the generators that have names by which they are gone through twice."""
+    scopes = [node for node in tree.nodes if isinstance(node, Function)]
+    for scope in (tree.module, *scopes):
+        nodes = list(of_scope(scope))
+        through = [(node, name) for node in nodes for name in _gone_through(node)]
+        for name, setting in tree.set_in(scope).items():
+            match setting:
+                case [ast.Assign(targets=[ast.Name()], value=value)] if _is_once(value):
+                    pass
+                case _:
+                    continue
+            uses = [(node, use) for node, use in through if use.id == name]
+            every = [node for node in nodes if isinstance(node, ast.Name) and node.id == name]
+            is_plain = len(every) == len(uses) + 1 and not _branches(nodes, name)
+            if len(uses) == _TWO and is_plain:
+                kind = "generator" if isinstance(value, ast.GeneratorExp) else called_by(value)
+                written = (
+                    f"[{ast.unparse(value)[1:-1]}]" if kind == "generator" else f"list({ast.unparse(value)})"
+                )
+                message = f"'{name}' has nothing left here: a {kind} is gone through once, in line {uses[0][1].lineno}"
+                last = uses[1][1]
+                yield last, f"{message}; {written} can be gone through again", None
+
+
+def _is_once(value: ast.expr) -> bool:
+    is_call = isinstance(value, ast.Call) and isinstance(value.func, ast.Name)
+    return isinstance(value, ast.GeneratorExp) or (is_call and called_by(value) in _ONCE)
+
+
+def _gone_through(node: ast.AST) -> Iterator[ast.Name]:
+    """Yield the names that something goes through to the end."""
+    found: list[ast.expr] = []
+    match node:
+        case ast.For(iter=through, body=body) if not any(
+            isinstance(item, ast.Break | ast.Return) for part in body for item in ast.walk(part)
+        ):
+            found = [through]
+        case (
+            ast.ListComp(generators=[part]) | ast.SetComp(generators=[part]) | ast.DictComp(generators=[part])
+        ):
+            found = [part.iter]
+        case ast.Starred(value=value):
+            found = [value]
+        case ast.Call(args=[given]) if called_by(node) in _TO_THE_END or called_by(node) == "extend":
+            found = [given]
+    yield from (item for item in found if isinstance(item, ast.Name))
+
+
+def _branches(nodes: list[ast.AST], name: str) -> bool:
+    """Return whether a name is used in what may not be run, or is run again."""
+    around = (ast.If, ast.IfExp, ast.For, ast.While, ast.Try, ast.Match)
+    inside = ((node.body, getattr(node, "orelse", [])) for node in nodes if isinstance(node, around[:-1]))
+    parts = [part for body, others in inside for part in (body, others)]
+    flat = [item for part in parts for item in (part if isinstance(part, list) else [part])]
+    return any(isinstance(item, ast.Name) and item.id == name for part in flat for item in ast.walk(part))
+
+
+def _shorter(tree: Tree) -> Iterator[tuple[ast.expr, str, str | None]]:
+    """Yield the lists that end before others that they are gone through with."""
+    for node in tree.nodes:
+        match node:
+            case ast.Call(func=ast.Name(id="zip"), args=[_, _, *_] as given, keywords=[]):
+                known = [tree.meaning(item) for item in given]
+            case _:
+                continue
+        lists = [item for item in known if isinstance(item, ast.List | ast.Tuple) and tree.is_apart(item)]
+        lengths = [len(item.elts) for item in lists]
+        if len(lists) == len(given) and min(lengths) < max(lengths):
+            shortest = lengths.index(min(lengths))
+            left = lists[lengths.index(max(lengths))].elts[min(lengths)]
+            yield given[shortest], f"zip ends with the shortest list: {ast.unparse(left)} is left out", None
+
+
+def _shared(tree: Tree) -> Iterator[tuple[ast.expr, str, str | None]]:
+    """Yield the lists and dictionaries by default that a function adds to: its calls have one between them."""
+    for function in tree.nodes:
+        if not isinstance(function, Function):
+            continue
+        given = function.args.args[len(function.args.args) - len(function.args.defaults) :]
+        for item, default in zip(given, function.args.defaults, strict=True):
+            is_empty = ast.unparse(default) in ("[]", "{}", "dict()", "list()")
+            is_changed = is_empty and any(_changes(node, item.arg) for node in ast.walk(function))
+            if is_changed and not _is_set(function, item.arg) and _is_called_again(function.name, tree):
+                message = f"'{item.arg}'{_SHARED}: None by default, and a new one in the function, is not"
+                yield default, message, None
+
+
+def _changes(node: ast.AST, name: str) -> bool:
+    match node:
+        case ast.Call(func=ast.Attribute(value=ast.Name(id=found), attr=attr)):
+            return found == name and attr in _CHANGING
+        case ast.Assign(targets=[ast.Subscript(value=ast.Name(id=found))]):
+            return found == name
+        case ast.AugAssign(target=ast.Name(id=found)):
+            return found == name
+    return False
+
+
+def _is_set(function: Function, name: str) -> bool:
+    """Return whether a function sets the name of a parameter to something else."""
+    targets = (
+        target for node in ast.walk(function) if isinstance(node, ast.Assign) for target in node.targets
+    )
+    return any(isinstance(target, ast.Name) and target.id == name for target in targets)
+
+
+def _is_called_again(name: str, tree: Tree) -> bool:
+    calls = [node for node in tree.nodes if isinstance(node, ast.Call) and called_by(node) == name]
+    loops = [node for node in tree.nodes if isinstance(node, ast.For | ast.ListComp | ast.GeneratorExp)]
+    return len(calls) >= _TWO or any(item in calls for loop in loops for item in ast.walk(loop))
