@@ -253,6 +253,35 @@ def test_forms_are_learned(
     assert _compare(text, items, module)
 
 
+@pytest.mark.parametrize("learned", ["b", "b:c"])
+@pytest.mark.parametrize(
+    "value",
+    [
+        "null",
+        "Null",
+        "full",
+        "NULL",
+        "b:null",
+        "b:full",
+        "--b",
+        "--",
+        "---b",
+        "b ?",
+        "b & c",
+        "b:",
+        "b: c",
+        "[b]",
+    ],
+)
+def test_values_that_may_be_no_texts_are_read_alike(
+    learned: str, value: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _forgetful(yaml_items, monkeypatch)
+    text = "- let:\n    name: a\n    value: {}\n"
+    written = [learned] * FEW + [value, learned]
+    _compare("launch:\n" + "".join(map(text.format, written)), yaml_items, yaml_file)
+
+
 def test_what_looks_alike_may_be_of_several_forms(monkeypatch: pytest.MonkeyPatch) -> None:
     forms = _forgetful(yaml_items, monkeypatch)
     plain, quoted = "- arg: {name: a, default: b}\n", "- arg: {name: a, default: 'b'}\n"

@@ -19,7 +19,7 @@ from orchestra.description.source import Keyed, Listed, Verbatim
 from orchestra.description.text import Items, Template
 from orchestra.errors import Problems
 from orchestra.fields import field
-from orchestra.load.alike.learned import Form, Manner, UnlikeError
+from orchestra.load.alike.learned import Form, Manner, UnlikeError, escaped
 from orchestra.load.alike.making import MAKING
 from orchestra.load.keys import spelled
 from orchestra.load.offsets import Source
@@ -133,7 +133,7 @@ class _Cast:
         if self.whole.text[first:last] != written.text:
             raise UnlikeError
         free = "" if way == _OWN else self.manner.harmless(self.whole.text, self.begin, first, last)
-        free = free if free and re.fullmatch(free, written.text) else re.escape(written.text)
+        free = free if free and re.fullmatch(free, written.text) else escaped(written.text)
         name, group = f"text{len(self.lines)}", self.group((first, last), free)
         self.lines.append(f"{name} = {way or _TEXT}(match[{group}], at, {group}, {written.quoted}, reader)")
         return name
@@ -169,7 +169,7 @@ class _Cast:
             nonlocal at
             if until < at:
                 raise UnlikeError
-            found.append(re.escape(self.whole.text[at:until]))
+            found.append(escaped(self.whole.text[at:until]))
             at = until
 
         for first, last in self.ordered():

@@ -90,3 +90,8 @@ def action_of(forms: list[Form] | None, whole: Source, begin: int, end: int, rea
         if match is not None:
             return form.make(whole, match, reader)
     return None
+
+
+def escaped(text: str) -> str:
+    """Return an expression for a text, with blanks and dashes as they are: an escape takes three times as long."""
+    return re.escape(text).replace("\\ ", " ").replace("\\\n", "\n").replace("\\-", "-")

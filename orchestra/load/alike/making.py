@@ -10,9 +10,9 @@ from orchestra.description.entity import matched_entity
 from orchestra.description.source import Verbatim
 from orchestra.description.text import (
     Items,
+    MatchedTemplate,
     PlainCall,
     matched_template,
-    matched_words,
     new_template,
     new_words,
     pieces_of,
@@ -29,12 +29,22 @@ if TYPE_CHECKING:
 
 def template(text: str, matched: Matched, group: int, quoted: bool, reader: Reader) -> Template:
     """Return a text with substitutions, as `Reader` reads it; the place of the group is that without quotes."""
-    if "$" not in text and "(" not in text and "\\" not in text and text[-1:] not in _QUOTES:
-        return matched_words(text, quoted, matched, group)
-    pieces = _pieces(text)
-    if pieces is None:
-        return reader.template(_written(text, matched.span(group), quoted))
-    return matched_template(text, quoted, matched, group, pieces)
+    if "$" in text or "(" in text or "\\" in text or text[-1:] in _QUOTES:
+        pieces = _pieces(text)
+        if pieces is None:
+            return reader.template(_written(text, matched.span(group), quoted))
+        return matched_template(text, quoted, matched, group, pieces)
+    made: Any = _new(MatchedTemplate)  # as `matched_words` does it: there are thousands
+    made.raw = made.constant = text
+    made.quoted = quoted
+    made.matched = matched
+    made.group = group
+    made.pieces = None
+    words: Template = made
+    return words
+
+
+_new = object.__new__
 
 
 @lru_cache(maxsize=256)

@@ -67,10 +67,10 @@ def actions(written: Format, whole: Source, around: Reader) -> tuple[Action, ...
     for item in items:
         action = action_of(known.get(item.beginning), whole, item.begin, item.end, reader)
         action = action or _read(written, whole, item, reader)
-        if action is None or len(reader.problems):
+        if action is None:
             return None
         found.append(action)
-    return tuple(found)
+    return None if len(reader.problems) else tuple(found)
 
 
 def _read(written: Format, whole: Source, item: Item, reader: Reader) -> Action | None:

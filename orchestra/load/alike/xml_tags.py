@@ -91,6 +91,7 @@ class _Scan:
         name = tag[_NAME]
         words.append(name)
         values: dict[str, Any] = {}
+        told = places.told
         for pair in _ATTRIBUTE.finditer(self.text, *tag.span(_PAIRS)):
             key, double, single = pair.groups()
             if key not in forms.texts:
@@ -99,7 +100,8 @@ class _Scan:
             text, group = (double, _IN_DOUBLE) if single is None else (single, _IN_SINGLE)
             field = model.texts.get(key)
             if field is not None and field not in values and "&" not in text:
-                values[field] = template(text, places, places.add(pair) | group, False, self.reader)
+                told.append(pair)
+                values[field] = template(text, places, len(told) - 1 << GROUPS | group, False, self.reader)
                 continue
             way = model.way(key, values)
             values[way.name] = way.read(self.attribute(pair, key, text, group), places, self.reader)

@@ -25,6 +25,7 @@ from orchestra.load.alike.yaml_lines import (
     PAIR,
     PLAIN_IN_PAIR,
     SINGLE_IN_PAIR,
+    TWO_PAIRS,
     Scan,
     lines_of,
 )
@@ -39,7 +40,8 @@ if TYPE_CHECKING:
     from orchestra.load.reader import Reader
 
 _CHILDREN: Final = "children"
-_TEXTS: Final = frozenset({BARE, IN_DOUBLE, IN_SINGLE})
+_FIRST, _SECOND = 2, 4  # the texts of two pairs
+_QUOTED: Final = frozenset({IN_DOUBLE, IN_SINGLE})
 
 
 def read(whole: Source, begin: int, end: int, reader: Reader) -> tuple[Action, tuple[str, ...]] | None:
@@ -70,7 +72,7 @@ class _Entities(Scan):
     def listed(self, column: int, model: Model | None, depth: int) -> tuple[Any, ...]:
         """Return the list whose dashes stand in a column, from the next line on: of entities, else of actions."""
         found: list[Any] = []
-        for line in self.dashed(column, depth):
+        while (line := self.dashed(column, depth)) is not None:
             if line[NAME] is not None:
                 at = line.start(NAME) - line.start()
                 if model is None:
@@ -127,10 +129,13 @@ class _Entities(Scan):
                 raise UnlikeError
             words.append(key)
             last: Any = line.lastindex
-            name = texts.get(key) if last in _TEXTS else None
-            text = None if name is None or name in values else line[last]
-            if text is not None and (last == BARE or ("\\" not in text and "'" not in text)):
-                values[name] = template(text, places, number << GROUPS | last, last != BARE, reader)  # type: ignore[index] # a text has one
+            name = texts.get(key)
+            if (
+                name is not None
+                and name not in values
+                and (last == BARE or (last in _QUOTED and "\\" not in line[last] and "'" not in line[last]))
+            ):
+                values[name] = template(line[last], places, number << GROUPS | last, last != BARE, reader)
                 number += 1
             else:
                 way = model.way(key, values)
@@ -190,6 +195,18 @@ class _Entities(Scan):
     def in_braces(self, line: re.Match[str], head: int, model: Model) -> Any:  # noqa: ANN401 - an entity
         """Return the entity that stands in braces behind a key, or behind a dash, up to the end of the line."""
         begin = line.start(OPEN)
+        found = TWO_PAIRS.fullmatch(self.text, begin, line.end())
+        if found is not None:
+            key, text, other, also = found.groups()
+            name, last = model.texts.get(key), model.texts.get(other)
+            if name is not None and last is not None and name != last:
+                self.words += ("{", key, other)
+                places, reader, number = self.places, self.reader, self.places.add(found)
+                made = {
+                    name: template(text, places, number | _FIRST, False, reader),
+                    last: template(also, places, number | _SECOND, False, reader),
+                }
+                return model.made(made, places, head)
         if self.text[begin] != "{":
             raise UnlikeError
         self.words.append("{")

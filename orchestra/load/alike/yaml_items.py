@@ -10,7 +10,7 @@ from __future__ import annotations
 import re
 from typing import TYPE_CHECKING, Any, Final
 
-from orchestra.load.alike.learned import Forms, Manner
+from orchestra.load.alike.learned import Forms, Manner, escaped
 from orchestra.load.alike.one_by_one import Item
 from orchestra.load.alike.yaml_entities import read
 from orchestra.load.yaml_plain import read_part
@@ -30,14 +30,16 @@ _CLOSED: Final = re.compile(rf"((?:[ ,]*[\]}}])*)({_REST})")
 _BEGINNING: Final = re.compile(r"[^\n:]*:")
 _WORDS: Final = re.compile(r"(?<![\w-])[\w-]+(?=:[ \n])|[{\[]|\n *- ")
 
-# Values in quotes that have no escapes; plain ones, within a flow collection and outside of one. They have few sets of
-# characters: most of the time that it takes to compile a form goes there.
+# Values in quotes that have no escapes; plain ones, within a flow collection and outside of one, which mean no null and
+# have a colon only where one has been seen. They have few sets of characters, and those few ranges: most of the time
+# that it takes to compile a form goes there.
 _QUOTED: Final = r"[ !#-&(-[\]-~]+"  # of ASCII all but quotes and backslashes
-_BEGUN: Final = r"(?=[\w/.$(+]|-[\w/.$(+-])(?![nN]ull\b|NULL\b)"
-_ENDED: Final = r"(?<! )"
-_IN_FLOW: Final = rf"{_BEGUN}[\w/.$()+=~^;@%<> -]+{_ENDED}"
-_BLOCK: Final = r"\w/.$()+=~^;@%<>,{}\[\]\-"
-_IN_BLOCK: Final = rf"{_BEGUN}[{_BLOCK} ]+(?::[{_BLOCK}][{_BLOCK} ]*)*{_ENDED}"
+_BEGUN: Final = r"-{0,2}[\w/.$(+]"
+_ENDED: Final = r"(?<! )(?<!ull)(?<!ULL)"
+_IN_FLOW: Final = rf"{_BEGUN}[\w $-&(-+\--9;->@-Z^-z|~]*{_ENDED}"
+_BLOCK: Final = r"\w$-&(-9;-[\]-~"
+_IN_BLOCK: Final = rf"{_BEGUN}[{_BLOCK} ]*{_ENDED}"
+_WITH_COLONS: Final = rf"{_BEGUN}[{_BLOCK} ]*(?::[{_BLOCK}][{_BLOCK} ]*)*{_ENDED}"
 _QUOTES: Final = ("'", '"')
 _BRACKET: Final = re.compile(r"[{\[]")
 _DEPTH: Final = 2  # a list that stands behind the key of a mapping
@@ -83,12 +85,14 @@ def _harmless(text: str, start: int, begin: int, end: int) -> str:
     if before in _QUOTES:
         return _QUOTED if before == behind else ""
     # Behind a bracket fewer characters mean nothing, as long as it is open and, for simplicity, afterwards too.
-    return _IN_BLOCK if _BRACKET.search(text, start, begin) is None else _IN_FLOW
+    if _BRACKET.search(text, start, begin) is not None:
+        return _IN_FLOW
+    return _WITH_COLONS if text.find(":", begin, end) >= 0 else _IN_BLOCK
 
 
 def _ending(text: str) -> str:
     closed = _CLOSED.fullmatch(text)
-    return re.escape(text) if closed is None else f"{re.escape(closed[1])}{_REST}"
+    return escaped(text) if closed is None else f"{escaped(closed[1])}{_REST}"
 
 
 MANNER: Final = Manner(_harmless, _ending)

@@ -15,10 +15,9 @@ from orchestra.load.alike.learned import UnlikeError
 from orchestra.load.alike.straight import Keys, Series
 from orchestra.load.offsets import spans_of
 from orchestra.location import GROUPS, Places, stretch
+from orchestra.patterns import pattern
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
-
     from orchestra.load.alike.straight import Scalar
     from orchestra.load.offsets import Source
 
@@ -44,15 +43,17 @@ _LINE: Final = re.compile(
     rf"( *+)(- ++)?+(?:({_KEY}):(?=[ \n]|\Z) *+)?+(?:{_VALUE}|({_PLAIN})|([\[{{])[^\n]*+)?+{_REST}|([^\n]*+\n?)"
 )
 _BEHIND: Final = re.compile(_REST)
-_ITEM: Final = re.compile(rf" *+(?:{_VALUE}|({_IN_FLOW})|([\[{{]))")
+_ITEM: Final = re.compile(rf" *+(?:([\[{{])|(?:{_VALUE}|({_IN_FLOW})) *+([,\]}}]))")
 PAIR: Final = re.compile(rf" *+({_KEY}): ++(?:([\[{{])|(?:{_VALUE}|({_IN_FLOW})) *+([,\]}}]))")
+# Two plain texts in braces, up to the end of the line: as most parameters, remaps and arguments stand.
+TWO_PAIRS: Final = pattern(rf"\{{ *+({_KEY}): ++({_IN_FLOW}) *+, *+({_KEY}): ++({_IN_FLOW}) *+\}}{_REST}")
 _ESCAPED: Final = re.compile(r'\\(["\\])')
 _NEXT: Final = re.compile(r" *+([,\]}])")
 # The groups of a line.
 _last_group: Final = attrgetter("lastindex")
 INDENT, DASH, NAME, IN_DOUBLE, IN_SINGLE, BARE, OPEN, _ODD = range(1, 9)
 # Those of an item and of a pair in brackets.
-_PLAIN_IN_ITEM, _OPEN_IN_ITEM = 3, 4
+_DOUBLE_IN_ITEM, _SINGLE_IN_ITEM, _PLAIN_IN_ITEM = 2, 3, 4
 KEY_IN_PAIR, DOUBLE_IN_PAIR, SINGLE_IN_PAIR, PLAIN_IN_PAIR = 1, 3, 4, 5
 
 
@@ -128,23 +129,24 @@ class Scan:
             raise UnlikeError
         return self.keys(indent, head, depth + 1)
 
-    def dashed(self, column: int, depth: int) -> Iterator[re.Match[str]]:
-        """Yield the lines with the dashes of a list; whoever takes one goes on to the line behind its item."""
-        while self.line < self.count:
-            line = self.lines[self.line]
-            indent = len(line[INDENT])
-            if line[DASH] is None or indent < column:
-                return
-            if indent > column or line.lastindex == DASH or depth > DEEPEST:
-                raise UnlikeError
-            self.words.append("-")
-            yield line
+    def dashed(self, column: int, depth: int) -> re.Match[str] | None:
+        """Return the next line where it has a dash of the list in a column, None where that ends."""
+        if self.line == self.count:
+            return None
+        line = self.lines[self.line]
+        indent, dash = line.group(INDENT, DASH)
+        if dash is None or len(indent) < column:
+            return None
+        if len(indent) > column or line.lastindex == DASH or depth > DEEPEST:
+            raise UnlikeError
+        self.words.append("-")
+        return line
 
     def series(self, column: int, head: int, depth: int) -> Series:
         """Return the list whose dashes stand in a column, from the next line on."""
         items: list[Any] = []
         begin = self.lines[self.line].start(DASH)
-        for line in self.dashed(column, depth):
+        while (line := self.dashed(column, depth)) is not None:
             if line[NAME] is not None:
                 items.append(self.keys(line.start(NAME) - line.start(), None, depth + 1))
                 continue
@@ -241,18 +243,22 @@ class Scan:
     def items(self, at: int, depth: int) -> tuple[list[Any], int]:
         """Return what stands in brackets, and the offset behind it."""
         items: list[Any] = []
-        text, end = self.text, self.end
+        text, end, places = self.text, self.end, self.places
         while True:
             found = _ITEM.match(text, at, end)
             if found is None:
                 raise UnlikeError
+            opening, _, single, plain, following = found.groups()
             at = found.end()
-            if found.lastindex == _OPEN_IN_ITEM:
-                value, at = self.flow(at - 1, found[_OPEN_IN_ITEM], None, depth + 1)
-                items.append(value)
+            if plain is not None:
+                items.append((plain, places.add(found) | _PLAIN_IN_ITEM, False))
+            elif opening is None:
+                group = _DOUBLE_IN_ITEM if single is None else _SINGLE_IN_ITEM
+                items.append(self.quoted(found, places.add(found), group))
             else:
-                items.append(self.scalar(found, self.places.add(found), found.lastindex == _PLAIN_IN_ITEM))
-            following, at = self.following(at)
+                value, at = self.flow(at - 1, opening, None, depth + 1)
+                items.append(value)
+                following, at = self.following(at)
             if following != ",":
                 break
         if following != "]":
