@@ -1,6 +1,6 @@
-"""The value of a parameter that is the text of an attribute in XML.
+"""The value of a parameter that is the text of an attribute in XML, or a Python text for all nodes.
 
-Upstream reads it as YAML and keeps it a text where PyYAML cannot read it, as the `[*]` of a glob. Source:
+Upstream reads an attribute as YAML and keeps it a text where PyYAML cannot read it, as the `[*]` of a glob. Source:
 `launch.utilities.type_utils.coerce_to_type` with `can_be_str`, and `ParameterValue` of launch_ros.
 """
 
@@ -8,11 +8,15 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
+from orchestra.errors import Code
 from orchestra.patterns import pattern
-from orchestra.resolve.scalars import upstream_value
+from orchestra.resolve.rcl.overrides import override_value
+from orchestra.resolve.scalars import described, upstream_value
 from orchestra.resolve.yaml_scalars import NotYaml
 
 if TYPE_CHECKING:
+    from orchestra.errors import Problems
+    from orchestra.location import Location
     from orchestra.values import ParameterValue
 
 _BEGUN: Final = pattern(r"""\s*[\[{'"]""")
@@ -32,3 +36,21 @@ def attribute_value(text: str) -> ParameterValue:
         if _BEGUN.match(text) and (not _WHOLE.fullmatch(text) or _LACKS_AN_ITEM.search(text)):
             raise
         return text
+
+
+def retyped(given: ParameterValue, location: Location, problems: Problems) -> ParameterValue:
+    """Return what rcl makes of a Python text behind `-p`; what it does not take there, as an empty one, stays a text.
+
+    That is how upstream hands over what is set for all nodes (launch_ros, `Node._perform_substitutions`).
+    """
+    if not isinstance(given, str):
+        return given
+    try:
+        value = override_value(given)
+    except ValueError:
+        return given
+    if value is None or value == given:
+        return given
+    message = f"'{given}' is read as {described(value)}, as ROS 2 does with a text for all nodes"
+    problems.warning(Code.SURPRISING_SCALAR, message, location)
+    return value

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
-from typing import TYPE_CHECKING, Final, Literal, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple, Protocol, TypeAlias
 
 from orchestra.dataclass import dataclass, maker
 from orchestra.description.text import Opaque
@@ -72,6 +72,14 @@ class Value:
 # What a resolution makes thousands of.
 new_read = maker(Read)
 new_value = maker(Value)
+
+
+class Packaged(NamedTuple):
+    """The words that start a program of a package, and what names the two where they were first found."""
+
+    words: tuple[str, ...]
+    package: Value
+    executable: Value
 
 
 class Poison:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from operator import attrgetter
 from typing import TYPE_CHECKING
 
 from orchestra.description.text import Template
@@ -17,9 +18,13 @@ if TYPE_CHECKING:
     from orchestra.values import Restart
 
 
+# What only does something beside others, or keeps others from it.
+_concerned = attrgetter("restart", "respawn_delay", "respawn_max_retries", "stop", "stdin")
+
+
 def check_keys(action: Running, restart: Restart | None, location: Location, run: Resolution) -> None:
     """Report keys of an action that never act. Calls in Python give arguments in bulk: theirs are left alone."""
-    if is_python(location):
+    if (restart is None and not any(_concerned(action))) or is_python(location):
         return
     for written, message in _idle(action, restart, run):
         run.problems.warning(Code.IDLE_KEY, message, run.at(written.span))

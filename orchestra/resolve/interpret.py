@@ -88,21 +88,24 @@ def visit(actions: Iterable[Action], run: Resolution) -> None:
             break
         if action.faults:
             _report_faults(action, run)
-        if not wanted(action, VISITORS[type(action).__name__], run):
-            continue
+        name, origin = type(action).__name__, action.origin
         conditional = action.if_ is not None or action.unless is not None
+        if origin is None and not conditional:  # as most are
+            _visitor(name).visit(action, run)
+            continue
+        if not wanted(action, VISITORS[name], run):
+            continue
         run.conditions += conditional
         if conditional:
             run.found.visited.add(id(action))
         outer = run.held
-        origin = action.origin
-        if conditional and (origin is not None or type(action).__name__ not in _LEAVES):
+        if conditional and (origin is not None or name not in _LEAVES):
             run.held = (*outer, *_held(action, run))
         if origin is None:
-            _visitor(type(action).__name__).visit(action, run)
+            _visitor(name).visit(action, run)
         else:
             run.around = (*around, origin)
-            _visitor(type(action).__name__).visit(action, run)
+            _visitor(name).visit(action, run)
             run.around = around
             run.found.carried_out[id(origin)] = origin
         run.conditions -= conditional

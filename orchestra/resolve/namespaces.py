@@ -8,6 +8,7 @@ from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Evaluated, Poison, Read, Value, new_read, new_value
 from orchestra.resolve.names import joined, mended, namespace_fault
 from orchestra.resolve.refusals import refuse_value
+from orchestra.resolve.scope import NAMESPACE
 
 if TYPE_CHECKING:
     from orchestra.description.entity import Entity
@@ -48,4 +49,8 @@ def pushed(base: Value) -> Read:
 
 def namespace_at(written: Template | None, node: Entity, run: Resolution) -> Evaluated | None:
     """Return the namespace of a node: what is written, below what has been pushed."""
-    return below(run.scope.namespace(run.place(node)), run.evaluate(written), run.problems)
+    scope = run.scope
+    base = scope.namespace(run.place(node)) if NAMESPACE in scope.variables else None
+    if base is None and written is None:
+        return None
+    return below(base, run.evaluate(written), run.problems)

@@ -51,7 +51,7 @@ def file_parameters(
     value = run.evaluate(written)
     if not isinstance(value, Value):
         return None
-    asked = "\0".join((run.context.file or "", value.text, os.getcwd())), plain  # noqa: PTH109 - pathlib is slow
+    asked = (value.text if value.text.startswith("/") else _from_here(value.text, run)), plain
     known = None if substitute else run.parameter_files.get(asked)
     if known is not None:  # many nodes are given the same file
         return _given(known, value, everywhere=everywhere)
@@ -76,6 +76,11 @@ def file_parameters(
             run.parameter_files[path, plain] = read_file(path, value.location, run, plain=plain)
         file = run.parameter_files[asked] = run.parameter_files[path, plain]
     return None if file is None else _given(file, value, everywhere=everywhere)
+
+
+def _from_here(path: str, run: Resolution) -> str:
+    """Return a path with what else decides where it leads."""
+    return "\0".join((run.context.file or "", path, os.getcwd()))  # noqa: PTH109 - pathlib is slow
 
 
 def _given(file: FileParameters, value: Value, *, everywhere: bool) -> FileParameters:

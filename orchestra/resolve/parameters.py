@@ -17,21 +17,19 @@ from orchestra.description.text import (
 )
 from orchestra.errors import Code
 from orchestra.load.offsets import is_on_one_line
-from orchestra.location import is_python, point
+from orchestra.location import is_python, location_of, point
 from orchestra.nearest import nearest
-from orchestra.resolve.attribute_values import attribute_value
+from orchestra.resolve.attribute_values import attribute_value, retyped
 from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.model import FileParameters, InlineParameter, ParameterSource, new_parameter
 from orchestra.resolve.parameter_files import file_parameters
 from orchestra.resolve.paths import beside
 from orchestra.resolve.rcl.odd_names import may_be_odd, odd_name
-from orchestra.resolve.rcl.overrides import override_value
 from orchestra.resolve.rcl.surprises import of_commas, plainly
 from orchestra.resolve.refusals import refuse_value
 from orchestra.resolve.scalars import (
     checked,
     coerced,
-    described,
     differs,
     items_alike,
     number_held,
@@ -68,11 +66,13 @@ def parameters(
     found: list[ParameterSource | None] = []
     for param in written:
         if param.from_ is None:
-            found += _inline(param, (), run, everywhere=isinstance(param, Override), quotes=quotes)
+            everywhere = isinstance(param, Override)
+            plain = _plainly(param, run, everywhere=everywhere, quotes=quotes)
+            found += (plain,) if plain else _inline(param, (), run, everywhere=everywhere, quotes=quotes)
         elif param.faulty and beside(run.context.file, param.from_.raw) is None:
             found.append(None)  # it may be no parameter at all: a remap stands where one belongs
         else:
-            substitute = run.flag(param.allow_substs, default=False)
+            substitute = param.allow_substs is not None and run.flag(param.allow_substs, default=False)
             file = file_parameters(param.from_, run, substitute=substitute is True, plain=component)
             found.append(file if isinstance(substitute, bool) else None)
     sound = tuple([item for item in found if item is not None])
@@ -141,6 +141,23 @@ def _text(
     return result
 
 
+def _plainly(param: Param, run: Resolution, *, everywhere: bool, quotes: bool) -> InlineParameter | None:
+    """Return a parameter whose text everybody reads alike; None for others: `_inline` gives the same, in more time."""
+    called, written = param.name, param.value
+    if type(called) is not MatchedTemplate or type(written) is not MatchedTemplate or param.type is not None:
+        return None
+    name, text = called.constant, written.constant
+    if not name or not text or param.param is not None or may_be_odd(name):
+        return None
+    value = text if written.quoted and quotes else value_alike(text)
+    if value is None:
+        return None
+    chain = run.context.included_from
+    keys = ((name, location_of(called.matched, called.group, chain)),)
+    at = location_of(written.matched, written.group, chain)
+    return new_parameter(name, value, at, everywhere, keys)
+
+
 def _inline(
     param: Param | SetParameter,
     above: tuple[tuple[str, Location], ...],
@@ -180,7 +197,7 @@ def _inline(
     if isinstance(value, Poison):
         return [None]
     if everywhere and not quotes and type_word is None and isinstance(written, Constant):
-        value = _retyped(value, at, run)
+        value = retyped(value, at, run.problems)
     places = tuple(run.at(item.span) for item in written) if isinstance(written, tuple) else ()
     return [new_parameter(name, value, at, everywhere, keys, places, tuple(reads))]
 
@@ -221,24 +238,6 @@ def _constant(name: str, value: Constant, type_word: str | None, run: Resolution
         return checked(value.value, type_word)
     except ValueError as error:
         return _refuse(name, error, run.at(value.span), run)
-
-
-def _retyped(given: ParameterValue, location: Location, run: Resolution) -> ParameterValue:
-    """Return what rcl makes of a Python text behind `-p`; what it does not take there, as an empty one, stays a text.
-
-    That is how upstream hands over what is set for all nodes (launch_ros, `Node._perform_substitutions`).
-    """
-    if not isinstance(given, str):
-        return given
-    try:
-        value = override_value(given)
-    except ValueError:
-        return given
-    if value is None or value == given:
-        return given
-    message = f"'{given}' is read as {described(value)}, as ROS 2 does with a text for all nodes"
-    run.problems.warning(Code.SURPRISING_SCALAR, message, location)
-    return value
 
 
 def _list(

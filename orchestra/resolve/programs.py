@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 from orchestra.errors import Code, Severity
 from orchestra.location import displayed, is_python
 from orchestra.resolve.containers import own_words
-from orchestra.resolve.context import POISON
+from orchestra.resolve.context import POISON, Packaged
 from orchestra.resolve.near_paths import near_path
 from orchestra.resolve.paths import beside, folder_of, settled_path
 from orchestra.resolve.refusals import refuse_value, report_missing_executable, report_missing_package
@@ -76,8 +76,9 @@ def packaged_words(
     where it is reported.
     """
     known = (package.text, executable.text, run.scope.environment.get("PATH", os.defpath))
-    if known in run.packaged:
-        return run.packaged[known]
+    found = run.packaged.get(known)
+    if found is not None:
+        return found.words
     packages = run.context.packages
     own = own_words(package, executable, written[0], run)
     if own is not None:
@@ -100,7 +101,7 @@ def packaged_words(
     if not _is_runnable(words[0], executable.location, run):
         return POISON
     if (words[0], known[2]) in run.startable:  # there is nothing to tell of it
-        run.packaged[known] = words
+        run.packaged[known] = Packaged(words, package, executable)
     return words
 
 

@@ -43,6 +43,8 @@ def remap(source: Template, target: Template, run: Resolution) -> ResolvedRemap 
 
 def remaps(written: Sequence[Remap], run: Resolution) -> tuple[tuple[ResolvedRemap, ...], bool]:
     """Return the rules of a node in order, and whether all of them are sound."""
+    if not written:
+        return (), True
     rules = [remap(item.from_, item.to, run) for item in written]
-    sound = tuple(rule for rule in rules if rule is not None)
+    sound = tuple([rule for rule in rules if rule is not None])
     return sound, len(sound) == len(rules)

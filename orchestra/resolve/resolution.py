@@ -16,7 +16,7 @@ from orchestra.fields import field, replace
 from orchestra.location import Location, Span, location_of
 from orchestra.nearest import nearest
 from orchestra.resolve.booleans import boolean
-from orchestra.resolve.context import POISON, Context, Evaluated, Poison, Value, new_value
+from orchestra.resolve.context import POISON, Context, Evaluated, Packaged, Poison, Value, new_value
 from orchestra.resolve.evaluate import evaluate
 from orchestra.resolve.found import Found
 from orchestra.resolve.impossible.held import Held
@@ -87,7 +87,7 @@ class Resolution:
     repetitions: int = 0
     held: tuple[Held, ...] = ()
     startable: set[tuple[str, str]] = field(default_factory=set)
-    packaged: dict[tuple[str, str, str], tuple[str, ...]] = field(default_factory=dict)
+    packaged: dict[tuple[str, str, str], Packaged] = field(default_factory=dict)
     components: dict[tuple[str, ...], tuple[Any, ...]] = field(default_factory=dict)
     descriptions: dict[str, Description | None] = field(default_factory=dict)
     parameter_files: dict[tuple[str, bool], FileParameters | None] = field(default_factory=dict)

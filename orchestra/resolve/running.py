@@ -46,11 +46,11 @@ if TYPE_CHECKING:
 
 # What an action may say of how its process runs, and the variables that say it for all.
 _settings = attrgetter(
-    *("env", "env_only", "depends_on", "launch_prefix", "shell", "cwd", "emulate_tty", "on_exit"),
+    *("env_only", "depends_on", "launch_prefix", "shell", "cwd", "emulate_tty", "on_exit"),
     *("respawn", "respawn_delay", "respawn_max_retries", "restart", "required", "success_exit_codes"),
     *("ready", "alive", "stop", "sigterm_timeout", "sigkill_timeout", "limits", "stdin", "warm"),
 )
-_NOTHING = ((), None, (), *((None,) * 19))
+_NOTHING = (None, (), *((None,) * 19))
 _FOR_ALL = ("launch-prefix", "launch-prefix-filter", "emulate_tty", "sigterm_timeout", "sigkill_timeout")
 
 
@@ -92,14 +92,15 @@ def add_process(action: Running, program: Program, run: Resolution) -> int:
 
 
 def _says_nothing(action: Running, run: Resolution) -> bool:
-    """Return whether nothing is said about how a process runs, neither at it nor for all: most are such."""
+    """Return whether nothing but variables is said about how a process runs, at it or for all: most are such."""
     return _settings(action) == _NOTHING and run.scope.variables.keys().isdisjoint(_FOR_ALL)
 
 
 def _as_it_is(action: Running, program: Program, run: Resolution) -> ResolvedProcess:
     """Return the process of an action that says nothing of how it runs: `_resolved` gives the same, in more time."""
-    location, frame = run.place(action), run.frame
+    location, frame, origin = run.place(action), run.frame, action.origin
     places = output(action.output, run, location)
+    changes = _environment(action, run) if action.env else dict(run.scope.changes)
     return new_process(
         kind=program.kind,
         package=program.package,
@@ -113,7 +114,7 @@ def _as_it_is(action: Running, program: Program, run: Resolution) -> ResolvedPro
         prefix=(),
         shell=False,
         cwd=None,
-        environment=dict(run.scope.changes),
+        environment={} if isinstance(changes, Poison) else changes,
         parameters=program.parameters,
         parameter_arguments=program.parameter_arguments,
         remaps=program.remaps,
@@ -130,22 +131,22 @@ def _as_it_is(action: Running, program: Program, run: Resolution) -> ResolvedPro
         depends_on=frame.depends_on,
         labels=frame.labels,
         location=location,
-        conditional=_is_conditional(action, run),
-        faulty=isinstance(places, Poison) or program.faulty or action.faulty,
+        conditional=origin is not None or run.conditional,
+        faulty=isinstance(places, Poison) or isinstance(changes, Poison) or program.faulty or action.faulty,
         autostart=program.autostart,
         through=program.through,
         params_schema=program.params_schema,
         share=program.share,
-        origin=action.origin,
+        origin=origin,
         around=run.around,
     )
 
 
 def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedProcess:
     """Return the process that an action starts."""
-    sound, location = Sound(), run.place(action)
-    on_exit, places = sound(run.word(action.on_exit, ON_EXIT)), output(action.output, run, location)
-    again = sound(restart(action, run))
+    sound, location, alone = Sound(), run.place(action), run.scope.variables.keys().isdisjoint(_FOR_ALL)
+    on_exit = None if action.on_exit is None else sound(run.word(action.on_exit, ON_EXIT))
+    places, again = output(action.output, run, location), sound(restart(action, run))
     check_keys(action, again, location, run)
     return new_process(
         kind=program.kind,
@@ -157,7 +158,7 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         program=program.words,
         arguments=program.arguments,
         ros_arguments=program.ros_arguments,
-        prefix=sound(_prefix(action, program, run)) or (),
+        prefix=() if alone and action.launch_prefix is None else sound(_prefix(action, program, run)) or (),
         shell=action.shell is not None and sound(run.flag(action.shell)) is True,
         cwd=None if action.cwd is None else sound(_cwd(action, run)),
         environment=sound(_environment(action, run)) or {},
@@ -166,7 +167,7 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         remaps=program.remaps,
         remaps_among_words=program.remaps_among_words,
         output=sound(places) if isinstance(places, Poison) else places,
-        emulate_tty=sound(emulate_tty(action, run)),
+        emulate_tty=None if alone and action.emulate_tty is None else sound(emulate_tty(action, run)),
         restart=again,
         required=sound(run.flag(action.required, default=on_exit is not None)) is True,
         shutdown_on_exit=on_exit is not None,
@@ -180,9 +181,8 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         stdin=None if action.stdin is None else sound(_stdin(action, run)),
         warm=None if action.warm is None else sound(run.flag(action.warm)),
         location=location,
-        conditional=_is_conditional(action, run),
-        # The last one: all others have been looked at.
-        faulty=sound.faulty or program.faulty or action.faulty,
+        conditional=action.origin is not None or run.conditional,  # what one in Python said is not known
+        faulty=sound.faulty or program.faulty or action.faulty,  # when all others have been looked at
         inherit_environment=action.env_only is None,
         autostart=program.autostart,
         through=program.through,
@@ -191,11 +191,6 @@ def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedPro
         origin=action.origin,
         around=run.around,
     )
-
-
-def _is_conditional(action: Running, run: Resolution) -> bool:
-    """Return whether the process need not come about; what a condition in Python said is not known."""
-    return run.conditional or action.origin is not None
 
 
 def name_in_launch(process: ResolvedProcess, index: int) -> str:

@@ -16,7 +16,7 @@ from orchestra.description.text import MatchedTemplate, Opaque, Pieces, Words
 from orchestra.errors import Code
 from orchestra.fields import field
 from orchestra.load.offsets import Source, is_on_one_line
-from orchestra.location import Span, inside, is_within, offsets_of, stretch, whole_of
+from orchestra.location import Span, inside, is_within, new_location, offsets_of, stretch, stretches, whole_of
 from orchestra.patterns import pattern
 from orchestra.resolve.context import POISON, Poison, Read, Value, new_value
 from orchestra.resolve.evaluate import evaluate, perform
@@ -112,10 +112,10 @@ def _both(word: _Word, more: _Word) -> _Word:
 
 def _bare(template: MatchedTemplate, context: Context) -> tuple[Value, ...] | None:
     """Return the words of a text in which nothing escapes and only variables are substituted; else None."""
-    raw, span = template.raw, template.span
+    raw, part, chain = template.raw, stretches(template.span), context.included_from
     if template.constant is not None:
         return tuple(
-            new_value(found[0], context.at(inside(span, *found.span()))) for found in _WORD.finditer(raw)
+            new_value(found[0], new_location(part(*found.span()), chain)) for found in _WORD.finditer(raw)
         )
     pieces = template.pieces
     if type(pieces) is not Pieces or pieces.variables is None:  # those of code stand at no offsets
@@ -124,7 +124,7 @@ def _bare(template: MatchedTemplate, context: Context) -> tuple[Value, ...] | No
     if known is None:
         return None
     return tuple(
-        new_value(text, context.at(inside(span, begin, end)), through=reads, raw=raw[begin:end])
+        new_value(text, new_location(part(begin, end), chain), through=reads, raw=raw[begin:end])
         for text, begin, end, reads in _words_of(pieces.pieces, *known)
     )
 

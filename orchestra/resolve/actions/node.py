@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 from orchestra.description.actions.node import REACHED
+from orchestra.description.text import MatchedTemplate
 from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Evaluated, Poison, Value
 from orchestra.resolve.model import FileParameters, ResolvedRemap
@@ -30,10 +32,12 @@ if TYPE_CHECKING:
     from orchestra.resolve.resolution import Resolution
     from orchestra.resolve.running import Program
 
+    _Started: TypeAlias = tuple[Evaluated | None, Evaluated | None, tuple[str, ...] | Poison, Sequence[Read]]
+
 
 def visit(action: Node, run: Resolution) -> None:
     """Start a node; one that is brought to a state is a lifecycle node."""
-    managed = run.word(action.lifecycle, REACHED)
+    managed = None if action.lifecycle is None else run.word(action.lifecycle, REACHED)
     if managed is None:
         start(action, "node", run)
         return
@@ -53,14 +57,8 @@ def check_full_name(index: int, action: Node, run: Resolution) -> None:
 def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison | None = False) -> int:
     """Add the process of a node to what has been found; return its index."""
     started = _started(action)
-    if started.constant is not None and (action.pkg is None or action.pkg.constant is not None):
-        reads: Sequence[Read] = ()
-        package, executable = run.evaluate(action.pkg), run.evaluate(started)
-    else:
-        with run.scope.tracing() as reads:
-            package, executable = run.evaluate(action.pkg), run.evaluate(started)
-    label = run.text(action.exec_name)
-    words = _words(package, executable, action, run)
+    package, executable, words, reads = _known(action, started, run) or _found(action, started, run)
+    label = None if action.exec_name is None else run.text(action.exec_name)
     name, namespace = named(action.name, run), namespace_at(action.namespace, action, run)
     if isinstance(name, Value) and isinstance(namespace, Poison):
         run.found.lost.add(name.text)  # its full name is not known
@@ -145,6 +143,28 @@ def _started(action: Node) -> Template:
     started = action.module or action.script or action.exec
     assert started is not None  # noqa: S101 - see above
     return started
+
+
+def _known(action: Node, started: Template, run: Resolution) -> _Started | None:
+    """Return what was found for a node of the same program, of which there is nothing to tell; None for none."""
+    pkg = action.pkg
+    if type(pkg) is not MatchedTemplate or type(started) is not MatchedTemplate or started is not action.exec:
+        return None
+    if pkg.constant is None or started.constant is None:
+        return None
+    found = run.packaged.get((pkg.constant, started.constant, run.scope.environment.get("PATH", os.defpath)))
+    return None if found is None else (found.package, found.executable, found.words, ())
+
+
+def _found(action: Node, started: Template, run: Resolution) -> _Started:
+    """Return package, executable and words, and what was read for them."""
+    if started.constant is not None and (action.pkg is None or action.pkg.constant is not None):
+        reads: Sequence[Read] = ()
+        package, executable = run.evaluate(action.pkg), run.evaluate(started)
+    else:
+        with run.scope.tracing() as reads:
+            package, executable = run.evaluate(action.pkg), run.evaluate(started)
+    return package, executable, _words(package, executable, action, run), reads
 
 
 def _words(

@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
     from orchestra.resolve.rcl.sections import Section
 
+_EVERY: Final = frozenset({"**", "/**"})
 _FEW: Final = 8  # patterns that are sooner tried one by one
 
 
@@ -22,7 +23,7 @@ class Indexed:
     Of many only those are looked at again whose parts are those of the name.
     """
 
-    __slots__ = ("_exact", "_named", "_open", "_parted", "_wild", "sections")
+    __slots__ = ("_exact", "_named", "_open", "_parted", "_wild", "for_all", "sections")
 
     def __init__(self, sections: Sequence[Section]) -> None:
         self.sections = sections
@@ -39,9 +40,13 @@ class Indexed:
             else:
                 self._open.append(place)
         self._wild = bool(self._open or self._named)
+        # Whether each is for every node, as that of most files that are shared.
+        self.for_all = all(section.pattern in _EVERY for section in sections)
 
     def matching(self, full_name: str) -> list[Section]:
         """Return the sections that are for a node, in order."""
+        if self.for_all:
+            return [*self.sections]
         exact = self._exact.get(full_name, ())
         if not self._wild:
             return [self.sections[place] for place in exact]
@@ -50,7 +55,7 @@ class Indexed:
 
     def has_wildcard_for(self, full_name: str) -> bool:
         """Return whether a pattern with a wildcard is for a node."""
-        return self._wild and bool(self._with_wildcards(full_name))
+        return self._wild and (self.for_all or bool(self._with_wildcards(full_name)))
 
     def _with_wildcards(self, full_name: str) -> list[int]:
         named = self._named.get(full_name.rpartition("/")[2], ()) if self._named else ()
