@@ -27,7 +27,7 @@ from orchestra.fields import (
     values_of,
 )
 
-__all__ = ["changer", "dataclass", "maker"]
+__all__ = ["dataclass", "maker"]
 
 TYPE_CHECKING = False
 if TYPE_CHECKING:
@@ -271,20 +271,3 @@ def _leave_open(cls: Any) -> None:
     """Have a class refuse nothing any more."""
     for name, method in _OPEN.items():
         setattr(cls, name, method)
-
-
-def changer(cls: Callable[..., T], name: str) -> Callable[[T, Any], T]:
-    """Return what makes an object like another one but for one field, as `replace` does, in a tenth of the time.
-
-    It is compiled, so that it pays where many objects are made anew; for classes that have a maker.
-    """
-    known: dict[str, Any] = {"_new": object.__new__, "_cls": cls}
-    frozen: Any = cls
-    items: Any = fields(frozen)
-    lines = ["made = _new(_cls)", f"made.{name} = value"]
-    lines += [f"made.{item.name} = record.{item.name}" for item in items if item.name != name]
-    lines.append("return made")
-    text = "\n ".join(["def change(record, value):", *lines])
-    exec(compile(text, _MADE, "exec"), known)  # noqa: S102 - names of fields, which are identifiers
-    made: Callable[[T, Any], T] = known["change"]
-    return made

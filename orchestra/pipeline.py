@@ -16,7 +16,7 @@ from orchestra.nearest import renew
 from orchestra.plan.build import build
 from orchestra.plan.checks.table import has_settings
 from orchestra.plan.relocated import relocated
-from orchestra.plan.warm import warmed
+from orchestra.plan.warm import Warmth, warmed
 from orchestra.resolve import launch_files
 from orchestra.resolve.command_line import inputs_from
 from orchestra.resolve.commands import run_command
@@ -137,8 +137,8 @@ def opened(
                 resolved = _symbolic(carry_through(description, run), isolation.files)
                 resolved = _provided_for(resolved, inputs, problems)
                 _warn_of_remaining(path, isolation, problems)
-                plan = build(resolved, problems, whole=whole)
-                plan = warmed(plan, inputs.environment) if whole else plan
+                warmth = Warmth(inputs.environment) if whole else None
+                plan = build(resolved, problems, whole=whole, warmth=warmth)
                 launch = Launch(plan, run, isolation.files)
                 if not inputs.launching:
                     # Here, because a run looks at its machine itself.

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 
 import pytest
 
-from orchestra.dataclass import changer, dataclass, maker
+from orchestra.dataclass import dataclass, maker
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -277,16 +277,6 @@ class MadeToo(Made):
 
 
 _make, _make_too = maker(Made), maker(MadeToo)
-
-
-def test_what_a_changer_changes_is_one_field_of_another_object() -> None:
-    before = MadeToo("a", (1,))
-    for item in filter(lambda item: item.init, dataclasses.fields(MadeToo)):
-        value = getattr(MadeToo("b", (2,), more="B"), item.name)
-        made = changer(MadeToo, item.name)(before, value)
-        assert type(made) is MadeToo
-        assert made == dataclasses.replace(before, **{item.name: value})
-    assert before == MadeToo("a", (1,))
 
 
 def test_what_a_maker_makes_is_what_the_class_makes() -> None:

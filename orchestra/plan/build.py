@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from functools import partial
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 from orchestra.fields import replace
 from orchestra.plan.awaited import life, readiness
@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from orchestra.errors import Problems
     from orchestra.plan.conditions import Dependency
     from orchestra.plan.parameters import Parameters
+    from orchestra.plan.warm import Warmth
     from orchestra.resolve.model import Resolved, ResolvedComponent, ResolvedProcess
     from orchestra.values import ParameterValue
 
@@ -51,12 +52,14 @@ def build(
     triggers_before: int = 0,
     known: Collection[str] = (),
     whole: bool = True,
+    warmth: Warmth | None = None,
 ) -> Plan:
     """Return the plan. What cannot work is reported; the problems found so far become part of the plan.
 
     `triggers_before` counts the triggers of a plan that is added to, and `known` are the ids in it. A node that is
     added may have the name of one of these: most often it replaces one that has ended. A plan that is not `whole` has
-    what the checks look at, and is for nobody else: its processes cannot be started, compared or explained.
+    what the checks look at, and is for nobody else: its processes cannot be started, compared or explained. Without
+    `warmth` it is left open which processes can be forked (`warmed`).
     """
     ids = identities(resolved.processes)
     loaded = identities(resolved.components, ids)
@@ -71,16 +74,15 @@ def build(
     check_cycles(edges, problems)
     check_stdin(targets.process, problems)
     check_given(resolved, problems)
-    sections = Sections(resolved)
-    processes = tuple(
-        _process(process, identity, edges[identity], sections, problems, whole=whole)
-        for identity, process in targets.process.items()
-    )
+    sections = Sections(resolved, frozenset(targets.full))
+    common = _Common(sections, problems, whole, warmth)
+    named = zip(targets.process.items(), targets.full, strict=True)
+    processes = [_process(process, key, full, edges[key], common) for (key, process), full in named]
     plan = Plan(
         VERSION,
         resolved.file,
         _arguments(resolved) if whole else (),
-        processes,
+        tuple(processes),
         components(resolved, ids, loaded, sections, problems),
         triggers(resolved, ids, loaded, triggers_before),
         tuple(
@@ -108,20 +110,25 @@ def _arguments(resolved: Resolved) -> tuple[Argument, ...]:
     )
 
 
+class _Common(NamedTuple):
+    """What all processes of a plan have in common."""
+
+    sections: Sections
+    problems: Problems
+    whole: bool
+    warmth: Warmth | None
+
+
 def _process(
-    process: ResolvedProcess,
-    identity: str,
-    edges: tuple[Dependency, ...],
-    sections: Sections,
-    problems: Problems,
-    *,
-    whole: bool,
+    process: ResolvedProcess, identity: str, full: str | None, edges: tuple[Dependency, ...], common: _Common
 ) -> Process:
-    parameters = parameters_of(process, sections, problems, whole=whole)
+    sections, problems, whole, warmth = common
+    parameters = parameters_of(process, full, sections, problems, whole=whole)
     check_remaps(process, problems)
     path = path_of(identity) if parameters.is_passed and (parameters.values or parameters.files) else None
     files = tuple([new_file(path or file.path, file.content) for file in parameters.files])
     words, environment = command(process, path) if whole else (), environment_of(process)
+    wished = None if process.warm is None else wish(process.warm)
     return new_process(
         id=identity,
         kind=process.kind,
@@ -141,17 +148,17 @@ def _process(
         arguments=process.arguments,
         output=process.output,
         emulate_tty=process.emulate_tty,
-        stdin=_stdin(process),
+        stdin=None if process.stdin is None else True,
         restart=process.restart,
         required=process.required,
         success_exit_codes=process.success_exit_codes,
-        ready=readiness(process, problems),
-        alive=life(process, problems),
+        ready=None if process.ready is None else readiness(process, problems),
+        alive=None if process.alive is None else life(process, problems),
         lifecycle="active" if process.autostart else None,
         depends_on=edges,
         stop=process.stop,
         limits=process.limits,
-        warm=wish(process.warm),
+        warm=wished if warmth is None else warmth.of(process, wished, words, environment),
         machine=None,
         digest=_digest(process, words, environment, parameters.values, files) if whole else "",
         location=process.location,
@@ -164,10 +171,6 @@ def _provenance(process: ResolvedProcess, parameters: Parameters, *, whole: bool
     return provenance(process, parameters) if whole else Provenance(parameters=parameters.written())
 
 
-def _stdin(process: ResolvedProcess) -> bool | None:
-    return True if process.stdin is not None else None
-
-
 def _digest(
     process: ResolvedProcess,
     words: tuple[str, ...],
@@ -176,7 +179,7 @@ def _digest(
     files: tuple[ParameterFile, ...],
 ) -> str:
     around = (environment, process.inherit_environment)
-    how = (_stdin(process), process.shell, process.limits)
+    how = (None if process.stdin is None else True, process.shell, process.limits)
     # As the encoder of plans has them.
     given = [{"path": file.path, "content": file.content} for file in files]
     return digest_of(words, around, process.cwd, values, given, *how)

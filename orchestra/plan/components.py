@@ -37,6 +37,8 @@ def components(
     """Return the components in order; `ids` are those of the processes, `own` those of the components."""
     if not resolved.components:
         return ()
+    if not resolved.components:
+        return ()
     containers = _Containers(resolved)
     found = []
     for component, identity in zip(resolved.components, own, strict=True):

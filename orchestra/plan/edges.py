@@ -25,24 +25,41 @@ _CURES: Final = {False: "a `ready`", True: "`ready: {lifecycle: active}`, say"}
 
 
 class Targets:
-    """The processes of a plan by what a dependency may call them."""
+    """The processes of a plan by what a dependency may call them, which few descriptions have."""
 
     def __init__(self, resolved: Resolved, ids: Sequence[str]) -> None:
         self.resolved = resolved
         self.process = dict(zip(ids, resolved.processes, strict=True))
-        self.nodes: dict[str, list[str]] = {}
-        self.names: dict[str, list[str]] = {}
-        self.labels: dict[str, list[str]] = {}
-        for identity, process in self.process.items():
-            full = node_name(process)
+        self.full = [node_name(process) for process in resolved.processes]  # of those that are nodes
+
+    @cached_property
+    def nodes(self) -> dict[str, list[str]]:
+        """Those that are nodes by their full names."""
+        found: dict[str, list[str]] = {}
+        for identity, full in zip(self.process, self.full, strict=True):
             if full is not None:
-                self.nodes.setdefault(full, []).append(identity)
+                found.setdefault(full, []).append(identity)
+        return found
+
+    @cached_property
+    def names(self) -> dict[str, list[str]]:
+        """The processes by their ids, and by what they are called."""
+        found: dict[str, list[str]] = {}
+        for identity, process in self.process.items():
             called = process.label or process.executable
-            self.names.setdefault(identity, []).append(identity)
+            found.setdefault(identity, []).append(identity)
             if called != identity:
-                self.names.setdefault(called, []).append(identity)
+                found.setdefault(called, []).append(identity)
+        return found
+
+    @cached_property
+    def labels(self) -> dict[str, list[str]]:
+        """The processes by the labels of what they are in."""
+        found: dict[str, list[str]] = {}
+        for identity, process in self.process.items():
             for label in process.labels:
-                self.labels.setdefault(label, []).append(identity)
+                found.setdefault(label, []).append(identity)
+        return found
 
     @cached_property
     def actions(self) -> dict[int, list[str]]:

@@ -12,7 +12,7 @@ from orchestra.nearest import nearest
 from orchestra.plan import candidates
 from orchestra.plan.absent import is_mistake
 from orchestra.plan.ids import node_name
-from orchestra.plan.model import Candidate, ParameterFile, new_candidate
+from orchestra.plan.model import Candidate, ParameterFile, new_candidate, new_file
 from orchestra.plan.parameter_file import rendered
 from orchestra.plan.passed_on import EVERY_NODE, Sections
 from orchestra.resolve.model import InlineParameter
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
 
     from orchestra.location import Location
     from orchestra.resolve.model import (
+        ParameterSource,
         Resolved,
         ResolvedComponent,
         ResolvedProcess,
@@ -49,9 +50,9 @@ class Parameters:
 
 
 def parameters_of(
-    process: ResolvedProcess, sections: Sections, problems: Problems, *, whole: bool = True
+    process: ResolvedProcess, full: str | None, sections: Sections, problems: Problems, *, whole: bool = True
 ) -> Parameters:
-    """Return the effective parameters of a process; those of the command line win over all others.
+    """Return the effective parameters of a process, by its full name; those of the command line win over all others.
 
     A surprise is reported: a value that loses although it stands last. What is not `whole` lacks what values came
     through, and what goes to other nodes.
@@ -59,7 +60,6 @@ def parameters_of(
     is_passed = bool(process.parameters or sections.given)
     if process.kind == "process" or not (is_passed or process.parameter_arguments):
         return _NONE
-    full = node_name(process)
     own = full if full is not None and process.namespace is not None else EVERY_NODE
     plain = (
         None
@@ -105,23 +105,25 @@ def _plain(
 
     Where the full name is not known, other nodes in the process may read them too.
     """
-    found = _each_once(process, own, full, sections)
-    if found is None:
-        return None
-    values = {
-        name: single[0]
-        for singles in found.values()
-        for name, single in singles.items()
-        if single[0] is not None
-    }
-    of_files = any(kind is not InlineParameter for kind in set(map(type, process.parameters)))
-    if of_files:
-        files = sections.passed_on(process, own) if whole else ()
-    else:
-        files = (ParameterFile("", rendered(own, values)),) if whole and values and own == EVERY_NODE else ()
+    values = _inline_once(process.parameters)
+    if values is None:
+        singles = _each_once(process, own, full, sections)
+        if singles is None:
+            return None
+        values = {
+            name: value
+            for part in singles.values()
+            for name, (value, _, _) in part.items()
+            if value is not None
+        }
+    files: tuple[ParameterFile, ...] = ()
+    if whole and any(kind is not InlineParameter for kind in set(map(type, process.parameters))):
+        files = sections.passed_on(process, own)
+    elif whole and values and own == EVERY_NODE:
+        files = (new_file("", rendered(own, values)),)
 
     def written() -> dict[str, tuple[Candidate, ...]]:
-        known = _origins(process, whole=whole)
+        known, found = _origins(process, whole=whole), _each_once(process, own, full, sections) or {}
         return {
             name: _candidate(*single, f"set for '{pattern}'", known)
             for pattern, singles in found.items()
@@ -143,6 +145,16 @@ def _candidate(
 ) -> tuple[Candidate, ...]:
     through = candidates.behind(at, known) if source is None else candidates.passage(source.through)
     return (new_candidate(value, at, True, rule, through),)
+
+
+def _inline_once(parameters: Sequence[ParameterSource]) -> dict[str, ParameterValue] | None:
+    """Return the values of parameters by their names; None where there are others than those of one node, each once."""
+    values = {}
+    for source in parameters:
+        if type(source) is not InlineParameter or source.everywhere or source.value is None:
+            return None
+        values[source.name] = source.value
+    return values if len(values) == len(parameters) else None
 
 
 def _each_once(

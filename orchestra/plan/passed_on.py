@@ -6,11 +6,10 @@ nodes would be passed on a thousand times else, and a change of one section woul
 
 from __future__ import annotations
 
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 from orchestra.plan.ids import node_name
-from orchestra.plan.model import ParameterFile
+from orchestra.plan.model import new_file
 from orchestra.plan.parameter_file import line, with_lines
 from orchestra.resolve.model import InlineParameter
 from orchestra.resolve.rcl.indexed import Indexed, absolute
@@ -21,6 +20,7 @@ if TYPE_CHECKING:
     from collections.abc import Collection, Container, Iterable, Sequence
     from typing import TypeAlias
 
+    from orchestra.plan.model import ParameterFile
     from orchestra.resolve.model import FileParameters, Resolved, ResolvedComponent, ResolvedProcess
 
     _Block: TypeAlias = "tuple[str, Collection[str], list[str] | None]"
@@ -31,19 +31,16 @@ EVERY_NODE = "/**"
 class Sections:
     """The sections that nodes of one plan are given. Files, and what is passed on of them, are gone through once."""
 
-    def __init__(self, resolved: Resolved) -> None:
+    def __init__(self, resolved: Resolved, nodes: Container[str | None]) -> None:
+        """Take the full names of the nodes that processes are."""
         self.given = tuple(section for item in resolved.given for section in item.sections)
-        self._processes = resolved.processes
+        self._nodes = nodes
         self._files: dict[int, Indexed] = {}
         self._others: dict[int, _Others] = {}
         self._passed_on: dict[tuple[object, ...], tuple[ParameterFile, ...]] = {}
         # By identities: entries and sections are kept, so that no others get theirs.
         self._lines: dict[tuple[str, int], tuple[Entry, str]] = {}
         self._blocks: dict[int, tuple[Section, _Block]] = {}
-
-    @cached_property
-    def _nodes(self) -> set[str | None]:
-        return {node_name(process) for process in self._processes}
 
     def for_node(self, node: ResolvedProcess, own: str, full: str | None) -> list[Section]:
         """Return everything on upstream's command line that is for a node: for all nodes, then its own.
@@ -83,7 +80,7 @@ class Sections:
                 every = [section for item in sources for section in self._of(item, own, name, known=known)]
                 every += self._kept(self.given, name, known=known)
                 content = self._rendered(every)
-            self._passed_on[key] = (ParameterFile("", content),) if content else ()
+            self._passed_on[key] = (new_file("", content),) if content else ()
         return self._passed_on[key]
 
     def _plainly(

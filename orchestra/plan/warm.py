@@ -12,17 +12,17 @@ import sys
 from functools import cache
 from typing import TYPE_CHECKING, Literal, NamedTuple
 
-from orchestra.dataclass import changer
 from orchestra.fields import replace
-from orchestra.plan.model import Process, Warm
+from orchestra.plan.model import Warm
 from orchestra.plan.startup import is_read_at_startup
 from orchestra.resolve.runnable import program_on_path
 from orchestra.witness.once import once
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Mapping
+    from collections.abc import Mapping
 
-    from orchestra.plan.model import Plan
+    from orchestra.plan.model import Plan, Process
+    from orchestra.resolve.model import ResolvedProcess
 
 NOT_WANTED = "the description says so"
 # What begins with the interpreter, or before it, and would watch the server instead of the node.
@@ -35,7 +35,6 @@ _OF_MEMORY = ("as", "data", "stack", "memlock")
 _BEGINNING = 65536  # bytes of a script in which it is looked for what it imports
 _LONGEST_NAME = 15  # of a process (prctl(2), PR_SET_NAME)
 _ENV = "/usr/bin/env"
-_MANY = 50  # processes, from which on it pays to compile what changes them
 
 
 class Program(NamedTuple):
@@ -57,46 +56,58 @@ def wish(wanted: bool | None) -> Warm | None:
 
 def warmed(plan: Plan, environment: Mapping[str, str]) -> Plan:
     """Return the plan with `warm` in each process; `environment` is the one in which it is started."""
-    general, search_path = _general(environment), cache(lambda: _search_path(environment))
-    programs: dict[tuple[str, ...], tuple[Warm, bool]] = {}
-    change = changer(Process, "warm") if len(plan.processes) > _MANY else _changed
-    processes = tuple(
-        change(process, _of(process, environment, general, search_path, programs))
-        for process in plan.processes
+    warmth = Warmth(environment)
+    return replace(
+        plan,
+        processes=tuple(
+            replace(process, warm=warmth.of(process, process.warm, process.command, process.environment))
+            for process in plan.processes
+        ),
     )
-    return replace(plan, processes=processes)
 
 
-def _changed(process: Process, warm: Warm) -> Process:
-    return replace(process, warm=warm)
+class Warmth:
+    """Decides about the processes of a plan; `environment` is the one in which they are started."""
 
+    __slots__ = ("_environment", "_general", "_programs", "_search_path")
 
-def _of(
-    process: Process,
-    environment: Mapping[str, str],
-    general: str | None,
-    search_path: Callable[[], str],
-    programs: dict[tuple[str, ...], tuple[Warm, bool]],
-) -> Warm:
-    """Decide about one process; `programs` has what is known of programs already."""
-    if process.warm is not None and not process.warm.warm:
-        return process.warm
-    reason = _outward(process) or _by_environment(process, environment) or general
-    if reason:
-        return Warm(False, reason)
-    own = process.environment
-    path = (own["PATH"] if "PATH" in own else search_path()) or os.defpath
-    # As many words as may say which program it is: those behind an interpreter do.
-    words = 3 if _is_python(process.command[0]) else 1
-    key = (path, process.cwd or "", *process.command[:words])
-    program = programs.get(key)
-    if program is None:
-        found = once(("warm", os.getcwd(), *key), lambda: _program(process.command, process.cwd, path))  # noqa: PTH109 - a word
-        program = programs[key] = _decided(found)
-    warm, imports = program
-    if process.kind == "process" and process.warm is None and warm.warm and not imports:
-        return Warm(False, "it is no node, and says nothing of rclpy")
-    return warm
+    def __init__(self, environment: Mapping[str, str]) -> None:
+        self._environment = environment
+        self._general = _general(environment)
+        self._search_path = cache(lambda: _search_path(environment))
+        self._programs: dict[tuple[str, ...], tuple[Warm, bool]] = {}
+
+    def of(
+        self,
+        process: Process | ResolvedProcess,
+        wished: Warm | None,
+        command: tuple[str, ...],
+        own: Mapping[str, str | None],
+    ) -> Warm:
+        """Decide about one process, by what is wished, its command and its own environment."""
+        if wished is not None and not wished.warm:
+            return wished
+        reason = _outward(process, command) or (own and self._by_environment(own)) or self._general
+        if reason:
+            return Warm(False, reason)
+        path = (own["PATH"] if "PATH" in own else self._search_path()) or os.defpath
+        # As many words as may say which program it is: those behind an interpreter do.
+        words = 3 if _is_python(command[0]) else 1
+        key = (path, process.cwd or "", *command[:words])
+        program = self._programs.get(key)
+        if program is None:
+            found = once(("warm", os.getcwd(), *key), lambda: _program(command, process.cwd, path))  # noqa: PTH109 - a word
+            program = self._programs[key] = _decided(found)
+        warm, imports = program
+        if process.kind == "process" and wished is None and warm.warm and not imports:
+            return Warm(False, "it is no node, and says nothing of rclpy")
+        return warm
+
+    def _by_environment(self, own: Mapping[str, str | None]) -> str | None:
+        for name, value in own.items():
+            if is_read_at_startup(name) and self._environment.get(name) != value:
+                return f"its environment has another {name}, which is read before a program begins"
+        return None
 
 
 def _decided(program: Program | str) -> tuple[Warm, bool]:
@@ -121,9 +132,9 @@ def _has_rclpy() -> bool:
     return any(os.path.isdir(os.path.join(folder, "rclpy")) for folder in sys.path)  # noqa: PTH112, PTH118 - pathlib is slow
 
 
-def _outward(process: Process) -> str | None:
+def _outward(process: Process | ResolvedProcess, command: tuple[str, ...]) -> str | None:
     """Return what about the process itself speaks against it."""
-    if not process.command:
+    if not command:
         return "it has no command"
     if process.shell:
         return "a shell reads its command"
@@ -138,13 +149,6 @@ def _outward(process: Process) -> str | None:
         return "its memory is capped, and what it shares with the server would not count"
     if limits is not None and any(name in limits.rlimits for name in _OF_MEMORY):
         return "its limits on memory would count what the server has loaded"
-    return None
-
-
-def _by_environment(process: Process, environment: Mapping[str, str]) -> str | None:
-    for name, value in process.environment.items():
-        if is_read_at_startup(name) and environment.get(name) != value:
-            return f"its environment has another {name}, which is read before a program begins"
     return None
 
 

@@ -39,6 +39,7 @@ def check_declared(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     schemas, places = _Schemas(problems), Places(resolved)
     surprises = {problem.span for problem in problems if problem.code is Code.SURPRISING_SCALAR}
     broken = {_line(item) for item in problems if item.severity is Severity.ERROR and item.span is not None}
+    plain: set[str] = set()  # names that are no slip for one that every node has
     for node, planned in nodes_of(resolved, plan):
         if node.package == _MANAGERS and not node.faulty:
             # Here, because few descriptions have such.
@@ -46,7 +47,11 @@ def check_declared(resolved: Resolved, plan: Plan, problems: Problems) -> None:
 
             check_managed(planned, places.of("node_names", node, planned), plan, problems)
         schema, named = schemas.of(node)
-        faults = _of_every_node(planned.parameters) if schema is None else schema.faults(planned.parameters)
+        if schema is None and planned.parameters.keys() <= plain:
+            continue
+        faults = (
+            _of_every_node(planned.parameters, plain) if schema is None else schema.faults(planned.parameters)
+        )
         for fault in faults:
             if not (fault.whole or fault.kind == "missing") or _is_whole(node):
                 written = places.of(fault.name, node, planned)
@@ -85,12 +90,12 @@ class _Schemas:
         if node.params_schema is not None:
             return self._named(node.params_schema), True
         called = node.plugin if isinstance(node, ResolvedComponent) else node.executable
-        if (node.share, node.package, called) not in self._read:
+        key = (node.share, node.package, called)
+        if key not in self._read:
             path = self._beside(node.share, called)
             named = None if path is None else NamedSchema(path, node.location, path)
-            found = _known(node.package, called) if named is None else self._named(named)
-            self._read[node.share, node.package, called] = found
-        return self._read[node.share, node.package, called], False
+            self._read[key] = _known(node.package, called) if named is None else self._named(named)
+        return self._read[key], False
 
     def _beside(self, share: str | None, called: str) -> str | None:
         return None if share is None else schema_of_package(share, called, self._endings(share))
@@ -113,11 +118,12 @@ def _known(package: str | None, called: str) -> ParameterSchema | None:
     return known_schema(package, called)
 
 
-def _of_every_node(values: dict[str, ParameterValue]) -> Iterable[Fault]:
+def _of_every_node(values: dict[str, ParameterValue], plain: set[str]) -> Iterable[Fault]:
     typed = COMMON.keys().isdisjoint(values) or all(
         isinstance(values.get(name, True), bool) for name in COMMON
     )
     if typed and not any(map(common_meant, values)):
+        plain |= values.keys() - COMMON.keys()
         return ()
     from orchestra.declared.judging import of_every_node  # noqa: PLC0415 - hardly any description needs it
 

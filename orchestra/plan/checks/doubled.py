@@ -34,7 +34,7 @@ def check_doubled(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     nodes: list[ResolvedProcess | ResolvedComponent] = [*resolved.processes, *resolved.components]
     sections = _Sections()
     for node in nodes:
-        if _are_single(node.parameters):
+        if len(node.parameters) < 2 or _are_apart(node.parameters):  # noqa: PLR2004 - nothing stands before it
             continue
         own = [item for item in node.parameters if not item.everywhere and not is_python(item.location)]
         inline = [item for item in own if isinstance(item, InlineParameter)]
@@ -44,10 +44,17 @@ def check_doubled(resolved: Resolved, plan: Plan, problems: Problems) -> None:
             _check_files(own, node_name(node), sections, told, problems)
 
 
-def _are_single(parameters: Sequence[ParameterSource]) -> bool:
-    """Return whether there are no files, and no name stands twice."""
-    names = {item.name for item in parameters if type(item) is InlineParameter}
-    return len(names) == len(parameters)
+def _are_apart(parameters: Sequence[ParameterSource]) -> bool:
+    """Return whether no name stands twice, and no file behind a name: most lists are such."""
+    names: set[str] = set()
+    for item in parameters:
+        if type(item) is InlineParameter:
+            if item.name in names:
+                return False
+            names.add(item.name)
+        elif names:
+            return False
+    return True
 
 
 def _check_values(inline: Sequence[InlineParameter], told: set[str], problems: Problems) -> None:

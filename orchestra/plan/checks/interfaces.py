@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING
 from orchestra.declared.interfaces.finding import may_be_declared
 from orchestra.plan.checks.declared import nodes_of
 from orchestra.plan.ids import domains_of
-from orchestra.resolve.model import ResolvedComponent
 
 if TYPE_CHECKING:
     from orchestra.errors import Problems
@@ -17,17 +16,19 @@ if TYPE_CHECKING:
 
 def check_interfaces(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Report what keeps nodes from talking with each other; nothing is known where no package declares interfaces."""
-    nodes = list(nodes_of(resolved, plan))
     called: dict[str, set[str]] = {}
-    for node, _ in nodes:
-        if node.share is not None:
-            name = node.plugin if isinstance(node, ResolvedComponent) else node.executable
-            called.setdefault(node.share, set()).add(name)
+    for process in resolved.processes:
+        if process.share is not None and process.kind != "process":
+            called.setdefault(process.share, set()).add(process.executable)
+    for component in resolved.components:
+        if component.share is not None:
+            called.setdefault(component.share, set()).add(component.plugin)
     if not any(may_be_declared(share, names) for share, names in called.items()):
         return
     # Here, because few packages declare interfaces, and for what it imports.
     from orchestra.plan.connections import check_connections  # noqa: PLC0415
 
+    nodes = list(nodes_of(resolved, plan))
     domains = domains_of(resolved)
     if domains is None:
         check_connections(nodes, problems)

@@ -62,8 +62,7 @@ def check_middleware(resolved: Resolved, inputs: Inputs, problems: Problems) -> 
             report(Code.MIDDLEWARE_SETTING, message, setting.location, suggestion=meant)
         check_implementation(setting.name, setting.value, setting.location, inputs, problems)
         check_files(setting.name, setting.value, setting.location, inputs, problems)
-    for process in resolved.processes:
-        check_security(process, inputs.environment, problems)
+    check_security(resolved.processes, inputs.environment, problems)
 
 
 def _settings(resolved: Resolved, environment: Mapping[str, str]) -> Iterator[Setting]:

@@ -18,7 +18,7 @@ from orchestra.errors import Code
 from orchestra.resolve.packages import ament
 
 if TYPE_CHECKING:
-    from collections.abc import Mapping
+    from collections.abc import Mapping, Sequence
 
     from orchestra.errors import Problems
     from orchestra.location import Location
@@ -32,10 +32,27 @@ _FILES: Final = (
     *("identity_ca.cert.pem", "cert.pem", "key.pem"),
     *("permissions_ca.cert.pem", "governance.p7s", "permissions.p7s"),
 )
+_VARIABLES: Final = (_ENABLE, _STRATEGY, _KEYSTORE, _OVERRIDE)
+_ENCLAVE: Final = frozenset({"-e", "--enclave"})
 _SYMBOL: Final = b"SecurityManager"  # a class that Fast DDS has only where it is built with security
 
 
-def check_security(process: ResolvedProcess, environment: Mapping[str, str], problems: Problems) -> None:
+def check_security(
+    processes: Sequence[ResolvedProcess], environment: Mapping[str, str], problems: Problems
+) -> None:
+    """Report why processes that ask for security would run without, or not at all; most say nothing of it."""
+    inherited = any(name in environment for name in _VARIABLES)
+    for process in processes:
+        if (
+            inherited
+            or not process.environment.keys().isdisjoint(_VARIABLES)
+            or not _ENCLAVE.isdisjoint(process.arguments)
+            or not _ENCLAVE.isdisjoint(process.ros_arguments or ())
+        ):
+            _check(process, environment, problems)
+
+
+def _check(process: ResolvedProcess, environment: Mapping[str, str], problems: Problems) -> None:
     """Report why a process that asks for security would run without, or not at all."""
     if process.kind == "process" or process.faulty:
         return
@@ -90,11 +107,10 @@ def _variables(
     process: ResolvedProcess, environment: Mapping[str, str]
 ) -> tuple[dict[str, str], dict[str, Location]]:
     """Return the variables about security of a process, and where those of the description are set."""
-    names = (_ENABLE, _STRATEGY, _KEYSTORE, _OVERRIDE)
     inherited = environment if process.inherit_environment else {}
-    found = {name: inherited[name] for name in names if name in inherited}
+    found = {name: inherited[name] for name in _VARIABLES if name in inherited}
     location: dict[str, Location] = {}
-    for name in names:
+    for name in _VARIABLES:
         if changes := process.environment.get(name):
             found[name] = changes[-1].value or ""
             location[name] = changes[-1].location
@@ -103,9 +119,7 @@ def _variables(
 
 def _enclave_of(process: ResolvedProcess) -> str:
     words = [*process.arguments, *(process.ros_arguments or ())]
-    return next(
-        (words[place + 1] for place, word in enumerate(words[:-1]) if word in ("-e", "--enclave")), "/"
-    )
+    return next((words[place + 1] for place, word in enumerate(words[:-1]) if word in _ENCLAVE), "/")
 
 
 def _is_without(environment: Mapping[str, str]) -> bool:

@@ -130,18 +130,13 @@ def _above(name: str) -> Iterator[str]:
 
 def _uses(resolved: Resolved, plan: Plan) -> Iterator[_Use]:
     for planned, written in _pairs(resolved, plan):
-        if not written.faulty:
+        if written.remaps and not written.faulty:
             yield from _remapped(planned, written)
     for process, item in zip(plan.processes, resolved.processes, strict=True):
-        names = (
-            [(None, None)]
-            if process.ready is None or item.ready is None
-            else [
-                (process.ready.message, item.ready.message),
-                (process.ready.topic, item.ready.topic),
-            ]
-        )
-        for name, value in names:
+        if process.ready is None or item.ready is None:
+            continue
+        awaited = ((process.ready.message, item.ready.message), (process.ready.topic, item.ready.topic))
+        for name, value in awaited:
             if name is not None and value is not None:
                 yield _Use(name, value, process.id, process.namespace or "/")
 

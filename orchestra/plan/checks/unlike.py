@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING, Final
 
-from orchestra.declared.texts import written
 from orchestra.errors import Code
 from orchestra.plan.checks.declared import nodes_of
 from orchestra.plan.written import Places
@@ -55,6 +54,9 @@ def _tell(
     name: str, called: str, nodes: list[_Node], places: Places, told: set[Span | None], problems: Problems
 ) -> None:
     """Report the values of a parameter that would be of another node's type if they were written as such."""
+    # Here, because few descriptions have such.
+    from orchestra.declared.texts import written  # noqa: PLC0415
+
     given = [
         (node, planned, planned.parameters[name]) for node, planned in nodes if name in planned.parameters
     ]
@@ -82,5 +84,7 @@ def _tell(
 def _as(value: ParameterValue, wanted: type) -> str | None:
     """Return how a value is written with another type, None where it is of that type or cannot be."""
     if type(value) is int and wanted is float:
+        from orchestra.declared.texts import written  # noqa: PLC0415 - as above
+
         return written(float(value))
     return value if isinstance(value, str) and type(typed(value)) is wanted else None

@@ -8,7 +8,6 @@ from orchestra.errors import Code
 from orchestra.plan.absent import is_mistake
 from orchestra.plan.ids import node_name
 from orchestra.resolve.typos import is_typo
-from orchestra.resolve.typos_among import Names
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Iterator
@@ -20,6 +19,7 @@ if TYPE_CHECKING:
     from orchestra.resolve.awaited import ResolvedReady
     from orchestra.resolve.context import Value
     from orchestra.resolve.model import Resolved, ResolvedComponent, ResolvedProcess
+    from orchestra.resolve.typos_among import Names
 
 
 def check_waits(resolved: Resolved, plan: Plan, problems: Problems) -> None:
@@ -77,6 +77,9 @@ class _Started:
 
     def near(self, name: str) -> list[str]:
         """Return the names that one is a slip for, in the namespace or in the name itself."""
+        # Here, because few nodes are waited for by a name that none has.
+        from orchestra.resolve.typos_among import Names  # noqa: PLC0415
+
         namespace, _, last = name.rpartition("/")
         found = [
             known
