@@ -17,6 +17,11 @@ if TYPE_CHECKING:
 # How long one attempt may take, from the first packet to the last, in seconds.
 WITHIN = 2.0
 
+# Of a machine that has no IPv6, which says nothing of the server.
+_NO_SUCH_ADDRESSES = frozenset(
+    os.strerror(code).lower() for code in (errno.EADDRNOTAVAIL, errno.EAFNOSUPPORT)
+)
+
 # What is done with a connected socket.
 Talk: TypeAlias = Callable[[socket.socket], Steps]
 
@@ -54,16 +59,18 @@ def nothing(_peer: socket.socket) -> Steps:
 
 
 def _visit(addresses: list[Address], talk: Talk) -> Steps:
-    fault: str | None = "no address"
+    faults: list[str] = []
     for family, address in addresses:
         try:
             with socket.socket(family, socket.SOCK_STREAM | socket.SOCK_NONBLOCK) as peer:
                 fault = yield from _connect(peer, address)
                 if fault is None:
                     return (yield from talk(peer))
-        except OSError as error:  # this machine may have no IPv6
+        except OSError as error:
             fault = reason(error)
-    return fault
+        faults.append(fault)
+    telling = [fault for fault in faults if fault not in _NO_SUCH_ADDRESSES]
+    return (telling or faults or ["no address"])[-1]
 
 
 def _connect(peer: socket.socket, address: tuple[object, ...]) -> Steps:

@@ -63,8 +63,24 @@ def test_only_names_need_a_lookup() -> None:
     assert known(Target("a\0b", 80)) is None
 
 
+def _has_ipv6() -> bool:
+    try:
+        with port("::1"):
+            return True
+    except OSError:
+        return False
+
+
+needs_ipv6 = pytest.mark.skipif(not _has_ipv6(), reason="this machine has no IPv6")
+
+
 @pytest.mark.parametrize(
-    ("host", "written"), [("127.0.0.1", "localhost"), ("127.0.0.1", "127.0.0.1"), ("::1", "[::1]")]
+    ("host", "written"),
+    [
+        ("127.0.0.1", "localhost"),
+        ("127.0.0.1", "127.0.0.1"),
+        pytest.param("::1", "[::1]", marks=needs_ipv6),
+    ],
 )
 def test_a_port_that_accepts(host: str, written: str) -> None:
     with port(host) as server, place() as here:
@@ -90,6 +106,19 @@ def test_a_refused_port_is_given_up_at_any_time() -> None:
         here.begin(probe)
         probe.end()
         assert here.idle
+        here.begin(probe)
+        here.fails(probe, f"tcp localhost:{number(server)} (connection refused)")
+
+
+@pytest.mark.parametrize("order", [1, -1], ids=["last", "first"])
+def test_that_there_is_no_ipv6_is_not_what_keeps_it_waiting(
+    order: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    unknown = 200  # no machine has such a family of addresses
+    with port(listening=False) as server, place() as here:
+        found = [(socket.AF_INET, ("127.0.0.1", number(server))), (unknown, ("::1", number(server)))]
+        monkeypatch.setattr(address, "known", lambda _goal: found[::order])
+        probe = tcp_probe(f"localhost:{number(server)}", 0.02)
         here.begin(probe)
         here.fails(probe, f"tcp localhost:{number(server)} (connection refused)")
 
