@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Final
 from orchestra.declared.texts import written
 from orchestra.nearest import nearest
 from orchestra.resolve.rcl.commas import without_slip
-from orchestra.resolve.rcl.computed import computed
 
 if TYPE_CHECKING:
     from orchestra.declared.model import Parameter, RosType
@@ -97,4 +96,10 @@ def _unquoted(text: str, kind: str) -> str | None:
     try:
         return str(int(text)) if kind == "integer" else written(float(text)) if kind == "double" else None
     except ValueError:
-        return computed(text) if kind == "double" else None
+        return _computed(text) if kind == "double" else None
+
+
+def _computed(text: str) -> str | None:
+    from orchestra.resolve.rcl.computed import computed  # noqa: PLC0415 - few texts are to be computed
+
+    return computed(text)

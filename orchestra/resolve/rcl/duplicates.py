@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from orchestra.errors import Code
 from orchestra.resolve.rcl.table import Slots
-from orchestra.resolve.rcl.widened import widened
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -30,6 +29,14 @@ def report_duplicates(sections: Sequence[Section], problems: Problems) -> None:
                 _report_displaced(entry, displaced, slot, problems)
             elif earlier is not None and entry.value is not None and earlier.key != entry.key:
                 _report_duplicate(section.pattern, entry, earlier, slot, problems)
+    if len(table) > 1:
+        _report_widened(sections, problems)
+
+
+def _report_widened(sections: Sequence[Section], problems: Problems) -> None:
+    # Here, because few files have several sections.
+    from orchestra.resolve.rcl.widened import widened  # noqa: PLC0415
+
     for entry, earlier, name in widened(sections):
         problems.warning(
             Code.DUPLICATE_PARAMETER,

@@ -14,10 +14,10 @@ from orchestra.resolve.rcl.patterns import pattern_fault
 from orchestra.resolve.rcl.plain_values import Unlike, value_of
 from orchestra.resolve.rcl.sections import Section, new_entry
 from orchestra.resolve.rcl.strays import SECTION_KEY, is_misspelt_section
-from orchestra.resolve.rcl.widened import widened
 
 if TYPE_CHECKING:
     import re
+    from collections.abc import Sequence
 
     from orchestra.location import Location
     from orchestra.resolve.rcl.sections import Entry
@@ -59,9 +59,16 @@ def sections_of(text: str, file: str) -> tuple[Section, ...] | None:
         reader.nodes(0, ())
     except (Unlike, IndexError):  # the end where something has to follow
         return None
-    if reader.is_widened and any(widened(reader.found)):
+    if reader.is_widened and _overrules(reader.found):
         return None
     return tuple(reader.found) if reader.next == len(lines) else None
+
+
+def _overrules(sections: Sequence[Section]) -> bool:
+    """Return whether a section sets what one before it has set for a node."""
+    from orchestra.resolve.rcl.widened import widened  # noqa: PLC0415 - few files have such sections
+
+    return any(widened(sections))
 
 
 class _Lines:
