@@ -6,6 +6,7 @@ import ast
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from orchestra.compat.left_out import MADE
 from orchestra.compat.rewritten import Rewritten
 from orchestra.compat.scopes import Function, of_scope
 from orchestra.compat.source_text import text_at
@@ -31,7 +32,9 @@ _MOST: Final = 100  # characters: what is longer is read better in the message a
 def tell(path: str, problems: Problems, chain: tuple[Span, ...]) -> None:
     """Warn of what a file goes through a second time, leaves out or shares."""
     tree = tree_of(path)
-    for node, message, meant in () if tree is None else (*_spent(tree), *_shorter(tree), *_shared(tree)):
+    for node, message, meant in (
+        () if tree is None else (*_spent(tree), *_shorter(tree), *_shared(tree), *_set_again(tree))
+    ):
         code = Rewritten(meant) if meant is not None and len(meant) <= _MOST else None
         at = Location(node_span(path, node, quotes=True), chain)
         problems.warning(Code.USER_CODE, message, at, suggestion=code)
@@ -166,3 +169,23 @@ def _is_called_again(name: str, tree: Tree) -> bool:
     calls = [node for node in tree.nodes if isinstance(node, ast.Call) and called_by(node) == name]
     loops = [node for node in tree.nodes if isinstance(node, ast.For | ast.ListComp | ast.GeneratorExp)]
     return len(calls) >= _TWO or any(item in calls for loop in loops for item in ast.walk(loop))
+
+
+def _set_again(tree: Tree) -> Iterator[tuple[ast.expr, str, str | None]]:
+    """Yield the names of actions that are set to other ones before anything reads them, in one block."""
+    for block in tree.nodes:
+        if not isinstance(block, Function | ast.If | ast.For | ast.With):
+            continue
+        waiting: dict[str, ast.Name] = {}
+        for statement in block.body:
+            read = {node.id for node in ast.walk(statement) if isinstance(node, ast.Name)}
+            match statement:
+                case ast.Assign(targets=[ast.Name() as name], value=value) if called_by(value) in MADE:
+                    read = {node.id for node in ast.walk(value) if isinstance(node, ast.Name)}
+                    if name.id in waiting and name.id not in read:
+                        message = f"'{name.id}' is part of no launch description: it has no effect, for it is set again"
+                        yield waiting[name.id], message, None
+                    waiting = {known: item for known, item in waiting.items() if known not in read}
+                    waiting[name.id] = name
+                case _:
+                    waiting = {known: item for known, item in waiting.items() if known not in read}

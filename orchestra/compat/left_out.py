@@ -34,7 +34,7 @@ _SETTING: Final = frozenset(
         *("PushRosNamespace", "SetEnvironmentVariable", "SetLaunchConfiguration", "SetParameter", "SetRemap"),
     }
 )
-_MADE: Final = ACTIONS | _SETTING
+MADE: Final = ACTIONS | _SETTING
 _REACHING: Final = frozenset({"dir", "eval", "exec", "globals", "locals", "vars"})
 
 
@@ -85,7 +85,7 @@ def _alone(inside: list[ast.AST]) -> Iterator[tuple[ast.Name, str]]:
     for node in inside:
         if isinstance(node, ast.Expr) and isinstance(node.value, ast.Call):
             name = called_by(node.value)
-            if name in _MADE and isinstance(node.value.func, ast.Name):
+            if name in MADE and isinstance(node.value.func, ast.Name):
                 yield node.value.func, f"this {name} is added to no launch description: it has no effect"
 
 
@@ -105,7 +105,7 @@ def _kept(inside: list[ast.AST], added: _Added) -> dict[str, tuple[ast.Name, boo
 
 def _makes(value: ast.AST) -> bool:
     items = value.elts if isinstance(value, ast.List) else [value]
-    return any(called_by(item) in _MADE for item in items)
+    return any(called_by(item) in MADE for item in items)
 
 
 def _added(inside: list[ast.AST]) -> _Added:

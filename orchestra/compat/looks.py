@@ -39,10 +39,20 @@ _MADE: Final = re.compile(
     rb"\n[ \t]*+\w++\.(?:capitalize|casefold|format|lower|[lr]?strip|remove(?:pre|suf)fix|replace|title|upper)\("
 )
 _MAKING: Final = frozenset(
-    {
-        *("capitalize", "casefold", "format", "lower", "lstrip", "removeprefix", "removesuffix", "replace"),
-        *("rstrip", "strip", "title", "upper"),
-    }
+    [
+        "capitalize",
+        "casefold",
+        "format",
+        "lower",
+        "lstrip",
+        "removeprefix",
+        "removesuffix",
+        "replace",
+        "rstrip",
+        "strip",
+        "title",
+        "upper",
+    ]
 )
 # A text that is an alternative, one by itself in brackets, one that something is.
 _IN_QUOTES: Final = re.compile(
@@ -187,9 +197,30 @@ def _comparing() -> tuple[int, ...]:
 
 def _goes_through(code: CodeType) -> bool:
     """Return whether there is something that is gone through but once."""
-    if code.co_name == "<genexpr>" or not _ITERATORS.isdisjoint(code.co_names):
+    if code.co_name == "<genexpr>" or not _ITERATORS.isdisjoint(code.co_names) or _sets_again(code):
         return True
     return any(_goes_through(item) for item in code.co_consts if type(item) is CodeType)
+
+
+def _sets_again(code: CodeType) -> bool:
+    """Return whether a variable is set twice to what a call returns."""
+    called, pairs = _calls()
+    # The two variables of an instruction for both are half of its argument each.
+    found = [
+        place[2][0] >> 4 if place[1][0] in pairs else place[2][0] for place in called.finditer(code.co_code)
+    ]
+    return len(set(found)) < len(found)
+
+
+@cache
+def _calls() -> tuple[re.Pattern[bytes], bytes]:
+    """Return what a call is and the instruction that sets a variable behind it, and those of these for two."""
+    from opcode import opmap  # noqa: PLC0415 - once
+
+    pairs = bytes(opmap[name] for name in ("STORE_FAST_LOAD_FAST", "STORE_FAST_STORE_FAST") if name in opmap)
+    setting = re.escape(bytes((opmap["STORE_FAST"],)) + pairs)
+    calls = re.escape(bytes(opmap[name] for name in ("CALL", "CALL_KW", "CALL_FUNCTION_EX") if name in opmap))
+    return re.compile(b"[" + calls + b"].(?:\0.)*([" + setting + b"])(.)", re.DOTALL), pairs
 
 
 def has_event_functions(source: bytes) -> bool:

@@ -52,7 +52,7 @@ def check_rules(words: Sequence[Value], problems: Problems, *, for_ros: bool) ->
     """Report rules without a `:=` where they stand; `for_ros` tells that all words are for rcl."""
     if not for_ros:
         _check_in_vain(words, problems)
-        _check_joined(words, problems)
+    _check_joined(words, problems, for_ros=for_ros)
     _check_unknown(words, problems, for_ros=for_ros)
     for option, word in _rules(words, for_ros=for_ros):
         if ":=" in word.text:
@@ -92,6 +92,8 @@ def _check_unknown(words: Sequence[Value], problems: Problems, *, for_ros: bool)
             reads, taken = text == _FOR_ROS, False
         elif taken or not reads or text in _TAKING | _SWITCHES:
             taken = reads and not taken and text in _TAKING
+        elif is_python(word.location) and _SEVERAL.fullmatch(text):
+            return  # told as one word that is several
         else:
             rule = f"-r {text}" if _RULE.fullmatch(text) else None
             instead = rule or (nearest(text, _TAKING | _SWITCHES) if text[:1] == "-" else None)
@@ -101,7 +103,7 @@ def _check_unknown(words: Sequence[Value], problems: Problems, *, for_ros: bool)
             return
 
 
-def _check_joined(words: Sequence[Value], problems: Problems) -> None:
+def _check_joined(words: Sequence[Value], problems: Problems, *, for_ros: bool) -> None:
     """Report options and what belongs to them in one word of a list, which nothing takes apart: `['-d a.rviz']`.
 
     What an option for further arguments takes is one word: `['--controller-ros-args', '-r a:=b']`. So it is where the
@@ -109,16 +111,18 @@ def _check_joined(words: Sequence[Value], problems: Problems) -> None:
     """
     if not words or not is_python(words[0].location):  # all of them stand in one file
         return
-    before = ""
+    before, reads = "", for_ros
     for word in words:
         passed_on, before = _PASSED_ON.fullmatch(before), word.text
+        reads = word.text == _FOR_ROS if word.text in (_FOR_ROS, "--") else reads
         if _SEVERAL.fullmatch(word.text) and not passed_on:
             # Here, because only mistakes need it.
             from orchestra.compat.rewritten import Rewritten  # noqa: PLC0415
 
             told = f"'{word.text}' is one word for the program: a list has each word apart"
             apart = Rewritten(", ".join(map(repr, word.text.split()))) if word.verbatim else None
-            problems.warning(Code.BAD_VALUE, told, word.location, suggestion=apart)
+            tell = problems.error if reads else problems.warning  # of what ROS reads the node ends
+            tell(Code.BAD_VALUE, told, word.location, suggestion=apart)
 
 
 def _for_ros(text: str, following: str) -> str | None:
