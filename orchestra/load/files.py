@@ -80,10 +80,13 @@ def load(
     return description if description is None or not foreign else replace(description, foreign=True)
 
 
+_OF_PYTHON = ("LaunchConfiguration(", "EnvironmentVariable(", "FindPackageShare(")
+
+
 def _may_be_foreign(text: str) -> bool:
     """Return whether there may be a variable in a text as other languages write them; counting is the fastest way."""
     dollars = text.count("$") > text.count("$(") and _OF_SHELLS.search(text) is not None
-    return dollars or "{{" in text
+    return dollars or "{{" in text or any(map(text.__contains__, _OF_PYTHON))
 
 
 def _one_by_one(text: str, file: str, module: str, reader: Reader) -> tuple[Action, ...] | None:

@@ -11,7 +11,6 @@ from orchestra.description.actions import ACTIONS, model_of
 from orchestra.description.launch import Launch
 from orchestra.description.source import shortened
 from orchestra.errors import Code
-from orchestra.load.conflicts import TOLD, conflict_in
 from orchestra.load.faults import Fault
 from orchestra.load.forms import forms_of
 from orchestra.location import Span
@@ -47,8 +46,11 @@ class Opened:
 
 def explained(code: int, at: int, whole: Source, opened: Opened | None) -> Fault:
     """Return the fault behind an error code of expat at an offset."""
-    if "<<<<<<<" in whole.text and (conflict := conflict_in(whole.text)) is not None:
-        return _fault(TOLD, whole, *conflict)
+    if "<<<<<<<" in whole.text:
+        from orchestra.load.conflicts import TOLD, conflict_in  # noqa: PLC0415 - hardly any file has one
+
+        if (conflict := conflict_in(whole.text)) is not None:
+            return _fault(TOLD, whole, *conflict)
     reason = ErrorString(code)
     if reason in _EXPLANATIONS:
         return _EXPLANATIONS[reason](at, whole, opened)

@@ -97,7 +97,9 @@ def _open(failure: Failure) -> Fault:
     shell = _OF_A_SHELL.match(failure.text, failure.at - 1) if failure.here in ("{", "[") else None
     if shell is not None:
         message = f"{shell[0]} is no substitution, and cannot stand in brackets without quotes"
-        return failure.fault(message, *shell.span(), f"$({shell[1] or 'var'} {shell[2]})")
+        is_named = failure.text.endswith(("$(env ", "$(var "), 0, shell.start())
+        instead = shell[2] if is_named else f"$({shell[1] or 'var'} {shell[2]})"
+        return failure.fault(message, *shell.span(), instead)
     opening = failure.text[failure.context]
     closer = _CLOSERS.get(opening, "]")
     last = next((piece for piece in reversed(failure.pieces()) if piece.begin > failure.context), None)

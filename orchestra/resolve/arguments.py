@@ -12,7 +12,7 @@ from orchestra.nearest import is_slip, nearest
 from orchestra.resolve.mentions import names_behind, names_in
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Collection, Sequence
 
     from orchestra.description.launch import Description
     from orchestra.resolve.ledger import Ledger
@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 _KNOWN = frozenset(
     {"launch-prefix", "launch-prefix-filter", "emulate_tty", "sigterm_timeout", "sigkill_timeout"}
 )
+_MOST = 64  # names that are taken apart to find one that is meant
 
 
 @dataclass(frozen=True, slots=True)
@@ -50,6 +51,7 @@ def settle(
     misspelt = set()
     for item in _unknown(given, description, ledger, run):
         meant = item.value if item.value in others else nearest(item.name, others)
+        meant = meant or _of_the_same_words(item.name, others)
         if included_at is None:
             _refuse(item, meant, description, ledger, run)
         else:
@@ -58,6 +60,15 @@ def settle(
     for name, declared_at in ledger.missing.items():
         if name not in misspelt:
             _report_missing(name, declared_at, description, run, included_at)
+
+
+def _of_the_same_words(name: str, others: Collection[str]) -> str | None:
+    """Return the one name that has all words of another one, or some of them and no others: `sim` for `use_sim`."""
+    words = set(name.split("_"))
+    if len(others) > _MOST:
+        return None
+    found = [other for other in others if words <= (its := set(other.split("_"))) or its <= words]
+    return found[0] if len(found) == 1 else None
 
 
 def _unknown(

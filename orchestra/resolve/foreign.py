@@ -1,6 +1,7 @@
 """Variables as other languages write them: `$world`, `${world}`, `{{ world }}`. They stay the texts that they are.
 
-Told is only of names that the file declares or that are set where it is read: `${HOME}` may be for a shell.
+Told is only of names that the file declares or that are set where it is read: `${HOME}` may be for a shell; of
+substitutions as they are made in Python whatever they name.
 """
 
 from __future__ import annotations
@@ -16,6 +17,7 @@ from orchestra.fields import replace
 from orchestra.location import is_within
 from orchestra.patterns import pattern
 from orchestra.resolve.mentions import entities_in, templates_of
+from orchestra.resolve.python_forms import MADE, meant
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
@@ -46,10 +48,14 @@ def warn_of_foreign(description: Description, run: Resolution) -> None:
         for template in templates_of(entity):
             for name, span, written in _found(template):
                 beside = told.get(span.line, ())
-                if name in known and not any(is_within(span, at) or is_within(at, span) for at in beside):
-                    message = f"{written} stays a text: a variable is written $(var {name})"
-                    at = run.at(span)
-                    run.problems.warning(Code.SUBSTITUTION_SYNTAX, message, at, suggestion=f"$(var {name})")
+                made = name.startswith("$(")
+                if (made or name in known) and not any(
+                    is_within(span, at) or is_within(at, span) for at in beside
+                ):
+                    instead = name if made else f"$(var {name})"
+                    what = "substitution" if made else "variable"
+                    message = f"{written} stays a text: a {what} is written {instead}"
+                    run.problems.warning(Code.SUBSTITUTION_SYNTAX, message, run.at(span), suggestion=instead)
 
 
 def _is_for_shell(entity: object) -> bool:
@@ -61,7 +67,7 @@ def _is_for_shell(entity: object) -> bool:
 
 
 def _found(template: Template) -> Iterator[tuple[str, Span, str]]:
-    """Yield the names of such variables, with their places and how they are written."""
+    """Yield the names of such variables, or the substitutions meant, with their places and how they are written."""
     for part in template.parts:
         if isinstance(part, Call):
             for argument in part.arguments:
@@ -70,6 +76,8 @@ def _found(template: Template) -> Iterator[tuple[str, Span, str]]:
             for found in _FOREIGN.finditer(part.text):
                 if f"\\{found[0]}" not in template.raw:  # else it is meant as it stands
                     yield found[1] or found[2] or found[3], _place(part, *found.span()), found[0]
+            for found in MADE.finditer(part.text):
+                yield meant(found), _place(part, *found.span()), found[0]
 
 
 def _place(words: Words, begin: int, end: int) -> Span:

@@ -26,6 +26,7 @@ _DIGITS = frozenset("0123456789")
 _OF_A_SHELL = pattern(
     r"\$(?:\{([A-Za-z_][A-Za-z0-9_]*)\}|([A-Za-z_][A-Za-z0-9_]*))|\(var ([A-Za-z_][A-Za-z0-9_]*)\)"
     r"|\{\{\s*([A-Za-z_][A-Za-z0-9_]*)\s*\}\}"
+    r"|LaunchConfiguration\(\s*[\"']([A-Za-z_][A-Za-z0-9_]*)[\"']\s*\)"
 )
 _SUBSTITUTION = pattern(r"\{([^{}]*)\}")
 _NUMBERED = pattern(r"(?:(?<=/)|\A)([0-9]+)([A-Za-z0-9_]+)")  # a part that begins with a number
@@ -189,7 +190,7 @@ def _number_last(found: re.Match[str]) -> str:
 
 
 def _substitution(found: re.Match[str]) -> str:
-    name = found[1] or found[2] or found[3] or found[4]
+    name = next(filter(None, found.groups()))
     return f"$({'env' if name.isupper() and (found[1] or found[2]) else 'var'} {name})"
 
 

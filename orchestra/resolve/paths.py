@@ -122,6 +122,7 @@ def _refuse_path(
     from orchestra.resolve.misspelt import misspelt  # noqa: PLC0415
     from orchestra.resolve.other_packages import of_other_package  # noqa: PLC0415
     from orchestra.resolve.path_forms import form_meant, of_share  # noqa: PLC0415
+    from orchestra.resolve.python_forms import without_python  # noqa: PLC0415
 
     form = None if is_python(value.location) else form_meant(written)
     if form is not None:
@@ -132,7 +133,7 @@ def _refuse_path(
         used = () if place.at == value.location else (f"it is used at {value.location}",)
         run.problems.error(Code.MISSING_FILE, message, place.at, suggestion=place.instead, notes=used)
         return
-    near = rewritten(written, changes) if changes else None
+    near = rewritten(written, changes) if changes else without_python(written)
     near = near or of_share(value.text, written) or of_other_package(value.text, written, run)
     if near is not None and near == written:  # the wrong part of it came from elsewhere
         refuse_value(value, run.problems, Code.MISSING_FILE, message, meant=rewritten(value.text, changes))

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import re
+from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from orchestra.fields import replace
+
 if TYPE_CHECKING:
+    from orchestra.location import Location
     from orchestra.resolve.rcl.sections import Section
 
 _ANY_NODE: Final = frozenset({"node", "ros", "ros2"})  # words that a name has or has not
 _WILDCARDS: Final = frozenset({"*", "**"})
+_KEY: Final = re.compile(r"( *)([\w/]+):\s*(?:#.*)?$")
 
 
 def key_for(section: Section, name: str) -> str | None:
@@ -26,6 +32,32 @@ def key_for(section: Section, name: str) -> str | None:
         return f"{there}/**" if below else f"{namespace}/{last}" if namespace else "/**"
     lead = section.pattern[: len(section.pattern) - len(last)]
     return f"{lead}{own}" if there in (namespace, "/**") else name
+
+
+def outer_key(section: Section, name: str, path: str) -> tuple[Location, str] | None:
+    """Return the place of the one namespace by which the keys of a section miss a node, and what should stand there.
+
+    None where the keys do not stand on lines of their own, one for each namespace, or miss it otherwise.
+    """
+    theirs, ours = absolute(section.pattern).split("/")[1:], name.split("/")[1:]
+    differing = [place for place, pair in enumerate(zip(theirs, ours, strict=False)) if pair[0] != pair[1]]
+    if len(theirs) != len(ours) or len(differing) != 1 or differing[0] == len(ours) - 1:
+        return None
+    at, found = section.location.span, list[tuple[int, re.Match[str]]]()
+    column, lines = at.column - 1, Path(path).read_text("utf-8", "replace").split("\n")
+    for number in range(at.line - 1, 0, -1):
+        key = _KEY.match(lines[number - 1])
+        if key is not None and len(key[1]) < column:
+            found.insert(0, (number, key))
+            column = len(key[1])
+    if len(found) != len(ours) - 1 or column:
+        return None
+    (number, key), meant = found[differing[0]], ours[differing[0]]
+    if key[2].removeprefix("/") != theirs[differing[0]]:
+        return None
+    begin, end = (place + 1 for place in key.span(2))
+    span = replace(at, line=number, column=begin, end_line=number, end_column=end)
+    return replace(section.location, span=span), f"/{meant}" if key[2].startswith("/") else meant
 
 
 def words_of(name: str) -> list[str]:

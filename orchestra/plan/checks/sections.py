@@ -16,7 +16,7 @@ from orchestra.dataclass import dataclass
 from orchestra.errors import Code
 from orchestra.fields import field
 from orchestra.location import Location
-from orchestra.plan.checks.section_keys import absolute, is_for_any, is_one_key, key_for, words_of
+from orchestra.plan.checks.section_keys import absolute, is_for_any, is_one_key, key_for, outer_key, words_of
 from orchestra.plan.ids import node_name
 from orchestra.resolve.model import FileParameters, ResolvedProcess
 from orchestra.resolve.rcl.indexed import Indexed
@@ -142,7 +142,7 @@ def _check(file: _File, names: _Names, resolved: Resolved, problems: Problems, t
     narrow = next((section for section in idle.get("*", ()) if is_for_any(section.pattern)), None)
     if narrow is not None and file.users and not file.open:
         name = next((name for name in file.users if name not in exact), next(iter(file.users)))
-        _report(narrow, name, key_for(narrow, name), file.users[name], problems, told)
+        _report(narrow, name, key_for(narrow, name), file, problems, told)
     for name in file.users:
         if name in exact:
             continue
@@ -153,7 +153,7 @@ def _check(file: _File, names: _Names, resolved: Resolved, problems: Problems, t
             meant = _meant(name, idle, served=served, resolved=resolved)
             meant = meant or (_of_program if served else _renamed)(name, programs, idle)
         if meant is not None:
-            _report(meant, name, key_for(meant, name), file.users[name], problems, told)
+            _report(meant, name, key_for(meant, name), file, problems, told)
         elif not served:
             without.append(name)
     _report_rest(file, without, idle, problems, told)
@@ -173,7 +173,7 @@ def _report_rest(
     if len(without) == len(over) == 1 < len(file.users):
         name = without[0]
         if _is_about(over[0], name, file.programs.get(name, ())):
-            _report(over[0], name, key_for(over[0], name), file.users[name], problems, told)
+            _report(over[0], name, key_for(over[0], name), file, problems, told)
     elif len(without) == len(file.users):
         _report_without(file, without, problems, told, idle=bool(idle))
 
@@ -247,13 +247,18 @@ def _report(
     section: Section,
     name: str,
     instead: str | None,
-    given_at: Location,
+    file: _File,
     problems: Problems,
     told: set[object],
 ) -> None:
-    place = section.location
+    place, given_at = section.location, file.users[name]
     if place.span in told:
         return
+    if instead is None and (outer := outer_key(section, name, file.source.path)) is not None:
+        told.add(place.span)
+        place, instead = outer
+        if place.span in told:
+            return
     told.add(place.span)
     if place.span.file.startswith(_MADE):
         place, instead = given_at, None
@@ -276,7 +281,7 @@ def _report_without(
         if "*" in sections[0].pattern.rpartition("/")[2]:
             alone = key_for(sections[0], names[0]) or alone
         instead = alone if is_one_key(sections[0]) else None
-        _report(sections[0], names[0], instead, file.users[names[0]], problems, told)
+        _report(sections[0], names[0], instead, file, problems, told)
         return
     patterns = list(dict.fromkeys(section.pattern for section in sections))
     for name in names:

@@ -11,7 +11,6 @@ from orchestra.plan.checks.interfaces import check_interfaces
 from orchestra.plan.checks.nameless import check_nameless
 from orchestra.plan.checks.sections import check_sections
 from orchestra.plan.checks.topics import check_topics
-from orchestra.plan.checks.unlike import check_unlike
 from orchestra.plan.checks.waits import check_waits
 from orchestra.witness.once import once
 from orchestra.witness.variables import ObservedEnvironment
@@ -31,9 +30,17 @@ class Check(Protocol):
         """Report what is wrong."""
 
 
+def _check_unlike(resolved: Resolved, plan: Plan, problems: Problems) -> None:
+    """See `check_unlike`, which only several nodes need."""
+    if len(resolved.processes) + len(resolved.components) > 1:
+        from orchestra.plan.checks.unlike import check_unlike  # noqa: PLC0415
+
+        check_unlike(resolved, plan, problems)
+
+
 CHECKS: Final[tuple[Check, ...]] = (
     check_declared,
-    check_unlike,
+    _check_unlike,
     check_interfaces,
     check_sections,
     check_waits,

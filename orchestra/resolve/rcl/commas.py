@@ -15,6 +15,9 @@ _ENDED: Final = pattern(rf"({_NUMBER}|true|True|false|False)[,;]|(true|True|fals
 _DECIMAL: Final = pattern(r"[-+]?(?:0,[0-9]+|[0-9]+,(?:[0-9]{1,2}|[0-9]{4,}))(?:[eE][-+]?[0-9]+)?")
 _COMMENTED: Final = pattern(rf"({_NUMBER}|true|True|false|False)(?:#+\s?|\s+//\s*)(\S.*)")
 _SUFFIXED: Final = pattern(r"([-+]?[0-9]*\.[0-9]+)[fFdD]")  # as in C
+_POINTED: Final = pattern(
+    r"[-+]?[1-9][0-9]{0,2}(?:\.[0-9]{3})?\.000\.000|[-+]?[1-9][0-9]{0,2}\.[0-9]{3}\.000"
+)
 _BOOLEANS: Final = ("true", "false")
 _SEVERAL: Final = pattern(rf"(\()?({_NUMBER}(?:\s*,\s*{_NUMBER})+),?(?(1)\))")
 
@@ -39,8 +42,13 @@ def without_slip(text: str) -> tuple[str, str] | None:
         return "a number has no letter behind it", suffixed[1]
     if _DECIMAL.fullmatch(text):
         return "a number is written with a point", text.replace(",", ".")
-    if "." in text and _LETTERED.fullmatch(text):
+    return _with_points(text) if "." in text else None
+
+
+def _with_points(text: str) -> tuple[str, str] | None:
+    if _POINTED.fullmatch(text):
+        return "a number has no points between its thousands", text.replace(".", "")
+    if _LETTERED.fullmatch(text):
         return "a letter stands among its digits", text.translate(_DIGITS)
-    if "." in text and (several := _SEVERAL.fullmatch(text)):
-        return "a list stands in [ ]", f"[{several[2]}]"
-    return None
+    several = _SEVERAL.fullmatch(text)
+    return None if several is None else ("a list stands in [ ]", f"[{several[2]}]")

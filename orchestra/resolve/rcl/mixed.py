@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.nearest import nearest
 from orchestra.patterns import pattern
-from orchestra.resolve.rcl.computed import computed
 from orchestra.resolve.rcl.scalars import typed
 
 if TYPE_CHECKING:
@@ -33,6 +32,10 @@ def odd_item(values: Sequence[Scalar]) -> int | None:
     """
     kinds = [type(value) for value in values]
     counts = Counter(kinds)
+    if str in counts and len(counts) > 1 and counts[str] <= len(kinds) - counts[str]:
+        meant = (at for at, value in enumerate(values) if isinstance(value, str) and _number_meant(value))
+        if (odd := next(meant, None)) is not None:
+            return odd
     if set(counts) == {int, float} and any(value % 1 for value in values if isinstance(value, float)):
         return kinds.index(int)
     differing = next((index for index, kind in enumerate(kinds) if kind is not kinds[0]), None)
@@ -42,6 +45,13 @@ def odd_item(values: Sequence[Scalar]) -> int | None:
     if not single or (set(counts) == {int, float} and single[0] is float):
         return differing
     return kinds.index(single[0])
+
+
+def _number_meant(text: str) -> str | None:
+    """See `number_meant`, which only lists of several types need."""
+    from orchestra.resolve.rcl.look_alikes import number_meant  # noqa: PLC0415
+
+    return number_meant(text)
 
 
 def wanted_type(values: Sequence[Scalar], odd: int) -> type:
@@ -64,8 +74,9 @@ def in_place(text: str, wanted: type, *, quoted: bool, quote: str = '"') -> str 
         return _boolean(text, value)
     if wanted in (int, float) and type(value) is str and _NUMBERS.fullmatch(text):
         return ", ".join(text.split())
-    if wanted is float and type(value) is str:
-        return computed(text)
+    if wanted in (int, float) and type(value) is str:
+        meant = _number_meant(text)
+        return meant if meant is not None and type(typed(meant)) is wanted else None
     if wanted is float:
         return f"{text}.0" if type(value) is int and _WHOLE.fullmatch(text) else None
     pointed = _POINTED.fullmatch(text) if wanted is int else None

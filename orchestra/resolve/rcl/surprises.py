@@ -139,6 +139,8 @@ def _of_text(text: str) -> Surprise | None:
     if text[:1] in _TYPESET and text[-1:] in _TYPESET:
         told = f"the quotes of '{shortened(text)}' are part of the text: YAML knows only ' and \""
         return Surprise(told, f'"{text[1:-1]}"' if '"' not in text and "\\" not in text else None)
+    if not text.isascii() and (alike := _of_look_alike(text)) is not None:
+        return alike
     if text in _NULLS:
         return Surprise(f"'{text}' is read as a text: no parameter is without a value", f'"{text}"')
     if _GROUPED.fullmatch(text):
@@ -160,6 +162,15 @@ def _of_computed(text: str) -> Surprise | None:
     if number is None:
         return None
     return Surprise(f"'{text}' is read as a text: nothing is computed in a parameter file", number)
+
+
+def _of_look_alike(text: str) -> Surprise | None:
+    from orchestra.resolve.rcl.look_alikes import look_alike  # noqa: PLC0415 - few texts are not of ASCII
+
+    plain = look_alike(text)
+    if plain is None:
+        return None
+    return Surprise(f"'{text}' is read as a text: not all of its characters are what they look like", plain)
 
 
 def of_commas(text: str) -> Surprise | None:

@@ -32,6 +32,16 @@ MISSED: dict[str, tuple[str, str, list[Told]]] = {
     "another namespace in nested keys": (
         node("talker", namespace="ns", param=_FILE),
         "other:\n  talker:\n    ros__parameters: {a: 1}\n",
+        [(_CODE, "other", "ns")],
+    ),
+    "another namespace around the keys of two": (
+        node("front", namespace="a/lidars", param=_FILE) + node("rear", namespace="a/lidars", param=_FILE),
+        "/a:\n  lidar:\n    front:\n      ros__parameters: {a: 1}\n    rear:\n      ros__parameters: {a: 1}\n",
+        [(_CODE, "lidar", "lidars")],
+    ),
+    "another namespace in braces": (
+        node("talker", namespace="ns", param=_FILE),
+        "other: {talker: {ros__parameters: {a: 1}}}\n",
         [(_CODE, "talker", None)],
     ),
     "a slip in the only section": (
