@@ -23,6 +23,10 @@ if TYPE_CHECKING:
     from tests.ros.container.conftest import Asking, Box
 
 
+# Of a busy machine; what is whole, or answers, is waited for no longer.
+_PATIENT = ("--timeout", "60", "--spin-time", "60")
+
+
 @pytest.fixture(scope="module")
 def boxes(
     domain: dict[str, str], asking: Asking, tmp_path_factory: pytest.TempPathFactory
@@ -35,7 +39,7 @@ def boxes(
 
 def _ask(domain: dict[str, str], *words: str) -> tuple[int, str, str]:
     done = subprocess.run(
-        [sys.executable, "-m", "orchestra", "component", *words],
+        [sys.executable, "-m", "orchestra", "component", *words, *_PATIENT],
         env=domain,
         capture_output=True,
         text=True,
@@ -88,7 +92,7 @@ def test_what_a_container_refuses_is_an_error(box: Box, domain: dict[str, str]) 
 
 def test_a_component_runs_in_a_container_of_its_own(domain: dict[str, str], asking: Asking) -> None:
     words = ("standalone", "demo", "components:Stubborn", "-c", "sole")
-    command = [sys.executable, "-m", "orchestra", "component", *words]
+    command = [sys.executable, "-m", "orchestra", "component", *words, *_PATIENT]
     with subprocess.Popen(command, env=domain, stdout=subprocess.PIPE, text=True) as popen:
         try:
             assert popen.stdout is not None

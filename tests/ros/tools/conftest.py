@@ -18,10 +18,12 @@ from tests.killing import kill
 if TYPE_CHECKING:
     from collections.abc import Callable, Iterator
 
-# What looks at the graph, and for how many seconds without anything new: on a busy machine that may be long, and an answer
-# that is whole waits for none of it.
-_LOOKING = {"action", "graph", "lifecycle", "node", "param", "service", "tf", "topic"}
-_PATIENT = ("--spin-time", "60")
+# Which commands wait for a minute, for somebody new and for an answer: on a busy machine either may take long, and what is
+# whole, or answered, is waited for no longer.
+_PATIENT = {
+    "--spin-time": {"action", "graph", "lifecycle", "node", "param", "service", "tf", "topic"},
+    "--timeout": {"lifecycle", "param"},
+}
 _PROGRAM = Path(__file__).parents[2] / "processes" / "talked_with.py"
 
 
@@ -90,7 +92,12 @@ class Graph:
     @staticmethod
     def command(*words: str) -> list[str]:
         """Return the words of a command line."""
-        patient = _PATIENT if words[0] in _LOOKING and _PATIENT[0] not in words else ()
+        patient = [
+            word
+            for option, commands in _PATIENT.items()
+            if words[0] in commands and option not in words
+            for word in (option, "60")
+        ]
         return [sys.executable, "-m", "orchestra", *words, *patient]
 
 
