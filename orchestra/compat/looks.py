@@ -8,6 +8,7 @@ from types import CodeType, FunctionType
 from typing import TYPE_CHECKING, Final
 
 from orchestra.compat.idle_names import may_have_idle_actions
+from orchestra.compat.signs import goes_through, has_event_functions, has_idle_logic, sets_tuples
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Mapping
@@ -16,7 +17,6 @@ if TYPE_CHECKING:
     from orchestra.errors import Problems
     from orchestra.location import Span
 
-_BYTE: Final = 0xFF
 _PIECE: Final = 16  # names of a dictionary that are one constant, at most
 _KEY: Final = re.compile(rb"""[{}]|(['"])([^'"\n\\]+)\1\s*:""")
 _SIGN: Final = re.compile(rb"""oin(?:Substitution)?\((?:[^()]|\([^()]*\))*?,\s*['"]/""")
@@ -28,38 +28,6 @@ _OUTSIDE: Final = re.compile(
 )
 # The end of a word in quotes, and the beginning of another one.
 _SIDE_BY_SIDE: Final = re.compile(rb"""['"](?<=[^\s"'\\=:].)\s+['"][\w/-]""")
-# A function that is given an event, by the names that people give it.
-_OF_EVENT: Final = re.compile(rb"(?:lambda[ \t]+|def[ \t]+\w+\((?:self,[ \t]*)?)(?:\w*event\w*|_?ev?|evt)\b")
-# An empty list or dictionary that may be the default of a parameter.
-_EMPTY: Final = re.compile(rb"def [^\n:]*=[ \t]*(?:\[[ \t]*\]|\{[ \t]*\}|list\(\)|dict\(\))")
-# Lines that compare, assert in brackets, or call a method of a text.
-_COMPARED: Final = re.compile(rb"""\n[ \t]*+\w[\w.\[\]'"]*+[ \t]*+==""")
-_ASSERTED: Final = re.compile(rb"assert[ \t]*\(")
-_MADE: Final = re.compile(
-    rb"\n[ \t]*+\w++\.(?:capitalize|casefold|format|lower|[lr]?strip|remove(?:pre|suf)fix|replace|title|upper)\("
-)
-_MAKING: Final = frozenset(
-    [
-        "capitalize",
-        "casefold",
-        "format",
-        "lower",
-        "lstrip",
-        "removeprefix",
-        "removesuffix",
-        "replace",
-        "rstrip",
-        "strip",
-        "title",
-        "upper",
-    ]
-)
-# A text that is an alternative, one by itself in brackets, one that something is.
-_IN_QUOTES: Final = re.compile(
-    rb"""\bor[ \t]+['"][^'"\n]*['"][ \t]*(?:\)|:|or\b|\n)|(?:\bin|=)[ \t]*\(['"][^'"\n]+['"]\)"""
-)
-_IS: Final = re.compile(rb"""\bis[ \t]+(?:not[ \t]+)?['"\d]""")
-_ITERATORS: Final = frozenset({"filter", "map", "zip"})
 
 
 class Compiled:
@@ -166,99 +134,6 @@ def has_joined_words(source: bytes) -> bool:
     return _SIDE_BY_SIDE.search(source) is not None
 
 
-def has_idle_logic(code: CodeType, source: bytes) -> bool:
-    """Return whether a test may always be so, or a statement do nothing."""
-    compares, makes = _does(code)
-    if compares and any(sign.search(source) is not None for sign in (_IN_QUOTES, _COMPARED, _IS)):
-        return True
-    if makes and _MADE.search(source) is not None:
-        return True
-    return b"assert" in source and _ASSERTED.search(source) is not None
-
-
-def _does(code: CodeType) -> tuple[bool, bool]:
-    """Return whether code compares or loops, and whether it makes texts of others."""
-    operations = code.co_code[::2]
-    compares = any(number in operations for number in _comparing())
-    makes = not _MAKING.isdisjoint(code.co_names)
-    for item in code.co_consts:
-        if type(item) is CodeType:
-            inner = _does(item)
-            compares, makes = compares or inner[0], makes or inner[1]
-    return compares, makes
-
-
-@cache
-def _comparing() -> tuple[int, ...]:
-    from opcode import opmap  # noqa: PLC0415 - once
-
-    return tuple(opmap[name] for name in ("COMPARE_OP", "IS_OP", "CONTAINS_OP", "FOR_ITER"))
-
-
-def _goes_through(code: CodeType) -> bool:
-    """Return whether there is something that is gone through but once."""
-    if code.co_name == "<genexpr>" or not _ITERATORS.isdisjoint(code.co_names) or _sets_again(code):
-        return True
-    return any(_goes_through(item) for item in code.co_consts if type(item) is CodeType)
-
-
-def _sets_again(code: CodeType) -> bool:
-    """Return whether a variable is set twice to what a call returns."""
-    called, pairs = _calls()
-    # The two variables of an instruction for both are half of its argument each.
-    found = [
-        place[2][0] >> 4 if place[1][0] in pairs else place[2][0] for place in called.finditer(code.co_code)
-    ]
-    return len(set(found)) < len(found)
-
-
-@cache
-def _calls() -> tuple[re.Pattern[bytes], bytes]:
-    """Return what a call is and the instruction that sets a variable behind it, and those of these for two."""
-    from opcode import opmap  # noqa: PLC0415 - once
-
-    pairs = bytes(opmap[name] for name in ("STORE_FAST_LOAD_FAST", "STORE_FAST_STORE_FAST") if name in opmap)
-    setting = re.escape(bytes((opmap["STORE_FAST"],)) + pairs)
-    calls = re.escape(bytes(opmap[name] for name in ("CALL", "CALL_KW", "CALL_FUNCTION_EX") if name in opmap))
-    return re.compile(b"[" + calls + b"].(?:\0.)*([" + setting + b"])(.)", re.DOTALL), pairs
-
-
-def has_event_functions(source: bytes) -> bool:
-    """Return whether a function may be called with what an event handler waits for."""
-    has_handler = any(sign in source for sign in (b"OnProcess", b"OnShutdown", b"OnExecution"))
-    return has_handler and _OF_EVENT.search(source) is not None
-
-
-def _sets_tuples(code: CodeType, _source: bytes) -> bool:
-    """Return whether a name is set to a tuple of one."""
-    written = code.co_code
-    loading, building, setting = _storing()
-    if building.search(written) is not None:
-        return True
-    for number, item in enumerate(code.co_consts):
-        if type(item) is CodeType:
-            if _sets_tuples(item, b""):
-                return True
-        elif type(item) is tuple and len(item) == 1:
-            # The number of a late constant is longer, which the instruction before says.
-            place = written.find(bytes((loading, number & _BYTE)))
-            while place >= 0:
-                if place % 2 == 0 and written[place + 2] in setting:
-                    return True
-                place = written.find(bytes((loading, number & _BYTE)), place + 1)
-    return False
-
-
-@cache
-def _storing() -> tuple[int, re.Pattern[bytes], bytes]:
-    """Return the operation that loads a constant, the instructions that set a name to a tuple of one, and what sets."""
-    from opcode import opmap  # noqa: PLC0415 - once
-
-    setting = bytes(number for name, number in opmap.items() if name.startswith("STORE_") and number <= _BYTE)
-    building = re.escape(bytes((opmap["BUILD_TUPLE"], 1))) + b"[" + re.escape(setting) + b"]"
-    return opmap["LOAD_CONST"], re.compile(building, re.DOTALL), setting
-
-
 def _changes_nothing(code: CodeType, _source: bytes) -> bool:
     # Here, because it is kept with the code.
     from orchestra.witness.harmless import changes_nothing  # noqa: PLC0415
@@ -281,10 +156,10 @@ LOOKS: Final[dict[str, Callable[[CodeType, bytes], bool]]] = {
     "doubled": lambda code, source: _may_double([code], source),
     "roots": lambda _, source: has_late_roots(source),
     "joined": lambda _, source: has_joined_words(source),
-    "tuples": _sets_tuples,
-    "events": lambda _, source: has_event_functions(source),
+    "tuples": sets_tuples,
+    "events": has_event_functions,
     "logic": has_idle_logic,
-    "through": lambda code, source: _EMPTY.search(source) is not None or _goes_through(code),
+    "through": goes_through,
     "misused": _may_be_misused,
 }
 # By the looks that say whether a file may have such slips: the modules that tell of them.
