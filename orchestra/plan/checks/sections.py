@@ -55,14 +55,13 @@ class _File:
 def check_sections(resolved: Resolved, plan: Plan, problems: Problems) -> None:
     """Report sections that miss their node, and files that have nothing for a node."""
     del plan
-    nodes: list[_Node] = [
-        *(item for item in resolved.processes if item.kind != "process"),
-        *resolved.components,
-    ]
-    files = _files(nodes)
+    nodes: list[_Node] = [item for item in resolved.processes if item.kind != "process"]
+    nodes += resolved.components
+    full = [node_name(node) for node in nodes]
+    files = _files(nodes, full)
     if not files:
         return
-    names = _Names(name for node in nodes if (name := node_name(node)) is not None)
+    names = _Names(name for name in full if name is not None)
     told: set[object] = set()
     for file in files:
         _check(file, names, resolved, problems, told)
@@ -85,15 +84,16 @@ class _Names:
         if pattern not in self._known:
             last = pattern.rpartition("/")[2]
             names: Collection[str] = self._names if "*" in last else self._lasts.get(last, ())
-            if len(names) > 1:
-                names = min(names, self._below.get(absolute(pattern).partition("/*")[0], ()), key=len)
+            around = absolute(pattern).partition("/*")[0]
+            if around and len(names) > 1:
+                names = min(names, self._below.get(around, ()), key=len)
             self._known[pattern] = any(matches(pattern, name) for name in names)
         return self._known[pattern]
 
     @cached_property
     def _below(self) -> dict[str, list[str]]:
         """The names by each that they are or stand below: patterns may begin with as many namespaces as there are."""
-        below: dict[str, list[str]] = {"": list(self._names)}
+        below: dict[str, list[str]] = {}
         for name in self._names:
             for end, character in enumerate(f"{name}/"):
                 if end and character == "/":
@@ -101,14 +101,13 @@ class _Names:
         return below
 
 
-def _files(nodes: Sequence[_Node]) -> list[_File]:
+def _files(nodes: Sequence[_Node], names: Sequence[str | None]) -> list[_File]:
     """Return the files with the nodes that each is given to; one for all nodes of a scope is a file of its own."""
     files: dict[tuple[str, object], _File] = {}
-    for node in nodes:
-        given = [item for item in node.parameters if isinstance(item, FileParameters) and item.sections]
+    for node, name in zip(nodes, names, strict=True):
+        given = [item for item in node.parameters if type(item) is FileParameters and item.sections]
         if not given or _hands_on(node):
             continue
-        name = node_name(node)
         for source in given:
             place = source.location if source.everywhere else None
             file = files.get((source.path, place))
