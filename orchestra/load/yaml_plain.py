@@ -37,7 +37,7 @@ DASH: Final = pattern(r"-[A-Za-z]")
 DEEPEST: Final = 100
 PARSER: Final[type[Any]] = getattr(yaml, "CBaseLoader", yaml.BaseLoader)
 
-# What the keys of merges and of mistaken items begin with.
+# What the keys of merges and of mistaken items begin with; what a comma has cut off a substitution ends with a bracket.
 _ODD: Final = frozenset({"<", "-"})
 
 
@@ -137,7 +137,7 @@ class _Events:
         event = following()
         while (kind := type(event)) is ScalarEvent:
             name: str = event.value
-            if name in found or name[:1] in _ODD:
+            if name in found or name[:1] in _ODD or name[-1:] == ")":
                 raise _NotPlainError
             if self.marked:
                 self.check(event)

@@ -1,13 +1,16 @@
-"""Operators of other languages in an expression of Python, as `&&`, `||`, `!`, `=` and `=>`."""
+"""Operators of other languages in an expression of Python, as `&&`, `||`, `!`, `=`, `=>` and `AND`."""
 
 from __future__ import annotations
 
 from typing import Final
 
 from orchestra.dataclass import dataclass
+from orchestra.patterns import pattern
 
 _ELSEWHERE: Final = {"&&": "and", "||": "or", "!==": "!=", "===": "==", "=>": ">=", "=<": "<="}
 _NOT: Final = "!"
+_WORD: Final = pattern(r"(?<![\w'\"])(?:AND|OR|NOT|And|Or|Not|XOR|xor)(?![\w'\"])")
+_WORDS: Final = {"xor": "!="}
 _COMPARING: Final = "Maybe you meant '=='"  # what Python says of a single `=`
 
 
@@ -35,4 +38,8 @@ def foreign_operator(text: str, error: BaseException, begin: int, end: int) -> O
         return Operator(begin, begin + 1, "==")
     if text[begin : begin + 1] == _NOT and text[begin : begin + 2] != "!=":
         return Operator(begin, begin + 1, "not ")
+    word = next((found for found in _WORD.finditer(text) if found.end() + 1 >= begin), None)
+    if word is not None and word.start() <= begin:
+        instead = word[0].lower()
+        return Operator(*word.span(), _WORDS.get(instead, instead))
     return None
