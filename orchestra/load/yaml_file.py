@@ -20,7 +20,6 @@ from orchestra.load.faults import Fault, RefusedError
 from orchestra.load.keys import spelled
 from orchestra.load.offsets import Source, source, spans_of
 from orchestra.load.reader import Reader
-from orchestra.load.yaml_flow import joined_pairs
 from orchestra.load.yaml_plain import DASH, DEEPEST, NULL, PARSER
 from orchestra.patterns import pattern
 
@@ -169,6 +168,8 @@ class _Tree:
         """Return the keys of a mapping with their values; where they begin anew, which is told, those before that."""
         pairs: list[tuple[yaml.Node, yaml.Node]] = node.value
         if node.flow_style and "$(" in self.whole.text[node.start_mark.index : node.end_mark.index]:
+            from orchestra.load.yaml_flow import joined_pairs  # noqa: PLC0415 - what is plain does not come here
+
             return joined_pairs(pairs, self.whole, self.reader)
         again = _second_item(node)
         if again is None:
