@@ -73,7 +73,7 @@ class _Started:
             namespace, _, last = name.rpartition("/")
             self._by_last.setdefault(last, []).append(name)
             self._by_namespace.setdefault(namespace, []).append(last)
-        self._near: dict[str, Names] = {}  # made where a name is not known
+        self._near: dict[str, Names] = {}
 
     def near(self, name: str) -> list[str]:
         """Return the names that one is a slip for, in the namespace or in the name itself."""
@@ -87,8 +87,6 @@ class _Started:
             if not namespace or is_typo(namespace, known.rpartition("/")[0])
         ]
         if namespace not in self._near:
-            from orchestra.resolve.typos_among import Names  # noqa: PLC0415 - only mistakes need it
-
             self._near[namespace] = Names(self._by_namespace.get(namespace, ()))
         return [*found, *(f"{namespace}/{own}" for own in self._near[namespace].meant_by(last))]
 
