@@ -9,15 +9,14 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.resolve.python.form_slots import Name
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Iterator, Sequence
+    from collections.abc import Collection, Iterator, Sequence
 
     from orchestra.resolve.python.line_tables import LineTable
 
-_MARK: Final = "qzMarkOfAForm"
+MARK: Final = "qzMarkOfAForm"
 _NUMBER: Final = 731_935_000_000
 _DIGITS: Final = "731935"
 _MORE_ARGUMENTS: Final = (0x04, 0x08)  # flags of codes that take any arguments, and any keywords
-_SERIES: Final = (tuple, frozenset)
 _ALIKE: Final = (
     *("co_name", "co_qualname", "co_firstlineno", "co_flags", "co_stacksize", "co_nlocals"),
     *("co_argcount", "co_posonlyargcount", "co_kwonlyargcount", "co_names", "co_cellvars"),
@@ -61,7 +60,7 @@ class Marks:
             if number is not None:
                 self.seen.add(number)
                 return number
-            if kind is str and _MARK not in constant:  # type: ignore[operator] # it is a text
+            if kind is str and MARK not in constant:  # type: ignore[operator] # it is a text
                 return None
         if may_be_marked(repr(constant)):
             raise ValueError(constant)
@@ -74,7 +73,7 @@ def _mark(value: object, number: int) -> Any:
         before = value.rstrip("0123456789")
         return Name(before + (end if len(before + end) != len(value) else f"{end}0"))
     if isinstance(value, str):
-        mark = f"{_MARK}{number}"
+        mark = f"{MARK}{number}"
         return mark if len(mark) != len(value) else f"{mark}_"
     marked = _NUMBER + number
     if isinstance(value, float):
@@ -84,7 +83,7 @@ def _mark(value: object, number: int) -> Any:
 
 def may_be_marked(text: str) -> bool:
     """Return whether a text has in it what marks are told by."""
-    return _MARK in text or _DIGITS in text
+    return MARK in text or _DIGITS in text
 
 
 class Columns:
@@ -149,7 +148,7 @@ class CodeForm:
         self._codes = [
             CodeForm(own, item, marks, columns) for own, item in pairs if isinstance(item, CodeType)
         ]
-        self._series: list[tuple[Callable[..., Any], list[int]]] = []
+        self._series: list[list[int]] = []
         first = len(marks.values)
         codes = first + len(self._fixed)
         self._behind = codes + len(self._codes)
@@ -159,11 +158,11 @@ class CodeForm:
     def _number(self, constant: object, marks: Marks, fixed: Iterator[int], codes: Iterator[int]) -> int:
         if isinstance(constant, CodeType):
             return next(codes)
-        if not isinstance(constant, _SERIES):
+        if not isinstance(constant, tuple):  # the order of a set depends on what is in it
             number = marks.number(constant)
             return next(fixed) if number is None else number
         held = [self._number(item, marks, fixed, codes) for item in constant]
-        self._series.append((type(constant), held))
+        self._series.append(held)
         return self._behind + len(self._series) - 1
 
     @property
@@ -179,8 +178,8 @@ class CodeForm:
         """
         known = values + self._fixed
         known += [form.made(path, values, shifts) for form in self._codes]
-        for kind, held in self._series:
-            known.append(kind(map(known.__getitem__, held)))
+        for held in self._series:
+            known.append(tuple(map(known.__getitem__, held)))
         names = self._code.co_varnames
         if self._variables:
             changed = list(names)
@@ -208,7 +207,7 @@ class CodeForm:
 
 
 def _fixed(constant: object, marks: Marks) -> Iterator[Any]:
-    if isinstance(constant, _SERIES):
+    if isinstance(constant, tuple):
         for item in constant:
             yield from _fixed(item, marks)
     elif not isinstance(constant, CodeType) and marks.number(constant) is None:

@@ -8,6 +8,7 @@ a name ends with a number and is that of a variable of a function, which nothing
 from __future__ import annotations
 
 import re
+import sys
 from keyword import iskeyword
 from typing import TYPE_CHECKING, Any, Final
 
@@ -28,6 +29,7 @@ _TOKEN: Final = re.compile(
     r"\n|[A-Za-z_][\w.]*|\*\*=?|//=?|<<=?|>>=?|->|[-+*/%@&|^=!<>:]=|\\\n|[^\s]", re.ASCII
 )
 _NAME: Final = re.compile(r"[A-Za-z_]\w*\Z", re.ASCII)
+_WORD: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _TEXT: Final = re.compile(r"""'[^'\\\n]*'|"[^"\\\n]*\"""")
 _QUOTES: Final = "'\""
 _BEFORE: Final = frozenset("([{,=:")
@@ -101,6 +103,8 @@ def slots(parts: Sequence[str], variables: Collection[str]) -> tuple[dict[int, s
     kept = others | words | {(int, 0), None}
     places = {index: "" for index in found if keys[index] not in kept}
     places |= {index: before for index, before in names.items() if full[index] not in words}
+    texts = (part for index, part in enumerate(parts[1::2]) if index not in places and part[0] != "#")
+    words.update(_WORD.findall(" ".join(texts)))  # code in texts: f"{node_12}"
     return dict(sorted(places.items())), words
 
 
@@ -116,8 +120,8 @@ def _candidates(parts: Sequence[str]) -> tuple[dict[int, None], set[str]]:
     """Return the numbers of literals that stand where they decide nothing; and the words of the text."""
     found: dict[int, None] = {}
     words: set[str] = set()
-    around: list[tuple[str, str]] = []
-    before, last = "\n", -1
+    around: list[tuple[str, str, int]] = []
+    before, last, closed = "\n", -1, sys.maxsize
     for index, part in enumerate(parts):
         if index & 1:
             if part[0] != "#":
@@ -130,25 +134,43 @@ def _candidates(parts: Sequence[str]) -> tuple[dict[int, None], set[str]]:
                 if _decides_nothing(parts[last], token, sign, around):
                     found[last // 2] = None
                 last = -1
+            _forget(found, closed, sign)
+            closed = sys.maxsize
             if sign in _OPENING:
-                around.append((sign, before))
+                around.append((sign, before, len(found)))
             elif sign in _CLOSING and around:
-                around.pop()
+                _, outside, count = around.pop()
+                closed = sys.maxsize if _is_named(outside) else count
             else:
                 words.update(sign.split("."))
             before = sign
     return found, words
 
 
-def _decides_nothing(literal: str, before: str, behind: str, around: Sequence[tuple[str, str]]) -> bool:
+def _forget(found: dict[int, None], count: int, behind: str) -> None:
+    """Keep so many of what was found where the compiler works something out with the rest: (1, 2)[0] + 3."""
+    if behind == "[" or behind in _OPERATORS:
+        while len(found) > count:
+            found.popitem()
+
+
+def _decides_nothing(literal: str, before: str, behind: str, around: Sequence[tuple[str, str, int]]) -> bool:
     """Return whether a literal is a whole element, by the tokens next to it and the brackets that are open there."""
     if not around:  # a statement that assigns it
         return before == "=" and behind == "\n"
-    sign, outside = around[-1]
+    sign, outside, _ = around[-1]
     if before not in _BEFORE or behind not in _BEHIND or outside in _OPERATORS:
         return False
-    named = outside[-1].isalnum() or outside[-1] == "_"
-    named = named and outside[0] not in _QUOTES and not iskeyword(outside)
+    if sign == "{" and ":" not in (before, behind):
+        return False  # of a set, whose order depends on what is in it
+    named = _is_named(outside)
     if sign == "[" and (named or outside in _CLOSING or outside[-1] in _QUOTES):
         return named and literal[0] in _QUOTES  # a subscript, else of what the compiler may look into
     return named or not (before == "(" and behind == ")")  # else in brackets alone
+
+
+def _is_named(outside: str) -> bool:
+    """Return whether a bracket behind a token calls or asks what has a name."""
+    return (
+        (outside[-1].isalnum() or outside[-1] == "_") and outside[0] not in _QUOTES and not iskeyword(outside)
+    )

@@ -21,7 +21,15 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any, Final
 
 from orchestra.compat.looks import LOOKS
-from orchestra.resolve.python.form_codes import CodeForm, Columns, Marks, is_same, may_be_marked, variables
+from orchestra.resolve.python.form_codes import (
+    MARK,
+    CodeForm,
+    Columns,
+    Marks,
+    is_same,
+    may_be_marked,
+    variables,
+)
 from orchestra.resolve.python.form_slots import Name, classes, slots, split
 
 if TYPE_CHECKING:
@@ -187,6 +195,8 @@ class Form:
         marked = list(parts)
         for index, text in zip(places, written, strict=True):
             marked[2 * index + 1] = text
+        for index in self._comments:  # which may be more: f"{x["#"]}", "y"
+            marked[2 * index + 1] = f"#{MARK}"
         self._code = CodeForm(
             code, compile("".join(marked), "a form", "exec", dont_inherit=True), marks, self._columns
         )

@@ -16,6 +16,7 @@ from orchestra.resolve.python.form_codes import is_same
 from orchestra.resolve.python.forms import Forms
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
     from types import CodeType
 
     from _pytest.monkeypatch import MonkeyPatch
@@ -32,7 +33,7 @@ COUNT: int = @2@
 def generate_launch_description(first=@3@, *, second: @1@, third=(@4@, @5@)):
     '''Return what is started.'''
     settings = {@1@: @6@, 'list': [@2@, @7@, 3], @4@: lambda: @5@}
-    if settings[@1@] in (@4@, @5@) or first in {@6@, @7@}:
+    if settings[@1@] in (@4@, @5@) or first in [@6@, @7@]:
         first = settings.get(@3@, @2@)
     return LaunchDescription([
         Node(package=@1@, executable=@3@, name=@4@, namespace=ROBOT, parameters=[{@5@: @6@, 'frame': [ROBOT, @7@]}],
@@ -227,3 +228,46 @@ def test_what_the_compiler_tells_of_is_no_form() -> None:
 
         assert forms.code("a", text.encode(), told, {})[1] is False
     assert compiled == 3
+
+
+_CALLS = "".join(f"    call(key_{letter}='@{letter}')\n" for letter in "abcdefghijkl")
+_TREACHEROUS = {
+    "a name that only a text in braces knows": (
+        "from names import *\ndef function():\n    node_@ = call()\n    call(node_@, f'{node_99}')\n",
+        "99",
+    ),
+    "a number that the compiler works with": (
+        "def function():\n    call(@7, (1, @7)[1] // 1000000000000)\n",
+        "900000000000",
+    ),
+    "a set that is gone through in the order of its table": (
+        "def function():\n    for number in {@16, @8, @24}:\n        call(number)\n",
+        "",
+    ),
+    "a text in braces with the quotes around it, and the sign of a comment": (
+        'def function(names):\n    call(key=f"{names["#name"]}", other="@")\n',
+        "9",
+    ),
+}
+
+
+@pytest.mark.parametrize("name", _TREACHEROUS)
+def test_what_only_looks_like_a_literal_is_left_to_the_compiler(name: str) -> None:
+    """Each of these was made with a wrong code."""
+    text, last = _TREACHEROUS[name]
+    if '["#' in text and sys.version_info < (3, 12):
+        pytest.skip("texts in braces know no such quotes here")
+    files = Files()
+    for number in range(10, 18):
+        files.code((text + _CALLS).replace("@", str(number)))
+    source = (text + _CALLS).replace("@", last)
+    made, own = files.code(source), compile(source, "a.launch.py", "exec", dont_inherit=True)
+    assert [list(item) for item in _sets(made)] == [list(item) for item in _sets(own)]
+
+
+def _sets(code: CodeType) -> Iterator[frozenset[object]]:
+    for item in code.co_consts:
+        if isinstance(item, frozenset):
+            yield item
+        elif isinstance(item, type(code)):
+            yield from _sets(item)
