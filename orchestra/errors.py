@@ -202,6 +202,10 @@ class Problems:
             if problem is not None:
                 self.report(problem)
 
+    def messages(self, code: Code, span: Span) -> list[str]:
+        """Return what has been reported with a code at a place."""
+        return [problem.message for problem in self._by_place.get((code, span), ())]
+
     def take_back(self, code: Code, span: Span | None) -> None:
         """Forget what was reported with a code at a place."""
         for problem in self._by_place.pop((code, span), ()):

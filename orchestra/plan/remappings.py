@@ -25,12 +25,16 @@ def check_remaps(process: ResolvedProcess | ResolvedComponent, problems: Problem
     namespace = process.namespace.text if process.namespace is not None else _ROOT
     for dead in dead_rules(rules, namespace, process.name.text if process.name is not None else None):
         rule, earlier = process.remaps[dead.rule], process.remaps[dead.caught_by]
+        location = rule.source.location
         if rule.target.text == earlier.target.text:
             continue
+        begin = f"'{rule.source.text}' is remapped to "
+        if any(told.startswith(begin) for told in problems.messages(Code.DEAD_REMAP, location.span)):
+            continue  # of another node that the same lines make
         problems.warning(
             Code.DEAD_REMAP,
-            f"'{rule.source.text}' is remapped to '{earlier.target.text}' before this rule is reached",
-            rule.source.location,
+            f"{begin}'{earlier.target.text}' before this rule is reached",
+            location,
             notes=(f"the rule that counts is at {earlier.source.location}",),
         )
 
