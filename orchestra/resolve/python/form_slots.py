@@ -36,6 +36,10 @@ _BEFORE: Final = frozenset("([{,=:")
 _BEHIND: Final = frozenset(")]},:")
 _OPENING: Final = frozenset("([{")
 _CLOSING: Final = frozenset(")]}")
+_PLAIN: Final = frozenset((*"()[]{},:=.\n", "->"))
+_PLAIN_KEYWORDS: Final = frozenset(("from", "import", "as", "def", "return", "None", "True", "False"))
+_OF_A_VALUE: Final = frozenset(")]}'\"")  # a bracket behind these looks into it
+_ENDS_WITH_WORD: Final = re.compile(r"\w\Z")
 _OPERATORS: Final = frozenset(
     ("%", "*", "**", "+", "-", "/", "//", "@", "|", "&", "^", "~", "<", ">", "<<", ">>")
 )
@@ -44,6 +48,32 @@ _OPERATORS: Final = frozenset(
 def split(text: str) -> list[str]:
     """Return the parts of a text, one between literals and comments and one of those in turn."""
     return _LEXEME.split(text)
+
+
+def is_plain(parts: Sequence[str]) -> bool:
+    """Return whether a text that was split imports, defines functions, assigns, calls and returns, and nothing else.
+
+    Then its code has no jumps, and the compiler works nothing out but signs of numbers and which values are constant.
+    """
+    before = ""
+    for index in range(0, len(parts), 2):
+        literal = parts[index + 1][0] if index + 1 < len(parts) else "\n"
+        if literal in _QUOTES and _ENDS_WITH_WORD.search(parts[index]):
+            return False  # f'{name}', b'bytes'
+        signs = _TOKEN.findall(parts[index])
+        if literal.isdigit() and signs and signs[-1] == "-" and (signs[-2:-1] or [before])[0] in _BEFORE:
+            del signs[-1]
+        for sign in signs:
+            words = () if sign in _PLAIN else sign.split(".")
+            if not all(map(_is_plain_word, words)) or (sign == "[" and before in _OF_A_VALUE):
+                return False
+            before = sign
+        before = before if literal in "#\n" else literal
+    return True
+
+
+def _is_plain_word(word: str) -> bool:
+    return word.isidentifier() and (word in _PLAIN_KEYWORDS or not (iskeyword(word) or word == "match"))
 
 
 def key_of(literal: str) -> Any:

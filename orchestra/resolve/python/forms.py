@@ -11,7 +11,8 @@ on the form is as good as the compiler where
 - of names only those of a function's own variables that end with a number are others (`node_12`), under the same terms.
 
 What it makes of the first file has to be what the compiler made of it, down to the table of positions. Wherever there
-is a doubt there is the compiler. Rejected: other names too: the compiler sorts some, and some become constants.
+is a doubt there is the compiler, and for whatever does more than to import, define functions, assign, call and return.
+Rejected: other names too: the compiler sorts some, and some become constants.
 """
 
 from __future__ import annotations
@@ -30,7 +31,7 @@ from orchestra.resolve.python.form_codes import (
     may_be_marked,
     variables,
 )
-from orchestra.resolve.python.form_slots import Name, classes, slots, split
+from orchestra.resolve.python.form_slots import Name, classes, is_plain, slots, split
 
 if TYPE_CHECKING:
     from collections.abc import Callable, Collection, Sequence
@@ -146,6 +147,9 @@ class First:
             self._wait -= 1
             return None
         if self._places is None:
+            if not is_plain(self._parts):
+                self._wait = -1
+                return None
             self._places, self._words = slots(self._parts, variables(self._code))
             self._fixed = _others(self._literals, self._places)
         if any(self._literals[index] != literals[index] for index in self._fixed):

@@ -13,6 +13,7 @@ from hypothesis import strategies as st
 from orchestra.compat.looks import LOOKS
 from orchestra.resolve.python import forms as module
 from orchestra.resolve.python.form_codes import is_same
+from orchestra.resolve.python.form_slots import is_plain, split
 from orchestra.resolve.python.forms import Forms
 
 if TYPE_CHECKING:
@@ -30,17 +31,17 @@ ROBOT = @1@  # its name
 COUNT: int = @2@
 
 
-def generate_launch_description(first=@3@, *, second: @1@, third=(@4@, @5@)):
+def generate_launch_description(second: @1@, first=@3@, third=(@4@, @5@)):
     '''Return what is started.'''
-    settings = {@1@: @6@, 'list': [@2@, @7@, 3], @4@: lambda: @5@}
-    if settings[@1@] in (@4@, @5@) or first in [@6@, @7@]:
-        first = settings.get(@3@, @2@)
+    settings = {@1@: @6@, 'list': [@2@, @7@, 3], @4@: first.get(@5@)}
+    settings[@1@] = (@4@, @5@), [@6@, @7@], {'yaw': -0.25, @6@: -31}
+    first = settings.get(@3@, @2@)
     return LaunchDescription([
         Node(package=@1@, executable=@3@, name=@4@, namespace=ROBOT, parameters=[{@5@: @6@, 'frame': [ROBOT, @7@]}],
              remappings=[('scan', @1@), (@4@, @5@)], arguments=[
                  @2@,
                  @3@]),
-        *(Node(package=@7@, name=name) for name in [@1@, @2@, @3@]),
+        Node(package=@7@, name=settings[@1@], parameters=[@1@, @2@, @3@]),
         Node(package=@1@
              , name=@1@, output='screen'),
     ])
@@ -158,6 +159,14 @@ _LITERAL = "call({})\n".format(", ".join(f"'{letter}'" for letter in "abcdefghij
             "def f():\n    b1 = a1 = 3\n    return lambda: b1 + a1\n",
             "def f():\n    b1 = c1 = 3\n    return lambda: b1 + c1\n",
         ),
+        (
+            "def f():\n    b1 = a1 = 3\n    def g():\n        return b1, a1\n    return g\n",
+            "def f():\n    b1 = c1 = 3\n    def g():\n        return b1, c1\n    return g\n",
+        ),
+        (
+            "def f():\n    b1 = n1 = 3\n    def g():\n        n1 = b1\n        return n1\n    return g\n",
+            "def f():\n    b1 = n1 = 3\n    def g():\n        b1 = b1\n        return b1\n    return g\n",
+        ),
         ("def f():\n    global n1\n    n1 = 3\n", "def f():\n    global n2\n    n2 = 3\n"),
         ("def f():\n    n1 = 3\ndef g():\n    n1 = 4\n", "def f():\n    n2 = 3\ndef g():\n    n1 = 4\n"),
         ("def f(n1):\n    m1 = n1\n    return m1, 'm1'\n", "def f(n2):\n    m2 = n2\n    return m2, 'm2'\n"),
@@ -186,6 +195,24 @@ def test_literals_that_decide_something_are_left_to_the_compiler(first: str, oth
         if not text.startswith("from __future__"):
             known.code(_LITERAL + text)
         known.code(text + _LITERAL)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "x = f'{a}'", "x = b'a'", "if x:\n    pass", "x = [lambda: 3]", "x = [i for i in 'a']", "x = not y",
+        "x = (a := 3)", "x = a == 3", "x = a + 'b'", "x = 3 - 2", "x = a -2", "x = call(*y)", "x = ('a', 'b')[1]",
+        "x = 'a'[1]", "x = a[1][2]", "@d\ndef f(): pass", "class C: pass", "match x:\n    case 1: pass", "x = 'a' if y else 'b'",
+        "x = call() \\\n    .other()", "global x", "async def f(): pass", "x = {*y}", "x = 'a' % y",
+    ],
+)  # fmt: skip
+def test_what_the_compiler_may_work_out_has_no_form(text: str) -> None:
+    assert not is_plain(split(f"from a import b\n{text}\n"))
+
+
+def test_what_generated_files_do_has_a_form() -> None:
+    assert is_plain(split(_filled(_LAUNCH_FILE, ["'a'", "2", "'c'", "'d'", '"e"', "6.5", "'g'"])))
+    assert is_plain(split("x = [-1, {'a': -1.5}, call(-2, b=-3), None, True]  # it's\n"))
 
 
 def test_numbered_variables_are_part_of_no_form() -> None:
