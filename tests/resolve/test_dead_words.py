@@ -37,6 +37,10 @@ DEAD: dict[str, tuple[str, list[Told]]] = {
         "- let: {name: x, value: 1}\n- arg: {name: x, default: 2}\n",
         [(Code.SHADOWED_ARGUMENT, "x", None)],
     ),
+    "nothing but settings": (
+        "- group:\n    children:\n    - set_env: {name: A, value: b}\n",
+        [(Code.IDLE_KEY, "set_env", None)],
+    ),
     # Comparisons.
     "a value that is no choice": (
         _WORLD + _say("if: $(equals $(var world) mazee)"),
@@ -163,7 +167,8 @@ ALIVE: dict[str, str] = {
     + node("a")
     + "- set_parameter: {name: use_sim_time, value: true}\n",
     "an environment at the end of a file": node("a") + "- set_env: {name: A, value: b}\n",
-    "nothing but settings": "- group:\n    children:\n    - set_env: {name: A, value: b}\n",
+    "settings for a node that a group has of its own": "- group:\n    children:\n    - set_env: {name: A, value: b}\n"
+    "    - group:\n        - executable: {cmd: 'true'}\n",
     "the ends of signals": node("a", success_exit_codes="[0, 130, -15]"),
 }
 

@@ -35,7 +35,7 @@ def test_a_timer_on_ros_time_is_a_timer(tmp_path: Path) -> None:
         ("- set_use_sim_time: {value: 'true'}\n", True),
         ("- set_use_sim_time: {value: $(not true)}\n", False),
         ("- set_use_sim_time: {value: true}\n- set_use_sim_time: {value: false}\n", False),
-        ("- group: [{set_use_sim_time: {value: true}}]\n", True),
+        ("- group: [{set_use_sim_time: {value: true}}, {node: {exec: a}}]\n", True),
     ],
 )
 def test_simulated_time_is_none_of_its_clocks(before: str, told: bool, tmp_path: Path) -> None:
