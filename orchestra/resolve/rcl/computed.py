@@ -8,10 +8,14 @@ from typing import Final
 from orchestra.patterns import pattern
 
 _NUMBER: Final = r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+_DECIMAL: Final = r"(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)"
 _ANGLE: Final = pattern(rf"(deg|rad)\(\s*([-+]?{_NUMBER})\s*\)")
 _PI: Final = r"(?:(?:math\.|np\.|numpy\.)?[pP][iI]|M_PI)"
 _PRODUCT: Final = pattern(rf"([-+]?)\s*((?:{_PI}|{_NUMBER})(?:\s*[*/]\s*(?:{_PI}|{_NUMBER}))*)")
 _FACTOR: Final = pattern(rf"([*/]?)\s*({_PI}|{_NUMBER})")
+# Two numbers or more that are only divided, as in ratios and versions; one that is divided, once, is a reciprocal.
+_RATIO: Final = pattern(rf"{_DECIMAL}(?:\s*/\s*{_DECIMAL})+")
+_RECIPROCAL: Final = pattern(rf"1(?:\.0*)?\s*/\s*{_DECIMAL}")
 _LONGEST: Final = 40
 
 
@@ -34,6 +38,11 @@ def computed(text: str) -> str | None:
     if is_plain or text.lower() == "pi" or not (has_pi or "." in text):
         return None
     return _worth(found[1], factors)
+
+
+def may_be_ratio(text: str) -> bool:
+    """Return whether a text may be meant as it is, where no number is asked for: `16.0/9`, `1.2/3`, not `1/30.0`."""
+    return _RATIO.fullmatch(text) is not None and _RECIPROCAL.fullmatch(text) is None
 
 
 def _may_be_computed(text: str) -> bool:

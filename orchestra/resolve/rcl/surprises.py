@@ -156,10 +156,10 @@ def _of_computed(text: str) -> Surprise | None:
     """Return what is to be said of a text that a number was to be computed from."""
     if text[-1:] not in _ENDS or text.isdigit():
         return None
-    from orchestra.resolve.rcl.computed import computed  # noqa: PLC0415 - few texts end so
+    from orchestra.resolve.rcl.computed import computed, may_be_ratio  # noqa: PLC0415 - few texts end so
 
     number = computed(text)
-    if number is None:
+    if number is None or may_be_ratio(text):
         return None
     return Surprise(f"'{text}' is read as a text: nothing is computed in a parameter file", number)
 
