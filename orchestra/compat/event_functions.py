@@ -9,6 +9,7 @@ import ast
 from importlib import import_module
 from typing import TYPE_CHECKING, Final, NamedTuple
 
+from orchestra.compat.asked_before import asks_of, tried
 from orchestra.compat.borrowed import ROOM
 from orchestra.compat.idle_names import ACTIONS
 from orchestra.compat.rewritten import Rewritten
@@ -117,13 +118,14 @@ def _faults(use: _Use, tree: Tree, path: str) -> Iterator[_Fault]:
         return  # it may be anything by then
     module, name = _EVENTS[use.kind]
     known = {item for item in dir(getattr(import_module(f"{ROOM}.{module}"), name)) if item[:1] != "_"}
+    is_asked, dealt_with = asks_of(use.body, use.name), tried(use.body)
     for node in use.body:
         if _is_of(node, use) and isinstance(node, ast.Attribute) and node.attr not in known:
-            if node.attr[:1] != "_" and not _is_set(node):
+            if node.attr[:1] != "_" and not (_is_set(node) or is_asked or id(node) in dealt_with):
                 word = _WORDS.get(node.attr)
                 meant = word if word in known else nearest(node.attr, known)
                 yield _Fault(node, f"the event of {use.kind} has no '{node.attr}'", meant, is_name=True)
-        elif use.kind == "OnProcessIO":
+        elif use.kind == "OnProcessIO" and not asks_of(use.body, f"{use.name}.text"):
             yield from _of_bytes(node, _Bytes(use, tree, path))
         yield from _of_numbers(node, use, path)
 

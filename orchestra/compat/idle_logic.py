@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import re
 from typing import TYPE_CHECKING, Final, NamedTuple
 
 from orchestra.compat.explanation import Explanation
@@ -34,6 +35,11 @@ _LETTERS: Final = "the loop goes through the letters of "
 _OF_LETTERS: Final = frozenset(
     {Code.BAD_NAME, Code.DUPLICATE_NODE, Code.MISSING_EXECUTABLE, Code.MISSING_FILE, Code.MISSING_PACKAGE}
 )
+# Letters that stand for something one by one, and the names of what is one of them.
+_ONE_BY_ONE: Final = frozenset(
+    {"lr", "nesw", "nsew", "rgb", "bgr", "rgba", "bgra", "rpy", "xyt", "xyzw", "wxyz"}
+)
+_OF_ONE: Final = re.compile(r"(?:.*_)?(?:axis|c|ch|char|character|digit|letter|sign|symbol)\d*")
 _MOST: Final = 100  # characters: what is longer is read better in the message alone
 
 
@@ -92,11 +98,11 @@ def _faults(tree: Tree, path: str) -> Iterator[_Fault]:
             case ast.Assert(test=ast.Tuple(elts=[tested, *_]) as given):
                 message = "a tuple is always true: the brackets make one of what is tested and its message"
                 yield _Fault(given, message, ", ".join(map(ast.unparse, given.elts)) if tested else None)
-            case ast.For(iter=through):
-                yield from _letters(through, tree, path)
+            case ast.For(iter=through, target=target):
+                yield from _letters(through, target, tree, path)
             case ast.ListComp(generators=parts) | ast.GeneratorExp(generators=parts):
                 for part in parts:
-                    yield from _letters(part.iter, tree, path)
+                    yield from _letters(part.iter, part.target, tree, path)
 
 
 def _alternatives(test: ast.expr) -> Iterator[_Fault]:
@@ -140,7 +146,11 @@ def _compared(node: ast.Compare, tree: Tree, path: str) -> Iterator[_Fault]:
                 yield _Fault(node, "`is` asks for the very same object, which equal texts need not be", meant)
         case ast.Compare(ops=[ast.In() | ast.NotIn()], comparators=[other]):
             text = _bracketed(other, tree, path)
-            if text is not None and not isinstance(node.left, ast.Constant):
+            if (
+                text is not None
+                and not isinstance(node.left, ast.Constant)
+                and not _is_meant(text, node.left)
+            ):
                 message = f"{ast.unparse(text)} in brackets is a text, of which any part is in it: a comma makes more"
                 yield _Fault(text, message, f"{ast.unparse(text)},")
 
@@ -158,10 +168,33 @@ def _bracketed(node: ast.expr, tree: Tree, path: str) -> ast.Constant | None:
     return known if around[:1] == "(" and around[-1:] == ")" else None
 
 
-def _letters(through: ast.expr, tree: Tree, path: str) -> Iterator[_Fault]:
+def _is_meant(text: ast.Constant, each: ast.expr) -> bool:
+    """Return whether a text may well be meant as it is: a sentence, or letters that are looked at one by one."""
+    written = str(text.value)
+    codes = [ord(letter) for letter in written]
+    is_row = codes == list(range(codes[0], codes[0] + len(codes))) or written.lower() in _ONE_BY_ONE
+    match each:
+        case ast.Name(id=name) | ast.Attribute(attr=name):
+            is_of_one = _OF_ONE.fullmatch(name.lower()) is not None
+        case _:  # `name[0]`, `name[-1]`
+            is_of_one = isinstance(each, ast.Subscript) and _is_number(each.slice)
+    return (
+        is_row
+        or is_of_one
+        or any(letter.isspace() for letter in written)
+        or not any(map(str.isalnum, written))
+    )
+
+
+def _is_number(node: ast.expr) -> bool:
+    given = node.operand if isinstance(node, ast.UnaryOp) else node
+    return isinstance(given, ast.Constant) and isinstance(given.value, int)
+
+
+def _letters(through: ast.expr, each: ast.expr, tree: Tree, path: str) -> Iterator[_Fault]:
     """Yield a text in brackets that a loop goes through letter by letter."""
     text = _bracketed(through, tree, path)
-    if text is not None and called_by(through) is None:
+    if text is not None and called_by(through) is None and not _is_meant(text, each):
         message = f"{_LETTERS}{ast.unparse(text)}: a comma makes a tuple"
         yield _Fault(text, message, f"{ast.unparse(text)},")
 

@@ -27,6 +27,9 @@ _ENDING: Final = re.compile(r"[^\s=:]$")
 _WORD: Final = re.compile(r"[A-Za-z0-9]$")
 _GOING_ON: Final = re.compile(r"[A-Za-z0-9]")
 _OPTION: Final = re.compile(r"--?[a-zA-Z]|-\d")
+# What nobody gives a name like: parts of keys, sums and serial numbers in hexadecimal digits, and of keys in base64.
+_HEXADECIMAL: Final = re.compile(r"(?=.*[0-9])[0-9a-f]{8,}|(?=.*[0-9])[0-9A-F]{8,}")
+_BASE64: Final = re.compile(r"(?=.*[0-9])(?=.*[a-z])(?=.*[A-Z])[0-9A-Za-z+/]{16,}")
 _SHORTEST: Final = 2  # letters: one may be anything
 _LONGEST: Final = 40  # characters: what is longer may be in two parts for the length of the line
 _LISTS: Final = frozenset({"arguments", "cmd", "ros_arguments"})
@@ -122,7 +125,16 @@ def _is_apart(one: str, other: str, beside: Sequence[str], is_command: bool) -> 
         return False
     if min(len(one), len(other)) < _SHORTEST and not (one + other).isdigit():
         return False
+    if _are_of_a_key(one, other) and not any(len(item) in (len(one), len(other)) for item in beside):
+        return False
     return _WORD.search(one) is not None and _GOING_ON.match(other) is not None
+
+
+def _are_of_a_key(one: str, other: str) -> bool:
+    is_number = (one + other).isdigit()  # two of them are rather two serial numbers
+    return not is_number and any(
+        kind.fullmatch(one) and kind.fullmatch(other) for kind in (_HEXADECIMAL, _BASE64)
+    )
 
 
 def _is_path_of(one: str, other: str) -> bool:
