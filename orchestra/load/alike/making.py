@@ -10,9 +10,9 @@ from orchestra.description.entity import matched_entity
 from orchestra.description.source import Verbatim
 from orchestra.description.text import (
     Items,
-    MatchedTemplate,
     PlainCall,
     matched_template,
+    matched_words,
     new_template,
     new_words,
     pieces_of,
@@ -34,17 +34,7 @@ def template(text: str, matched: Matched, group: int, quoted: bool, reader: Read
         if pieces is None:
             return reader.template(_written(text, matched.span(group), quoted))
         return matched_template(text, quoted, matched, group, pieces)
-    made: Any = _new(MatchedTemplate)  # as `matched_words` does it: there are thousands
-    made.raw = made.constant = text
-    made.quoted = quoted
-    made.matched = matched
-    made.group = group
-    made.pieces = None
-    words: Template = made
-    return words
-
-
-_new = object.__new__
+    return matched_words(text, quoted, matched, group)
 
 
 @lru_cache(maxsize=256)
