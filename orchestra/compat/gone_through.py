@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
@@ -62,25 +63,31 @@ def _spent(tree: Tree) -> Iterator[tuple[ast.expr, str, str | None]]:
     """Yield the generators that have names by which they are gone through twice."""
     scopes = [node for node in tree.nodes if isinstance(node, Function)]
     for scope in (tree.module, *scopes):
-        nodes = list(of_scope(scope))
-        through = [(node, name) for node in nodes for name in _gone_through(node)]
-        for name, setting in tree.set_in(scope).items():
-            match setting:
-                case [ast.Assign(targets=[ast.Name()], value=value)] if _is_once(value):
-                    pass
-                case _:
-                    continue
-            uses = [(node, use) for node, use in through if use.id == name]
-            every = [node for node in nodes if isinstance(node, ast.Name) and node.id == name]
-            is_plain = len(every) == len(uses) + 1 and not _branches(nodes, name)
-            if len(uses) == _TWO and is_plain:
+        once = list(_set_to_generators(scope, tree))
+        nodes = list(of_scope(scope)) if once else []
+        every = Counter(node.id for node in nodes if isinstance(node, ast.Name))
+        through: dict[str, list[ast.Name]] = {}
+        for use in (use for node in nodes for use in _gone_through(node)):
+            through.setdefault(use.id, []).append(use)
+        branched = _in_branches(nodes)
+        for name, value in once:
+            uses = through.get(name, [])
+            if len(uses) == _TWO and every[name] == _TWO + 1 and name not in branched:
                 kind = "generator" if isinstance(value, ast.GeneratorExp) else called_by(value)
                 written = (
                     f"[{ast.unparse(value)[1:-1]}]" if kind == "generator" else f"list({ast.unparse(value)})"
                 )
-                message = f"'{name}' has nothing left here: a {kind} is gone through once, in line {uses[0][1].lineno}"
-                last = uses[1][1]
-                yield last, f"{message}; {written} can be gone through again", None
+                message = (
+                    f"'{name}' has nothing left here: a {kind} is gone through once, in line {uses[0].lineno}"
+                )
+                yield uses[1], f"{message}; {written} can be gone through again", None
+
+
+def _set_to_generators(scope: Function | ast.Module, tree: Tree) -> Iterator[tuple[str, ast.expr]]:
+    for name, setting in tree.set_in(scope).items():
+        match setting:
+            case [ast.Assign(targets=[ast.Name()], value=value)] if _is_once(value):
+                yield name, value
 
 
 def _is_once(value: ast.expr) -> bool:
@@ -107,13 +114,13 @@ def _gone_through(node: ast.AST) -> Iterator[ast.Name]:
     yield from (item for item in found if isinstance(item, ast.Name))
 
 
-def _branches(nodes: list[ast.AST], name: str) -> bool:
-    """Return whether a name is used in what may not be run, or is run again."""
-    around = (ast.If, ast.IfExp, ast.For, ast.While, ast.Try, ast.Match)
-    inside = ((node.body, getattr(node, "orelse", [])) for node in nodes if isinstance(node, around[:-1]))
+def _in_branches(nodes: list[ast.AST]) -> set[str]:
+    """Return the names that are used in what may not be run, or is run again."""
+    around = (ast.If, ast.IfExp, ast.For, ast.While, ast.Try)
+    inside = ((node.body, getattr(node, "orelse", [])) for node in nodes if isinstance(node, around))
     parts = [part for body, others in inside for part in (body, others)]
     flat = [item for part in parts for item in (part if isinstance(part, list) else [part])]
-    return any(isinstance(item, ast.Name) and item.id == name for part in flat for item in ast.walk(part))
+    return {item.id for part in flat for item in ast.walk(part) if isinstance(item, ast.Name)}
 
 
 def _shorter(tree: Tree) -> Iterator[tuple[ast.expr, str, str | None]]:
@@ -134,16 +141,23 @@ def _shorter(tree: Tree) -> Iterator[tuple[ast.expr, str, str | None]]:
 
 def _shared(tree: Tree) -> Iterator[tuple[ast.expr, str, str | None]]:
     """Yield the lists and dictionaries by default that a function adds to: its calls have one between them."""
-    for function in tree.nodes:
-        if not isinstance(function, Function):
-            continue
-        given = function.args.args[len(function.args.args) - len(function.args.defaults) :]
-        for item, default in zip(given, function.args.defaults, strict=True):
-            is_empty = ast.unparse(default) in ("[]", "{}", "dict()", "list()")
-            is_changed = is_empty and any(_changes(node, item.arg) for node in ast.walk(function))
-            if is_changed and not _is_set(function, item.arg) and _is_called_again(function.name, tree):
-                message = f"'{item.arg}'{_SHARED}: None by default, and a new one in the function, is not"
-                yield default, message, None
+    functions = [node for node in tree.nodes if isinstance(node, Function)]
+    found = [(function.name, *item) for function in functions for item in _added_to(function)]
+    again = _called_again(tree) if found else frozenset()
+    for name, item, default in found:
+        if name in again:
+            message = f"'{item}'{_SHARED}: None by default, and a new one in the function, is not"
+            yield default, message, None
+
+
+def _added_to(function: Function) -> Iterator[tuple[str, ast.expr]]:
+    """Yield the parameters of a function that it adds to where they are empty by default, and what they are then."""
+    given = function.args.args[len(function.args.args) - len(function.args.defaults) :]
+    for item, default in zip(given, function.args.defaults, strict=True):
+        is_empty = ast.unparse(default) in ("[]", "{}", "dict()", "list()")
+        is_changed = is_empty and any(_changes(node, item.arg) for node in ast.walk(function))
+        if is_changed and not _is_set(function, item.arg):
+            yield item.arg, default
 
 
 def _changes(node: ast.AST, name: str) -> bool:
@@ -165,10 +179,12 @@ def _is_set(function: Function, name: str) -> bool:
     return any(isinstance(target, ast.Name) and target.id == name for target in targets)
 
 
-def _is_called_again(name: str, tree: Tree) -> bool:
-    calls = [node for node in tree.nodes if isinstance(node, ast.Call) and called_by(node) == name]
-    loops = [node for node in tree.nodes if isinstance(node, ast.For | ast.ListComp | ast.GeneratorExp)]
-    return len(calls) >= _TWO or any(item in calls for loop in loops for item in ast.walk(loop))
+def _called_again(tree: Tree) -> frozenset[str | None]:
+    """Return the names of what is called more than once, or in a loop."""
+    calls = Counter(called_by(node) for node in tree.nodes)
+    loops = (node for node in tree.nodes if isinstance(node, ast.For | ast.ListComp | ast.GeneratorExp))
+    in_loops = {called_by(item) for loop in loops for item in ast.walk(loop)}
+    return frozenset({name for name, times in calls.items() if times >= _TWO} | in_loops)
 
 
 def _set_again(tree: Tree) -> Iterator[tuple[ast.expr, str, str | None]]:
@@ -185,7 +201,12 @@ def _set_again(tree: Tree) -> Iterator[tuple[ast.expr, str, str | None]]:
                     if name.id in waiting and name.id not in read:
                         message = f"'{name.id}' is part of no launch description: it has no effect, for it is set again"
                         yield waiting[name.id], message, None
-                    waiting = {known: item for known, item in waiting.items() if known not in read}
+                    _forget(waiting, read)
                     waiting[name.id] = name
                 case _:
-                    waiting = {known: item for known, item in waiting.items() if known not in read}
+                    _forget(waiting, read)
+
+
+def _forget(waiting: dict[str, ast.Name], read: set[str]) -> None:
+    for name in read:
+        waiting.pop(name, None)

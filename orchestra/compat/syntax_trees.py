@@ -35,6 +35,7 @@ class Tree:
         self._places: dict[tuple[str, int, int], dict[Span, ast.expr]] = {}
         self._setting: dict[Function | ast.Module, dict[str, list[ast.AST]]] = {}
         self._apart: dict[int, bool] = {}
+        self._texts: dict[str, dict[str, Span]] = {}
 
     def is_apart(self, listed: ast.List | ast.Tuple | ast.Set) -> bool:
         """Return whether each item of a list is written there; each of thousands may be asked for."""
@@ -64,12 +65,16 @@ class Tree:
         return found
 
     def texts(self, file: str) -> dict[str, Span]:
-        """Return the texts that stand but once in the file, and where."""
-        found: dict[str, list[ast.Constant]] = {}
-        for node in self.nodes:
-            if isinstance(node, ast.Constant) and isinstance(node.value, str):
-                found.setdefault(node.value, []).append(node)
-        return {text: node_span(file, nodes[0]) for text, nodes in found.items() if len(nodes) == 1}
+        """Return the texts that stand but once in the file, and where; each of thousands of problems asks for them."""
+        known = self._texts.get(file)
+        if known is None:
+            found: dict[str, list[ast.Constant]] = {}
+            for node in self.nodes:
+                if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                    found.setdefault(node.value, []).append(node)
+            once = {text: nodes[0] for text, nodes in found.items() if len(nodes) == 1}
+            known = self._texts[file] = {text: node_span(file, node) for text, node in once.items()}
+        return known
 
     def functions_around(self, node: ast.AST) -> Iterator[Function]:
         """Yield the functions that a node stands in, innermost first."""

@@ -54,7 +54,7 @@ def at_commas(problems: Iterable[Problem]) -> Callable[[Problem], Problem | None
     """Return what has problems of such tuples stand at the comma, once each."""
     moved: dict[int, Problem | None] = {}
     first: dict[Span, Problem] = {}
-    tuples: dict[str, list[ast.Tuple]] = {}
+    tuples: dict[str, dict[int, ast.Tuple]] = {}
     for problem in problems:
         comma = _comma_told(problem, tuples)
         if comma is None:
@@ -73,8 +73,11 @@ def at_commas(problems: Iterable[Problem]) -> Callable[[Problem], Problem | None
     return lambda problem: moved.get(id(problem), problem)
 
 
-def _comma_told(problem: Problem, tuples: dict[str, list[ast.Tuple]]) -> Span | None:
-    """Return the comma that a problem comes of, None where it comes of none; `tuples` are those of the files."""
+def _comma_told(problem: Problem, tuples: dict[str, dict[int, ast.Tuple]]) -> Span | None:
+    """Return the comma that a problem comes of, None where it comes of none.
+
+    `tuples` are those of the files, by the `id` of themselves and of what is in them.
+    """
     span = problem.span
     if span is None or not span.file.endswith(".py"):
         return None
@@ -84,13 +87,14 @@ def _comma_told(problem: Problem, tuples: dict[str, list[ast.Tuple]]) -> Span | 
     tree = tree_of(file)
     if tree is None or file not in tuples:
         nodes = () if tree is None else tree.nodes
-        tuples[file] = [item for item in nodes if isinstance(item, ast.Tuple) and _comma(item, file)]
+        made = [item for item in nodes if isinstance(item, ast.Tuple) and _comma(item, file)]
+        tuples[file] = {id(part): item for item in made for part in (item, *item.elts)}
     node = tree.expression(file, span) if tree is not None and tuples[file] else None
     if tree is None or node is None:
         return None
-    for known in tuples[file]:
-        if node is known or (problem.code is Code.WRONG_TYPE and known.elts == [node]):
-            return _comma(known, file)
+    known = tuples[file].get(id(node))
+    if known is not None and (node is known or problem.code is Code.WRONG_TYPE):
+        return _comma(known, file)
     is_told = isinstance(node, ast.Name) or any(sign in problem.message for sign in _SIGNS)
     return _comma_in(node, tree, file) if is_told else None
 

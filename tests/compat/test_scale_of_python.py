@@ -31,9 +31,31 @@ def _unadded(count: int) -> str:
     return f"{nodes}    return LaunchDescription([])\n"
 
 
+def _tuples(count: int) -> str:
+    """Return names with a comma at the end of their line: each is told of, and what it causes is told there."""
+    names = "".join(f"    c{number} = 'x{number}',\n" for number in range(count))
+    node = "Node(package=c{0}, executable='e', name=f'{{c{0}}}', parameters=[{{'a': c{0}}}])"
+    nodes = "".join(f"        {node.format(number)},\n" for number in range(count))
+    return f"{names}    return LaunchDescription([\n{nodes}    ])\n"
+
+
+def _repeated(lines: str) -> Callable[[int], str]:
+    def made(count: int) -> str:
+        return f"{''.join(lines.format(number=number) for number in range(count))}    return LaunchDescription([])\n"
+
+    return made
+
+
 _KINDS: dict[str, Callable[[int], str]] = {
     "keywords that there are none of": _listed(", nmae='x'"),
     "actions that are added to nothing": _unadded,
+    "generators that are gone through twice": _repeated(
+        "    g{number} = (x for x in [1])\n    a{number} = list(g{number})\n    b{number} = list(g{number})\n"
+    ),
+    "lists that calls share": _repeated(
+        "    def f{number}(a=[]):\n        a.append(1)\n    f{number}()\n    f{number}()\n"
+    ),
+    "tuples that a comma makes": _tuples,
 }
 
 
