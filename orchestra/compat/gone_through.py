@@ -7,6 +7,7 @@ from collections import Counter
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
 
+from orchestra.compat.kept_on_purpose import is_kept_on_purpose
 from orchestra.compat.left_out import MADE
 from orchestra.compat.rewritten import Rewritten
 from orchestra.compat.scopes import Function, of_scope
@@ -133,10 +134,17 @@ def _shorter(tree: Tree) -> Iterator[tuple[ast.expr, str, str | None]]:
                 continue
         lists = [item for item in known if isinstance(item, ast.List | ast.Tuple) and tree.is_apart(item)]
         lengths = [len(item.elts) for item in lists]
-        if len(lists) == len(given) and min(lengths) < max(lengths):
+        if len(lists) == len(given) and min(lengths) < max(lengths) and not _follow(lists):
             shortest = lengths.index(min(lengths))
             left = lists[lengths.index(max(lengths))].elts[min(lengths)]
             yield given[shortest], f"zip ends with the shortest list: {ast.unparse(left)} is left out", None
+
+
+def _follow(lists: Iterable[ast.List | ast.Tuple]) -> bool:
+    """Return whether lists are one of them and what comes after its first items: each with the one behind it."""
+    written = [[ast.unparse(item) for item in each.elts] for each in lists]
+    longest = max(written, key=len)
+    return all(each and longest[-len(each) :] == each for each in written)
 
 
 def _shared(tree: Tree) -> Iterator[tuple[ast.expr, str, str | None]]:
@@ -155,8 +163,9 @@ def _added_to(function: Function) -> Iterator[tuple[str, ast.expr]]:
     given = function.args.args[len(function.args.args) - len(function.args.defaults) :]
     for item, default in zip(given, function.args.defaults, strict=True):
         is_empty = ast.unparse(default) in ("[]", "{}", "dict()", "list()")
-        is_changed = is_empty and any(_changes(node, item.arg) for node in ast.walk(function))
-        if is_changed and not _is_set(function, item.arg):
+        changes = [node for node in ast.walk(function) if _changes(node, item.arg)] if is_empty else []
+        is_plain = changes and not _is_set(function, item.arg)
+        if is_plain and not is_kept_on_purpose(function, item.arg, changes):
             yield item.arg, default
 
 
