@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Final, NamedTuple
 from orchestra.compat.explanation import Explanation
 from orchestra.compat.rewritten import Rewritten
 from orchestra.compat.scopes import decided_by
+from orchestra.compat.signs import METHODS_OF_TEXTS
 from orchestra.compat.source_text import text_at
 from orchestra.compat.syntax_trees import called_by, node_span, tree_of
 from orchestra.errors import Code
@@ -23,13 +24,7 @@ if TYPE_CHECKING:
     from orchestra.errors import Problem, Problems
     from orchestra.location import Span
 
-# Methods of texts that return another one, and what returns texts.
-_OF_TEXTS: Final = frozenset(
-    {
-        *("capitalize", "casefold", "format", "lower", "lstrip", "removeprefix", "removesuffix", "replace"),
-        *("rstrip", "strip", "title", "upper"),
-    }
-)
+# What returns texts.
 _TEXTS: Final = frozenset({"get_package_share_directory", "join", "perform", "str"})
 _LETTERS: Final = "the loop goes through the letters of "
 _OF_LETTERS: Final = frozenset(
@@ -205,7 +200,7 @@ def _alone(value: ast.expr, tree: Tree) -> Iterator[_Fault]:
         case ast.Compare(left=ast.Name() | ast.Attribute() | ast.Subscript() as left, ops=[ast.Eq()]):
             meant = f"{ast.unparse(left)} = {ast.unparse(value.comparators[0])}"
             yield _Fault(value, "what is compared here is used for nothing: one sign sets a value", meant)
-        case ast.Call(func=ast.Attribute(value=ast.Name() as held, attr=attr)) if attr in _OF_TEXTS:
+        case ast.Call(func=ast.Attribute(value=ast.Name() as held, attr=attr)) if attr in METHODS_OF_TEXTS:
             known = tree.meaning(held)
             is_text = isinstance(known, ast.Constant) and isinstance(known.value, str)
             if is_text or isinstance(known, ast.JoinedStr) or called_by(known) in _TEXTS:

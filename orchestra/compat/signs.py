@@ -11,25 +11,14 @@ _BYTE: Final = 0xFF
 # Lines that compare, assert in brackets, or call a method of a text.
 _COMPARED: Final = re.compile(rb"""\n[ \t]*+\w[\w.\[\]'"]*+[ \t]*+==""")
 _ASSERTED: Final = re.compile(rb"assert[ \t]*\(")
-_MADE: Final = re.compile(
-    rb"\n[ \t]*+\w++\.(?:capitalize|casefold|format|lower|[lr]?strip|remove(?:pre|suf)fix|replace|title|upper)\("
+# Methods of texts that return another one.
+METHODS_OF_TEXTS: Final = frozenset(
+    {
+        *("capitalize", "casefold", "format", "lower", "lstrip", "removeprefix", "removesuffix", "replace"),
+        *("rstrip", "strip", "title", "upper"),
+    }
 )
-_MAKING: Final = frozenset(
-    [
-        "capitalize",
-        "casefold",
-        "format",
-        "lower",
-        "lstrip",
-        "removeprefix",
-        "removesuffix",
-        "replace",
-        "rstrip",
-        "strip",
-        "title",
-        "upper",
-    ]
-)
+_MADE: Final = re.compile(rb"\n[ \t]*+\w++\.(?:%b)\(" % "|".join(sorted(METHODS_OF_TEXTS)).encode())
 # A text that is an alternative, one by itself in brackets, one that something is.
 _IN_QUOTES: Final = re.compile(
     rb"""\bor[ \t]+['"][^'"\n]*['"][ \t]*(?:\)|:|or\b|\n)|(?:\bin|=)[ \t]*\(['"][^'"\n]+['"]\)"""
@@ -56,7 +45,7 @@ def _does(code: CodeType) -> tuple[bool, bool]:
     """Return whether code compares or loops, and whether it makes texts of others."""
     operations = code.co_code[::2]
     compares = any(number in operations for number in _comparing())
-    makes = not _MAKING.isdisjoint(code.co_names)
+    makes = not METHODS_OF_TEXTS.isdisjoint(code.co_names)
     for item in code.co_consts:
         if type(item) is CodeType:
             inner = _does(item)
