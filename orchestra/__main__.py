@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 
 from orchestra.compiled import install
+from orchestra.stack import roomy
 
 TYPE_CHECKING = False  # `typing` itself costs more than this module
 if TYPE_CHECKING:
@@ -22,6 +23,7 @@ _READING = {"check", "plan", "convert", "format", "explain"}  # commands that re
 _MANY = 100_000  # objects that may become garbage before somebody looks for it
 
 
+@roomy  # whatever forks below has it, too
 def main() -> int:
     """Carry out the command line and return the exit status."""
     install()

@@ -28,6 +28,7 @@ from orchestra.resolve.resolve import begin, carry_through, end, outcome
 from orchestra.resolve.single import single_node
 from orchestra.settings.find import without_settings
 from orchestra.settings.settle import settle
+from orchestra.stack import roomy
 from orchestra.witness.observing import observer
 from orchestra.witness.once import once, real
 from orchestra.witness.place import folder
@@ -57,9 +58,7 @@ __all__ = [
     "plan_of_node",
 ]
 
-
-# Where temporary files of launch files' code are, in a plan.
-FILES = "${run}/files"
+FILES = "${run}/files"  # where temporary files of launch files' code are, in a plan
 
 
 def make_plan(path: str, inputs: Inputs) -> Plan:
@@ -96,6 +95,7 @@ def find_launch_file(words: Sequence[str]) -> tuple[str, tuple[str, ...]]:
     return launch_files.find_launch_file(words, InstalledPackages(os.environ))
 
 
+@roomy  # whoever calls it, at whatever depth
 def collect(path: str, inputs: Inputs, problems: Problems, *, load: LoadFile = load) -> Plan | None:
     """Return the plan of a launch file as far as it goes, with everything that is wrong in `problems`.
 

@@ -32,6 +32,7 @@ _ROWS = (
         "wheels",
         "compiled",
         "patterns",
+        "stack",
     ),
     ("settings", "witness"),
     ("description",),
@@ -51,7 +52,7 @@ _LEVELS = {room: level for level, row in enumerate(_ROWS) for room in row}
 _CLIENTS = {"cli", "tui", "testing"}  # they share a row, but know nothing of each other
 _SMALL_CORE = {
     *("orchestra.errors", "orchestra.location", "orchestra.events", "orchestra.nearest", "orchestra.values"),
-    *("orchestra.dataclass", "orchestra.fields", "orchestra.wheels", "orchestra.patterns"),
+    *("orchestra.dataclass", "orchestra.fields", "orchestra.wheels", "orchestra.patterns", "orchestra.stack"),
     *(
         "orchestra.plan.model",
         "orchestra.plan.conditions",

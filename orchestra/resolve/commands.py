@@ -11,15 +11,14 @@ from __future__ import annotations
 import contextlib
 import marshal
 import os
-import signal
 import sys
 import time
+from _signal import SIGKILL  # type: ignore[import-not-found] # `signal` makes enumerations first
 from pathlib import Path
 from typing import IO, TYPE_CHECKING, Final
 
 from orchestra.dataclass import dataclass
 from orchestra.fields import field
-from orchestra.resolve.command_reaper import children, kill, set_subreaper
 from orchestra.resolve.context import CommandResult
 
 if TYPE_CHECKING:
@@ -82,6 +81,8 @@ def _inheriting() -> Iterator[Callable[[], bool]]:
     Only children that were there before are told apart from it. So nothing may start others meanwhile, and nothing
     does: descriptions are evaluated one step after the other.
     """
+    from orchestra.resolve.command_reaper import children, set_subreaper  # noqa: PLC0415 - it takes ctypes
+
     spared = set(children())
     before = set_subreaper(1)
     try:
@@ -91,6 +92,8 @@ def _inheriting() -> Iterator[Callable[[], bool]]:
 
 
 def _end_orphans(spared: set[int]) -> bool:
+    from orchestra.resolve.command_reaper import children, kill  # noqa: PLC0415 - as above
+
     deadline = time.monotonic() + _GRACE
     while left := set(children()) - spared:
         for child in left:
@@ -185,7 +188,7 @@ def _gather(output: _Output, timeout: float, limit: int) -> str | None:
 
 def _result(stdout: str, stderr: str, report: str, failure: str | None) -> CommandResult:
     told = dict(line.split(" ", 1) for line in report.splitlines())
-    status = int(told.get("status", -signal.SIGKILL))
+    status = int(told.get("status", -SIGKILL))
     if "failed" in told:
         failure = f"cannot be started: {told['failed']}"
     return CommandResult(status, stdout, stderr, failure)

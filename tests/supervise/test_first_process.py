@@ -92,6 +92,9 @@ _FORKS = 3
 # System calls of the supervisor from its begin to that of its first program, with a plan that is remembered. Half as many
 # where the modules are compiled.
 _CALLS = 2300
+# Of memory for frames of functions, in all processes of ours: `tests/test_stack`.
+_CHUNK = "mmap(NULL, 16384, "
+_FEW_CHUNKS = 40
 # What such a plan has no use for: it takes half as long as all that is left.
 _UNWANTED_IN_A_PLAN = (
     *(
@@ -239,3 +242,4 @@ def test_processes_and_system_calls_are_few(tmp_path: Path, environment: dict[st
     calls = [line for line in before if line.startswith(f"{supervisor} ") and "resumed>" not in line]
     assert supervisor != first
     assert len(calls) <= _CALLS
+    assert sum(_CHUNK in line for line in lines) <= _FEW_CHUNKS

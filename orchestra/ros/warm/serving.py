@@ -24,6 +24,7 @@ from orchestra.ros.warm.preloading import preload, preload_common
 from orchestra.ros.warm.request import Request
 from orchestra.ros.warm.shadows import loaded_since
 from orchestra.ros.warm.tracing import Tracing
+from orchestra.stack import roomy
 from orchestra.supervise.keeping import kernel
 
 if TYPE_CHECKING:
@@ -39,6 +40,7 @@ _DESCRIPTORS = 4
 _AT_ONCE = 8
 
 
+@roomy  # what it imports has it, too; a node does not run below it
 def serve(path: Sequence[str], modules: Collection[str]) -> Born:
     """Serve until nobody asks any more; returns in the processes of nodes alone.
 
