@@ -16,10 +16,16 @@ def without_slash(node: ast.expr | None, message: str) -> tuple[ast.expr, str] |
     for part in _later(node):
         match part:
             case ast.Constant(value=str(text)) if text and not text.startswith("/"):
-                found = re.search(rf"(\S+){re.escape(text)}", message)
-                if found is not None and os.path.exists(f"{found[1]}/{text}"):  # noqa: PTH110 - pathlib is slow
+                found = re.search(rf"\S+(?={re.escape(text)})", message)
+                if found is not None and any(os.path.exists(f"{folder}/{text}") for folder in _ends(found)):  # noqa: PTH110 - pathlib is slow
                     return part, f"/{text}"
     return None
+
+
+def _ends(found: re.Match[str]) -> Iterator[str]:
+    """Yield the last word of what ends where this does, the last two, and so on: names of folders may have blanks."""
+    words = found.string[: found.end()].split(" ")
+    return (" ".join(words[begin:]) for begin in reversed(range(len(words))))
 
 
 def _later(node: ast.expr | None) -> Iterator[ast.expr]:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
 
 _SHORT: Final = 2  # letters, which may stand anywhere
 _TOLD: Final = re.compile(r"'([^']+)'|(\S*/[^\s:,]+)")
+_WITH_BLANKS: Final = re.compile(r"()([^:,']+)")
 
 
 def part_of(found: Literal, meant: str, message: str) -> tuple[Span, str] | None:
@@ -25,8 +26,7 @@ def part_of(found: Literal, meant: str, message: str) -> tuple[Span, str] | None
     """
     if found.node is None or isinstance(found.node, ast.Constant) or "$(" in meant:
         return None
-    told = _TOLD.search(message)
-    made = "" if told is None else told[1] or told[2]
+    made = _made(meant, message)
     if meant.startswith("/") and not made.startswith("/"):
         made = os.path.abspath(made)  # noqa: PTH100 - pathlib is slow
     elif not meant.startswith("/"):
@@ -35,6 +35,14 @@ def part_of(found: Literal, meant: str, message: str) -> tuple[Span, str] | None
     if len(parts) > 1:  # a slash between two of them is that of the second
         parts = [part for part in parts if part[1].startswith("/")]
     return parts[0] if len(parts) == 1 else None
+
+
+def _made(meant: str, message: str) -> str:
+    """Return the text that a message tells of; a path in a folder with blanks in its name begins as what was meant."""
+    first, blank, _ = meant.partition(" ")
+    begin = message.find(first + blank) if blank and first.startswith("/") else -1
+    told = (_TOLD if begin < 0 else _WITH_BLANKS).search(message, max(begin, 0))
+    return "" if told is None else told[1] or told[2]
 
 
 def _parts(texts: dict[str, Span], made: str, meant: str) -> Iterator[tuple[Span, str]]:

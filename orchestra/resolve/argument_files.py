@@ -16,7 +16,7 @@ from orchestra.location import Location, displayed, is_python
 from orchestra.nearest import is_slip
 from orchestra.patterns import pattern
 from orchestra.resolve.misspelt import misspelt
-from orchestra.resolve.near_paths import near_names, near_path
+from orchestra.resolve.near_paths import exists, near_names, near_path
 from orchestra.resolve.path_forms import warn_of_home
 from orchestra.resolve.paths import settled_path
 from orchestra.resolve.refusals import set_by_code
@@ -91,8 +91,11 @@ def _lack(word: Value, run: Resolution) -> _Lack | None:
 
 
 def _is_path(text: str) -> bool:
-    """Return whether a text is the path of a file, as far as its looks tell."""
-    return bool(Path(text).suffix) and not any(sign in text for sign in "*?<>|{}\n:;, ")
+    """Return whether a text looks like the path of a file; where names in it have blanks, their folders are there."""
+    if not Path(text).suffix or any(sign in text for sign in "*?<>|{}\n:;,"):
+        return False
+    slash = text.find("/", text.rfind(" ") + 1)
+    return " " not in text or (text.startswith("/") and slash > 0 and exists(Path(text[:slash])))
 
 
 def _is_sure(name: str, near: str) -> bool:

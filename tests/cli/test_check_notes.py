@@ -280,7 +280,7 @@ def test_what_code_asks_the_machine_for_is_noted_and_what_it_asks_the_project_fo
     [
         ("a.launch.yaml", "launch: [include: {file: QQ/steup.yaml}]\n"),
         ("a.launch.xml", '<launch><include file="QQ/steup.yaml"/></launch>\n'),
-        ("b.launch.xml", '<launch><let name="a" value="$(file-content QQ/steup.yaml)"/></launch>\n'),
+        ("b.launch.xml", "<launch><let name='a' value=\"$(file-content 'QQ/steup.yaml')\"/></launch>\n"),
         ("a.launch.py", _PYTHON % ("", "IncludeLaunchDescription('QQ/steup.yaml')")),
     ],
 )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Final
@@ -23,6 +24,7 @@ _FOUND: Final = [
     for case in cases(path, main)
 ]
 _CASES: Final = [pytest.param(case, id=f"{kind}: {case.title}") for kind, case in _FOUND]
+_PATHS: Final = [case for case in _CASES if re.search(r"\b(path|file)\b", str(case.id))]
 
 
 @pytest.fixture(scope="module")
@@ -35,6 +37,16 @@ def checker(tmp_path_factory: pytest.TempPathFactory) -> Checker:
 def test_a_mistake_is_told_once_at_its_place(
     case: Case, checker: Checker, monkeypatch: pytest.MonkeyPatch
 ) -> None:
+    monkeypatch.chdir(checker.folder)
+    assert checker.differences(case) == ""
+
+
+@pytest.mark.parametrize("case", _PATHS)
+def test_a_mistake_in_a_path_is_told_where_folders_have_blanks_in_their_names(
+    case: Case, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "my own robot").mkdir()
+    checker = Checker(tmp_path / "my own robot")
     monkeypatch.chdir(checker.folder)
     assert checker.differences(case) == ""
 

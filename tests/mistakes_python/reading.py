@@ -3,7 +3,9 @@
 `=== NAME` begins a case, `--- FILE` a file of it, `$ WORD` is a word of the command line. What stands before the first
 file is that of `main.launch.py`: its actions where it begins with `[`, else the body of its function. `«` and `»` stand
 around the text that is to be told, `«wrong→right»` has the suggestion; `??? wrong→right` is on the command line. A name
-that ends with `before 3.12` or `from 3.12` is that of a case whose places CPython tells otherwise in other versions.
+that ends with `before 3.12` or `from 3.12` is that of a case whose places CPython tells otherwise in other versions,
+one with `no blanks` is that of a case whose command is made of paths without quotes: there are other words in it where
+the folder of the test has blanks in its name.
 """
 
 from __future__ import annotations

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import pytest
@@ -33,24 +34,29 @@ def generate_launch_description():
 _PARAMETERS = "/**:\n  ros__parameters:\n    rate: 5\n"
 
 _CASES = [pytest.param(case, id=case.name) for path in sorted(FOLDER.iterdir()) for case in cases(path)]
+_PATHS = [case for case in _CASES if re.search(r"\b(path|file)\b(?!.*no blanks)", str(case.id))]
 
 
 @pytest.fixture
 def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """Return the prefix of a package `demo`; the working directory has files to include and to read."""
-    prefix = tmp_path / "install"
-    for folder in (
+    return _installed(tmp_path, monkeypatch)
+
+
+def _installed(folder: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    prefix = folder / "install"
+    for made in (
         "share/ament_index/resource_index/packages",
         "lib/demo",
         "share/demo/launch",
         "share/demo/config",
     ):
-        (prefix / folder).mkdir(parents=True)
+        (prefix / made).mkdir(parents=True)
     (prefix / "share/ament_index/resource_index/packages/demo").touch()
     for program in ("talker", "component_container"):
         (prefix / f"lib/demo/{program}").write_text("#!/bin/sh\n", "utf-8")
         (prefix / f"lib/demo/{program}").chmod(0o755)
-    work = tmp_path / "work"
+    work = folder / "work"
     work.mkdir()
     for place in (work, prefix / "share/demo/launch"):
         (place / "inner.launch.py").write_text(_INNER, "utf-8")
@@ -65,6 +71,20 @@ def workspace(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 @pytest.mark.filterwarnings("ignore::SyntaxWarning")
 @pytest.mark.parametrize("case", _CASES)
 def test_a_mistake_is_told(workspace: Path, case: Case) -> None:
+    if case.name.endswith("no blanks") and " " in str(workspace):
+        pytest.skip("the words of its command are others where folders have blanks in their names")
+    _check(case, workspace)
+
+
+@pytest.mark.parametrize("case", _PATHS)
+def test_a_mistake_in_a_path_is_told_where_folders_have_blanks_in_their_names(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, case: Case
+) -> None:
+    (tmp_path / "my own robot").mkdir()
+    _check(case, _installed(tmp_path / "my own robot", monkeypatch))
+
+
+def _check(case: Case, workspace: Path) -> None:
     for name, text in case.files.items():
         Path(name).write_text(text, "utf-8")
     problems = Problems()

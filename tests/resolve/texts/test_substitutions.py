@@ -249,17 +249,17 @@ class TestFileContent:
         place.context = replace(place.context, file=str(tmp_path / "launch/main.yaml"))
         assert place.value("$(file-content both)") == "launch é\n"
         assert place.value("$(file-content one)") == "work é\n"
-        assert place.value(f"$(file-content {tmp_path}/work/one)") == "work é\n"
+        assert place.value(f"$(file-content '{tmp_path}/work/one')") == "work é\n"
 
     def test_a_missing_file_suggests_the_one_beside(self, place: Place, tmp_path: Path) -> None:
         (tmp_path / "robot.urdf").touch()
-        problem = place.refusal(f"$(file-content {tmp_path}/robt.urdf)")
+        problem = place.refusal(f"$(file-content '{tmp_path}/robt.urdf')")
         assert (problem.code, problem.suggestion) == (Code.MISSING_FILE, f"{tmp_path}/robot.urdf")
 
     def test_what_cannot_be_read_is_told(self, place: Place, tmp_path: Path) -> None:
         (tmp_path / "binary").write_bytes(b"\xff\xfe")
         for path in (tmp_path, tmp_path / "binary", "/dev/zero", "a" * 5000):
-            assert place.value(f"$(file-content {path})") is None
+            assert place.value(f"$(file-content '{path}')") is None
         assert [problem.code for problem in place.problems] == [Code.UNREADABLE_FILE] * 4
 
 
