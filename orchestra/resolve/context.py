@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from collections.abc import Set as AbstractSet
-from typing import TYPE_CHECKING, Final, Literal, NamedTuple, Protocol, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, Literal, NamedTuple, Protocol, TypeAlias
 
 from orchestra.dataclass import dataclass, maker
 from orchestra.description.text import Opaque
 from orchestra.errors import Problems
 from orchestra.fields import field
-from orchestra.location import Location, Span, new_location
+from orchestra.location import Location, Span, location_of, new_location
 from orchestra.resolve.inputs import Inputs
 
 if TYPE_CHECKING:
     from contextlib import AbstractContextManager
 
     from orchestra.description.entity import Entity
-    from orchestra.description.text import Template
+    from orchestra.description.text import MatchedTemplate, Template
     from orchestra.resolve.weights import Weights
 
 ReadKind: TypeAlias = Literal["variable", "environment", "parameter", "namespace"]
@@ -74,12 +74,79 @@ new_read = maker(Read)
 new_value = maker(Value)
 
 
-class Packaged(NamedTuple):
-    """The words that start a program of a package, and what names the two where they were first found."""
+class MatchedValue(Value):
+    """What a text comes to that stands where the group of a match does; equal to any other value that says the same.
 
-    words: tuple[str, ...]
+    Where most stand is never asked for.
+    """
+
+    __slots__ = ("included_from", "template")
+
+    template: MatchedTemplate
+    included_from: tuple[Span, ...]
+
+    def __new__(cls, *values: Any, **named: Any) -> Value:  # type: ignore[misc] # noqa: ANN401 - any field
+        """Return an ordinary one: what is made of it with a change has values of its own."""
+        return Value(*values, **named)
+
+    @property
+    def location(self) -> Location:
+        """The place."""
+        return location_of(self.template.matched, self.template.group, self.included_from)
+
+    @property
+    def verbatim(self) -> bool:
+        """Whether it stands there as it is."""
+        return self.template.constant is not None
+
+    @property
+    def raw(self) -> str | None:
+        """What stands there, where that is something else."""
+        return None if self.verbatim else self.template.raw
+
+    def __eq__(self, other: object) -> bool:
+        if type(other) not in (Value, MatchedValue) or not isinstance(other, Value):
+            return NotImplemented
+        return self.text == other.text and self.location == other.location
+
+    __hash__ = Value.__hash__
+
+    def __repr__(self) -> str:
+        return repr(_ordinary(self.text, self.location, self.through, self.verbatim, self.raw))
+
+    def __reduce__(self) -> Any:  # noqa: ANN401 - what makes it, and of what
+        return _ordinary, (self.text, self.location, self.through, self.verbatim, self.raw)
+
+
+def _ordinary(
+    text: str, location: Location, through: tuple[Read, ...], verbatim: bool, raw: str | None
+) -> Value:
+    return Value(text, location, through=through, verbatim=verbatim, raw=raw)
+
+
+_new = object.__new__
+
+
+def matched_value(
+    text: str, template: MatchedTemplate, included_from: tuple[Span, ...], through: tuple[Read, ...] = ()
+) -> Value:
+    """Return what a text comes to, in a file that these includes have led to."""
+    made: Any = _new(MatchedValue)
+    made.text = text
+    made.template = template
+    made.included_from = included_from
+    made.through = through
+    value: Value = made
+    return value
+
+
+class Packaged(NamedTuple):
+    """What names a program of a package where it was first found, and the words that start it; nothing was read."""
+
     package: Value
     executable: Value
+    words: tuple[str, ...]
+    through: tuple[Read, ...] = ()
 
 
 class Poison:
@@ -115,12 +182,16 @@ class Variable:
 new_variable = maker(Variable)
 
 
-def read_of(name: str, value: Value, variable: Variable) -> Read:
-    """Return what is noted of a variable that is read."""
-    written = value.location if value.verbatim else None
-    return new_read(
-        "variable", name, value.text, variable.setter, variable.location, value.through, written, value
-    )
+def noted_of(name: str, variable: Variable) -> Read | None:
+    """Return what is noted of a variable where it is read, None for one with a faulty value."""
+    if not variable.noted:
+        value = variable.value
+        if isinstance(value, Poison):
+            return None
+        setter, at, written = variable.setter, variable.location, value.location if value.verbatim else None
+        read = new_read("variable", name, value.text, setter, at, value.through, written, value)
+        variable.noted.append(read)
+    return variable.noted[0]
 
 
 class Variables(Protocol):

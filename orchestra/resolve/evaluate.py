@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Final
 
 from orchestra.description.text import Call, MatchedTemplate, Opaque, Words
 from orchestra.location import new_location
-from orchestra.resolve.context import POISON, Poison, new_value
+from orchestra.resolve.context import POISON, Poison, matched_value, new_value
 from orchestra.resolve.substitutions.table import SUBSTITUTIONS
 
 if TYPE_CHECKING:
@@ -96,7 +96,7 @@ def _matched(template: MatchedTemplate, context: Context) -> Evaluated:
     """Return what a text comes to, without the places of its calls where they have nothing to tell."""
     text = template.constant
     if text is not None:
-        return new_value(text, context.place(template), verbatim=True)
+        return matched_value(text, template, context.included_from)
     pieces, file = template.pieces, context.file
     names = None if pieces is None else pieces.variables
     if names is None and pieces is not None and file is not None:
@@ -106,7 +106,7 @@ def _matched(template: MatchedTemplate, context: Context) -> Evaluated:
         return _concatenated(template, context)
     texts, reads = known
     made = pieces.filled(texts) if pieces.variables is not None else _in_folder(pieces, file or "", texts)
-    return new_value(made, context.place(template), through=reads, raw=template.raw)
+    return matched_value(made, template, context.included_from, reads)
 
 
 def _in_folder(pieces: Pieces, file: str, values: Sequence[str]) -> str:

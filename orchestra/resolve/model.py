@@ -133,6 +133,9 @@ new_change = maker(EnvironmentChange)
 class ResolvedProcess:
     """One process. `program` starts it; a node's arguments and ROS arguments are added by the plan.
 
+    What differs in nodes and other programs comes first; how it runs is filled in by `add_process`, before anybody
+    else has it.
+
     `conditional` tells that a condition, which is true, stands on it or around it. `faulty` marks a process of which
     something has been reported: what follows from it is not reported again. `parameter_arguments` are what the node's
     own arguments say of its parameters, on the command line before `parameters`, and so
@@ -143,44 +146,44 @@ class ResolvedProcess:
     """
 
     kind: Kind
-    package: str | None
     executable: str
-    name: Value | None
-    namespace: Value | None
-    label: str | None
     program: tuple[str, ...]
-    arguments: tuple[str, ...]
-    ros_arguments: tuple[str, ...] | None
-    prefix: tuple[str, ...]
-    shell: bool
-    cwd: str | None
-    environment: Mapping[str, tuple[EnvironmentChange, ...]]
-    parameters: tuple[ParameterSource, ...]
-    remaps: tuple[ResolvedRemap, ...]
-    output: str | dict[str, tuple[str, ...]] | None
-    emulate_tty: bool | None
-    restart: Restart | None
-    required: bool
-    shutdown_on_exit: bool
-    success_exit_codes: tuple[int, ...] | None
-    ready: ResolvedReady | None
-    alive: ResolvedAlive | None
-    stop: Stop | None
-    depends_on: tuple[ResolvedDependency, ...]
-    labels: tuple[str, ...]
     location: Location
-    conditional: bool
-    faulty: bool
+    package: str | None = None
+    name: Value | None = None
+    namespace: Value | None = None
+    label: str | None = None
+    arguments: tuple[str, ...] = ()
+    ros_arguments: tuple[str, ...] | None = None
+    parameters: tuple[ParameterSource, ...] = ()
     parameter_arguments: tuple[FileParameters, ...] = ()
+    remaps: tuple[ResolvedRemap, ...] = ()
     remaps_among_words: int = 0
-    inherit_environment: bool = True
     autostart: bool = False
     through: tuple[Read, ...] = field(default=(), compare=False, repr=False)
+    params_schema: NamedSchema | None = None
+    share: str | None = None
+    faulty: bool = False
+    prefix: tuple[str, ...] = ()
+    shell: bool = False
+    cwd: str | None = None
+    environment: Mapping[str, tuple[EnvironmentChange, ...]] = field(default_factory=dict)
+    inherit_environment: bool = True
+    output: str | dict[str, tuple[str, ...]] | None = None
+    emulate_tty: bool | None = None
+    restart: Restart | None = None
+    required: bool = False
+    shutdown_on_exit: bool = False
+    success_exit_codes: tuple[int, ...] | None = None
+    ready: ResolvedReady | None = None
+    alive: ResolvedAlive | None = None
+    stop: Stop | None = None
+    depends_on: tuple[ResolvedDependency, ...] = ()
+    labels: tuple[str, ...] = ()
+    conditional: bool = False
     limits: Limits | None = None
     stdin: Location | None = None
     warm: bool | None = None
-    params_schema: NamedSchema | None = None
-    share: str | None = None
     origin: Any = field(default=None, compare=False, repr=False)
     around: tuple[Any, ...] = field(default=(), compare=False, repr=False)
 

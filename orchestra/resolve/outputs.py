@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Final, TypeAlias
 
 from orchestra.description.outputs import OUTPUTS, PLACES, STREAMS
-from orchestra.description.text import Template
+from orchestra.description.text import MatchedTemplate, Template
 from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Poison
 
@@ -38,6 +38,8 @@ def output(
     everywhere = run.inputs.environment.get(_OVERRIDE)
     if everywhere:
         return _overridden(everywhere, run, at)
+    if type(written) is MatchedTemplate and written.constant in OUTPUTS:
+        return written.constant
     if written is None or isinstance(written, Template):
         return run.word(written, OUTPUTS)
     places: Places = {}

@@ -16,7 +16,7 @@ from orchestra.fields import field, replace
 from orchestra.location import Location, Span, location_of
 from orchestra.nearest import nearest
 from orchestra.resolve.booleans import boolean
-from orchestra.resolve.context import POISON, Context, Evaluated, Packaged, Poison, Value, new_value
+from orchestra.resolve.context import POISON, Context, Evaluated, Packaged, Poison, Value, matched_value
 from orchestra.resolve.evaluate import evaluate
 from orchestra.resolve.found import Found
 from orchestra.resolve.impossible.held import Held
@@ -87,7 +87,7 @@ class Resolution:
     repetitions: int = 0
     held: tuple[Held, ...] = ()
     startable: set[tuple[str, str]] = field(default_factory=set)
-    packaged: dict[tuple[str, str, str], Packaged] = field(default_factory=dict)
+    packaged: dict[tuple[str | None, str | None, str], Packaged] = field(default_factory=dict)
     components: dict[tuple[str, ...], tuple[Any, ...]] = field(default_factory=dict)
     descriptions: dict[str, Description | None] = field(default_factory=dict)
     parameter_files: dict[tuple[str, bool], FileParameters | None] = field(default_factory=dict)
@@ -177,8 +177,7 @@ class Resolution:
             return None
         context = self.context
         if type(template) is MatchedTemplate and template.constant is not None:  # as `evaluate` does it
-            at = location_of(template.matched, template.group, context.included_from)
-            return new_value(template.constant, at, verbatim=True)
+            return matched_value(template.constant, template, context.included_from)
         return evaluate(template, context)
 
     def text(self, template: Template | None) -> str | Poison | None:

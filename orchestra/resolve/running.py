@@ -6,28 +6,18 @@ import re
 from functools import partial
 from operator import attrgetter
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
-from orchestra.dataclass import dataclass, maker
 from orchestra.description.running import ON_EXIT
 from orchestra.errors import Code
 from orchestra.resolve.bounded import with_change
-from orchestra.resolve.context import POISON, Poison, Read, Value
+from orchestra.resolve.context import POISON, Poison, Value
 from orchestra.resolve.dependencies import dependencies
 from orchestra.resolve.environment_names import is_faulty_name, warn_of_shell
 from orchestra.resolve.exit_codes import exit_codes
 from orchestra.resolve.for_all import emulate_tty, set_for_all
 from orchestra.resolve.idle_keys import check_keys
-from orchestra.resolve.model import (
-    EnvironmentChange,
-    FileParameters,
-    Kind,
-    NamedSchema,
-    ParameterSource,
-    ResolvedProcess,
-    ResolvedRemap,
-    new_process,
-)
+from orchestra.resolve.model import EnvironmentChange
 from orchestra.resolve.outputs import output
 from orchestra.resolve.paths import check_folder
 from orchestra.resolve.policies import restart, stop
@@ -40,6 +30,7 @@ from orchestra.witness.variables import copied
 if TYPE_CHECKING:
     from orchestra.description.running import Running
     from orchestra.location import Location
+    from orchestra.resolve.model import ResolvedProcess
     from orchestra.resolve.resolution import Resolution
     from orchestra.values import Limits
 
@@ -54,41 +45,32 @@ _NOTHING = (None, (), *((None,) * 19))
 _FOR_ALL = ("launch-prefix", "launch-prefix-filter", "emulate_tty", "sigterm_timeout", "sigkill_timeout")
 
 
-@dataclass(frozen=True, slots=True, kw_only=True)
-class Program:
-    """What is run: the part in which nodes and other programs differ. `through` was read to make its words."""
+def add_process(action: Running, program: ResolvedProcess, run: Resolution) -> int:
+    """Add a process to what has been found, with how it runs; return its index.
 
-    kind: Kind
-    executable: str
-    words: tuple[str, ...]
-    package: str | None = None
-    name: Value | None = None
-    namespace: Value | None = None
-    label: str | None = None
-    arguments: tuple[str, ...] = ()
-    ros_arguments: tuple[str, ...] | None = None
-    parameters: tuple[ParameterSource, ...] = ()
-    parameter_arguments: tuple[FileParameters, ...] = ()
-    remaps: tuple[ResolvedRemap, ...] = ()
-    remaps_among_words: int = 0
-    autostart: bool = False
-    through: tuple[Read, ...] = ()
-    params_schema: NamedSchema | None = None
-    share: str | None = None
-    faulty: bool = False
-
-
-new_program = maker(Program)
-
-
-def add_process(action: Running, program: Program, run: Resolution) -> int:
-    """Add a process to what has been found: it starts with the run, or with the timer around it. Return its index."""
-    process = (_as_it_is if _says_nothing(action, run) else _resolved)(action, program, run)
+    It starts with the run, or with the timer around it.
+    """
+    process: Any = program  # which nobody else has
+    frame, found, process.origin = run.frame, run.found.processes, action.origin
+    process.depends_on, process.labels, process.around = frame.depends_on, frame.labels, run.around
+    # What one in Python said of conditions is not known.
+    process.conditional = process.origin is not None or run.conditional
+    if _says_nothing(action, run):
+        places = output(action.output, run, process.location)
+        changes = _environment(action, run) if action.env else dict(run.scope.changes)
+        process.output = None if places is POISON else places
+        process.environment = {} if changes is POISON else changes
+        faulty = places is POISON or changes is POISON
+    else:
+        faulty = _say(action, process, run)
+    if faulty or action.faulty:  # when all others have been looked at
+        process.faulty = True
     if run.occasion is not None:
-        run.occasion.do.append(ResolvedStart(len(run.found.processes), process.location))
-    run.found.processes.append(process)
-    _tell(process, run)
-    return len(run.found.processes) - 1
+        run.occasion.do.append(ResolvedStart(len(found), process.location))
+    found.append(process)
+    if process.origin is not None:
+        _tell(process, run)
+    return len(found) - 1
 
 
 def _says_nothing(action: Running, run: Resolution) -> bool:
@@ -96,101 +78,40 @@ def _says_nothing(action: Running, run: Resolution) -> bool:
     return _settings(action) == _NOTHING and run.scope.variables.keys().isdisjoint(_FOR_ALL)
 
 
-def _as_it_is(action: Running, program: Program, run: Resolution) -> ResolvedProcess:
-    """Return the process of an action that says nothing of how it runs: `_resolved` gives the same, in more time."""
-    location, frame, origin = run.place(action), run.frame, action.origin
-    places = output(action.output, run, location)
-    changes = _environment(action, run) if action.env else dict(run.scope.changes)
-    return new_process(
-        kind=program.kind,
-        package=program.package,
-        executable=program.executable,
-        name=program.name,
-        namespace=program.namespace,
-        label=program.label,
-        program=program.words,
-        arguments=program.arguments,
-        ros_arguments=program.ros_arguments,
-        prefix=(),
-        shell=False,
-        cwd=None,
-        environment={} if isinstance(changes, Poison) else changes,
-        parameters=program.parameters,
-        parameter_arguments=program.parameter_arguments,
-        remaps=program.remaps,
-        remaps_among_words=program.remaps_among_words,
-        output=None if isinstance(places, Poison) else places,
-        emulate_tty=None,
-        restart=None,
-        required=False,
-        shutdown_on_exit=False,
-        success_exit_codes=None,
-        ready=None,
-        alive=None,
-        stop=None,
-        depends_on=frame.depends_on,
-        labels=frame.labels,
-        location=location,
-        conditional=origin is not None or run.conditional,
-        faulty=isinstance(places, Poison) or isinstance(changes, Poison) or program.faulty or action.faulty,
-        autostart=program.autostart,
-        through=program.through,
-        params_schema=program.params_schema,
-        share=program.share,
-        origin=origin,
-        around=run.around,
-    )
-
-
-def _resolved(action: Running, program: Program, run: Resolution) -> ResolvedProcess:
-    """Return the process that an action starts."""
-    sound, location, alone = Sound(), run.place(action), run.scope.variables.keys().isdisjoint(_FOR_ALL)
+def _say(action: Running, process: Any, run: Resolution) -> bool:  # noqa: ANN401 - one that is filled
+    """Fill in all that is said of how a process runs, in the order in which faults are told; return if any is."""
+    sound = Sound()
+    alone = run.scope.variables.keys().isdisjoint(_FOR_ALL)
     on_exit = None if action.on_exit is None else sound(run.word(action.on_exit, ON_EXIT))
-    places, again = output(action.output, run, location), sound(restart(action, run))
-    check_keys(action, again, location, run)
-    return new_process(
-        kind=program.kind,
-        package=program.package,
-        executable=program.executable,
-        name=program.name,
-        namespace=program.namespace,
-        label=program.label,
-        program=program.words,
-        arguments=program.arguments,
-        ros_arguments=program.ros_arguments,
-        prefix=() if alone and action.launch_prefix is None else sound(_prefix(action, program, run)) or (),
-        shell=action.shell is not None and sound(run.flag(action.shell)) is True,
-        cwd=None if action.cwd is None else sound(_cwd(action, run)),
-        environment=sound(_environment(action, run)) or {},
-        parameters=program.parameters,
-        parameter_arguments=program.parameter_arguments,
-        remaps=program.remaps,
-        remaps_among_words=program.remaps_among_words,
-        output=sound(places) if isinstance(places, Poison) else places,
-        emulate_tty=None if alone and action.emulate_tty is None else sound(emulate_tty(action, run)),
-        restart=again,
-        required=sound(run.flag(action.required, default=on_exit is not None)) is True,
-        shutdown_on_exit=on_exit is not None,
-        success_exit_codes=None if action.success_exit_codes is None else sound(exit_codes(action, run)),
-        ready=None if action.ready is None else sound(readiness(action.ready, run)),
-        alive=None if action.alive is None else sound(life(action.alive, run)),
-        stop=sound(stop(action, run)),
-        depends_on=run.frame.depends_on + (sound(dependencies(action.depends_on, run)) or ()),
-        labels=run.frame.labels,
-        limits=None if action.limits is None else sound(_limits(action, run)),
-        stdin=None if action.stdin is None else sound(_stdin(action, run)),
-        warm=None if action.warm is None else sound(run.flag(action.warm)),
-        location=location,
-        conditional=action.origin is not None or run.conditional,  # what one in Python said is not known
-        faulty=sound.faulty or program.faulty or action.faulty,  # when all others have been looked at
-        inherit_environment=action.env_only is None,
-        autostart=program.autostart,
-        through=program.through,
-        params_schema=program.params_schema,
-        share=program.share,
-        origin=action.origin,
-        around=run.around,
-    )
+    process.output = sound(output(action.output, run, process.location))
+    process.restart = sound(restart(action, run))
+    check_keys(action, process.restart, process.location, run)
+    if not alone or action.launch_prefix is not None:
+        process.prefix = sound(_prefix(action, process, run)) or ()
+    process.shell = action.shell is not None and sound(run.flag(action.shell)) is True
+    if action.cwd is not None:
+        process.cwd = sound(_cwd(action, run))
+    process.environment = sound(_environment(action, run)) or {}
+    process.inherit_environment = action.env_only is None
+    if not alone or action.emulate_tty is not None:
+        process.emulate_tty = sound(emulate_tty(action, run))
+    process.required = sound(run.flag(action.required, default=on_exit is not None)) is True
+    process.shutdown_on_exit = on_exit is not None
+    if action.success_exit_codes is not None:
+        process.success_exit_codes = sound(exit_codes(action, run))
+    if action.ready is not None:
+        process.ready = sound(readiness(action.ready, run))
+    if action.alive is not None:
+        process.alive = sound(life(action.alive, run))
+    process.stop = sound(stop(action, run))
+    process.depends_on += sound(dependencies(action.depends_on, run)) or ()
+    if action.limits is not None:
+        process.limits = sound(_limits(action, run))
+    if action.stdin is not None:
+        process.stdin = sound(_stdin(action, run))
+    if action.warm is not None:
+        process.warm = sound(run.flag(action.warm))
+    return sound.faulty
 
 
 def name_in_launch(process: ResolvedProcess, index: int) -> str:
@@ -208,7 +129,7 @@ def words_of(process: ResolvedProcess) -> list[str]:
 def _tell(process: ResolvedProcess, run: Resolution) -> None:
     """Let the object of a Python launch file know what the process is started with: user code may ask for it."""
     origin = process.origin
-    if origin is None or process.faulty or not hasattr(origin, "_prepared_by"):
+    if process.faulty or not hasattr(origin, "_prepared_by"):
         return
     scope = run.scope
     if scope.environment_copy is None:  # most processes are started with the same
@@ -241,7 +162,7 @@ def _cwd(action: Running, run: Resolution) -> str | Poison | None:
     return value.text if isinstance(value, Value) else value
 
 
-def _prefix(action: Running, program: Program, run: Resolution) -> tuple[str, ...] | Poison:
+def _prefix(action: Running, process: ResolvedProcess, run: Resolution) -> tuple[str, ...] | Poison:
     """Return the words of the launch prefix: the action's own, or the one of the whole launch through its filter.
 
     A text is split after its substitutions (launch, `Executable.prepare`), so that an argument can carry all of it.
@@ -252,10 +173,10 @@ def _prefix(action: Running, program: Program, run: Resolution) -> tuple[str, ..
         own = run.evaluate(action.launch_prefix)
         return _words_of_prefix(own, run) if isinstance(own, Value) else POISON
     prefix, chosen = set_for_all("launch-prefix", run), set_for_all("launch-prefix-filter", run)
-    if prefix is None or not prefix.text or not program.words:
+    if prefix is None or not prefix.text or not process.program:
         return ()
     try:
-        if chosen is not None and not re.match(chosen.text, Path(program.words[0]).name):
+        if chosen is not None and not re.match(chosen.text, Path(process.program[0]).name):
             return ()
     except re.error as error:
         message = f"'launch-prefix-filter' is no regular expression: {error}"

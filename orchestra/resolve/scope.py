@@ -16,7 +16,7 @@ from orchestra.dataclass import dataclass
 from orchestra.errors import Code, Problems
 from orchestra.fields import field
 from orchestra.resolve.bounded import with_change, with_parameter
-from orchestra.resolve.context import POISON, Evaluated, Read, Setter, Value, Variable, new_variable, read_of
+from orchestra.resolve.context import POISON, Evaluated, Read, Setter, Value, Variable, new_variable, noted_of
 from orchestra.resolve.ledger import Ledger
 from orchestra.resolve.model import EnvironmentChange, InlineParameter, ParameterSource, ResolvedRemap
 from orchestra.resolve.scalars import flow
@@ -80,10 +80,8 @@ class Scope:
             return None
         if variable.leaked_from is not None:
             self._warn_of_leak(name, variable, reader)
-        if self._reads is not None and isinstance(variable.value, Value):
-            if not variable.noted:
-                variable.noted.append(read_of(name, variable.value, variable))
-            self._reads.append(variable.noted[0])
+        if self._reads is not None and (read := noted_of(name, variable)) is not None:
+            self._reads.append(read)
         return variable.value
 
     def known(self, names: Sequence[str]) -> tuple[list[str], tuple[Read, ...]] | None:
@@ -91,12 +89,13 @@ class Scope:
         texts, noted = [], []
         for name in names:
             variable = self.variables.get(name)
-            if variable is None or variable.leaked_from is not None or type(variable.value) is not Value:
+            if variable is None or variable.leaked_from is not None:
                 return None
-            if not variable.noted:
-                variable.noted.append(read_of(name, variable.value, variable))
-            texts.append(variable.value.text)
-            noted.append(variable.noted[0])
+            read = variable.noted[0] if variable.noted else noted_of(name, variable)
+            if read is None:
+                return None
+            texts.append(read.value)
+            noted.append(read)
         self.ledger.read.update(names)
         if self._reads is not None:
             self._reads += noted

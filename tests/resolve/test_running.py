@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from orchestra.resolve import running
 from tests.resolve.launching import outcome
@@ -13,9 +13,7 @@ if TYPE_CHECKING:
     import pytest
 
     from orchestra.description.running import Running
-    from orchestra.resolve.model import ResolvedProcess
     from orchestra.resolve.resolution import Resolution
-    from orchestra.resolve.running import Program
 
 _TEXT = """\
 launch:
@@ -36,17 +34,17 @@ launch:
 
 def test_the_short_way_gives_what_the_long_one_does(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     taken = []
-    whole = running._as_it_is
+    whole = running._say
 
-    def counted(action: Running, program: Program, run: Resolution) -> ResolvedProcess:
-        taken.append(program.executable)
-        return whole(action, program, run)
+    def counted(action: Running, process: Any, run: Resolution) -> bool:
+        taken.append(process.executable)
+        return whole(action, process, run)
 
-    monkeypatch.setattr(running, "_as_it_is", counted)
+    monkeypatch.setattr(running, "_say", counted)
     short = outcome(tmp_path, _TEXT)
-    assert len(taken) == len(short.plan.processes) == 6
+    assert not taken
     monkeypatch.setattr(running, "_says_nothing", lambda *_: False)
     long = outcome(tmp_path, _TEXT)
-    assert len(taken) == 6
+    assert len(taken) == len(short.plan.processes) == 6
     assert [str(problem) for problem in short.problems] == [str(problem) for problem in long.problems]
     assert short.plan == long.plan

@@ -9,8 +9,9 @@ from typing import TYPE_CHECKING, Final
 from orchestra.description.text import raw_of, span_of
 from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Poison, Value
+from orchestra.resolve.model import new_process
 from orchestra.resolve.programs import is_missing, program_words
-from orchestra.resolve.running import Program, add_process
+from orchestra.resolve.running import add_process
 from orchestra.resolve.worded import look_at_paths
 from orchestra.resolve.words import split
 
@@ -29,18 +30,20 @@ def visit(action: Executable, run: Resolution) -> None:
     with run.scope.tracing() as reads:
         words = _words(action, run)
     label = run.text(action.name)
-    namespace = run.scope.namespace(run.place(action))
+    at = run.place(action)
+    namespace = run.scope.namespace(at)
     found: tuple[str, ...] = () if isinstance(words, Poison) else words
-    program = Program(
+    process = new_process(
         kind="process",
         executable=_called(found[0]) if found else raw_of(action.cmd),
-        words=found,
+        program=found,
+        location=at,
         namespace=namespace if isinstance(namespace, Value) else None,
         label=label if isinstance(label, str) else None,
         faulty=any(isinstance(value, Poison) for value in (words, label, namespace)),
         through=tuple(reads),
     )
-    add_process(action, program, run)
+    add_process(action, process, run)
 
 
 def _called(program: str) -> str:

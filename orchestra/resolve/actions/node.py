@@ -10,7 +10,7 @@ from orchestra.description.actions.node import REACHED
 from orchestra.description.text import MatchedTemplate
 from orchestra.errors import Code
 from orchestra.resolve.context import POISON, Evaluated, Poison, Value
-from orchestra.resolve.model import FileParameters, ResolvedRemap
+from orchestra.resolve.model import FileParameters, ResolvedRemap, new_process
 from orchestra.resolve.namespaces import namespace_at
 from orchestra.resolve.node_names import named
 from orchestra.resolve.parameters import parameters
@@ -18,7 +18,7 @@ from orchestra.resolve.params_schema import params_schema
 from orchestra.resolve.programs import packaged_words
 from orchestra.resolve.python_programs import module_words, script_words
 from orchestra.resolve.remapping import remaps
-from orchestra.resolve.running import add_process, new_program
+from orchestra.resolve.running import add_process
 from orchestra.resolve.unpackaged import unpackaged_words
 from orchestra.resolve.worded import ARGUED, texts
 
@@ -28,9 +28,8 @@ if TYPE_CHECKING:
     from orchestra.description.actions.node import Node
     from orchestra.description.text import Template
     from orchestra.resolve.context import Read
-    from orchestra.resolve.model import Kind
+    from orchestra.resolve.model import Kind, ResolvedProcess
     from orchestra.resolve.resolution import Resolution
-    from orchestra.resolve.running import Program
 
     _Started: TypeAlias = tuple[Evaluated | None, Evaluated | None, tuple[str, ...] | Poison, Sequence[Read]]
 
@@ -56,46 +55,48 @@ def check_full_name(index: int, action: Node, run: Resolution) -> None:
 
 def start(action: Node, kind: Kind, run: Resolution, *, autostart: bool | Poison | None = False) -> int:
     """Add the process of a node to what has been found; return its index."""
-    started = _started(action)
-    package, executable, words, reads = _known(action, started, run) or _found(action, started, run)
+    package, executable, words, reads = _known(action, run) or _found(action, run)
     label = None if action.exec_name is None else run.text(action.exec_name)
     name, namespace = named(action.name, run), namespace_at(action.namespace, action, run)
-    if isinstance(name, Value) and isinstance(namespace, Poison):
+    if namespace is POISON and isinstance(name, Value):
         run.found.lost.add(name.text)  # its full name is not known
         name = POISON
     given: list[FileParameters | ResolvedRemap] = []
     arguments, ros_arguments, more = _arguments(action, run, given, package, executable)
+    scope = run.scope
     own, whole = parameters(action.param, run)
     rules, regular = remaps(action.remap, run)
-    among = [item for item in given if isinstance(item, ResolvedRemap)] if given else []
+    among = tuple([item for item in given if isinstance(item, ResolvedRemap)]) if given else ()
     schema = None if action.params_schema is None else params_schema(action.params_schema, run)
     values = (package, executable, label, words, name, namespace, arguments, ros_arguments, autostart, schema)
-    program = new_program(
+    process = new_process(
         kind=kind,
-        executable=executable.text if isinstance(executable, Value) else started.raw,
-        words=() if isinstance(words, Poison) else words,
+        executable=executable.text if isinstance(executable, Value) else _started(action).raw,
+        program=() if isinstance(words, Poison) else words,
+        location=run.place(action),
         package=package.text if isinstance(package, Value) else None,
-        name=name if isinstance(name, Value) else None,
-        namespace=namespace if isinstance(namespace, Value) else None,
-        label=label if isinstance(label, str) else None,
+        name=None if isinstance(name, Poison) else name,
+        namespace=None if isinstance(namespace, Poison) else namespace,
+        label=None if isinstance(label, Poison) else label,
         arguments=() if isinstance(arguments, Poison) else arguments,
         ros_arguments=None if isinstance(ros_arguments, Poison) or action.ros_args is None else ros_arguments,
-        parameters=(*run.scope.parameters, *own),
+        parameters=scope.parameters + own,
         parameter_arguments=tuple([item for item in given if isinstance(item, FileParameters)])
         if given
         else (),
-        remaps=(*among, *run.scope.remaps, *rules),
+        remaps=among + scope.remaps + rules,
         remaps_among_words=len(among),
         autostart=autostart is True,
-        through=(*reads, *more),
+        through=(*reads, *more) if more or reads else (),
         params_schema=None if isinstance(schema, Poison) else schema,
         share=run.context.packages.share(package.text) if isinstance(package, Value) else None,
         faulty=not whole or not regular or Poison in map(type, values),
     )
-    _tell(action.origin, program)
-    if not program.faulty and run.nodes_are_extended():
-        program = _extended(program, action, run)
-    return add_process(action, program, run)
+    if action.origin is not None:
+        _tell(action.origin, process)
+    if run.nodes_are_extended() and not process.faulty:
+        process = _extended(process, action, run)
+    return add_process(action, process, run)
 
 
 def _arguments(
@@ -119,23 +120,23 @@ def _arguments(
     return arguments, ros_arguments, reads
 
 
-def _tell(origin: Any, program: Program) -> None:  # noqa: ANN401 - any object
+def _tell(origin: Any, process: ResolvedProcess) -> None:  # noqa: ANN401 - any object
     """Let the object of a Python launch file know what its names have come to: user code may ask for them."""
-    if origin is not None and not program.faulty and hasattr(origin, "_resolved_by"):
-        origin._resolved_by(partial(_names, program))  # noqa: SLF001 - the class of ours that made the action
+    if not process.faulty and hasattr(origin, "_resolved_by"):
+        origin._resolved_by(partial(_names, process))  # noqa: SLF001 - the class of ours that made the action
 
 
-def _names(program: Program) -> tuple[str | None, str | None, list[tuple[str, str]]]:
-    name, namespace = (None if item is None else item.text for item in (program.name, program.namespace))
-    own = program.remaps[program.remaps_among_words :]
+def _names(process: ResolvedProcess) -> tuple[str | None, str | None, list[tuple[str, str]]]:
+    name, namespace = (None if item is None else item.text for item in (process.name, process.namespace))
+    own = process.remaps[process.remaps_among_words :]
     return name, namespace, [(rule.source.text, rule.target.text) for rule in own]
 
 
-def _extended(program: Program, action: Node, run: Resolution) -> Program:
+def _extended(process: ResolvedProcess, action: Node, run: Resolution) -> ResolvedProcess:
     # Here, because hardly anybody has such packages, and for what it imports.
     from orchestra.resolve.python.node_extensions import extended  # noqa: PLC0415
 
-    return extended(program, action, run)
+    return extended(process, action, run)
 
 
 def _started(action: Node) -> Template:
@@ -145,19 +146,19 @@ def _started(action: Node) -> Template:
     return started
 
 
-def _known(action: Node, started: Template, run: Resolution) -> _Started | None:
+def _known(action: Node, run: Resolution) -> _Started | None:
     """Return what was found for a node of the same program, of which there is nothing to tell; None for none."""
-    pkg = action.pkg
-    if type(pkg) is not MatchedTemplate or type(started) is not MatchedTemplate or started is not action.exec:
+    pkg, started = action.pkg, action.exec
+    if type(pkg) is not MatchedTemplate or type(started) is not MatchedTemplate:
         return None
-    if pkg.constant is None or started.constant is None:
+    if action.module is not None or action.script is not None:
         return None
-    found = run.packaged.get((pkg.constant, started.constant, run.scope.environment.get("PATH", os.defpath)))
-    return None if found is None else (found.package, found.executable, found.words, ())
+    return run.packaged.get((pkg.constant, started.constant, run.scope.environment.get("PATH", os.defpath)))
 
 
-def _found(action: Node, started: Template, run: Resolution) -> _Started:
+def _found(action: Node, run: Resolution) -> _Started:
     """Return package, executable and words, and what was read for them."""
+    started = _started(action)
     if started.constant is not None and (action.pkg is None or action.pkg.constant is not None):
         reads: Sequence[Read] = ()
         package, executable = run.evaluate(action.pkg), run.evaluate(started)

@@ -18,22 +18,22 @@ if TYPE_CHECKING:
     from orchestra.description.actions.node import Node as NodeModel
     from orchestra.location import Span
     from orchestra.resolve.context import Value
+    from orchestra.resolve.model import ResolvedProcess
     from orchestra.resolve.resolution import Resolution
-    from orchestra.resolve.running import Program
 
 GROUP: Final = "launch_ros.node_action"
 _RULES: Final = {"name": "__node:=", "ns": "__ns:="}
 
 
-def extended(program: Program, action: NodeModel, run: Resolution) -> Program:
-    """Return a node's program with what extensions make of it: more words after `--ros-args`, other names.
+def extended(process: ResolvedProcess, action: NodeModel, run: Resolution) -> ResolvedProcess:
+    """Return a node's process with what extensions make of it: more words after `--ros-args`, other names.
 
     They see a `Node` of Python, whatever the node is written in.
     """
-    node = action.origin if isinstance(action.origin, Node) else _node(program)
+    node = action.origin if isinstance(action.origin, Node) else _node(process)
     arguments: dict[str, Any] = {
         key: f"{_RULES[key]}{value.text}"
-        for key, value in (("name", program.name), ("ns", program.namespace))
+        for key, value in (("name", process.name), ("ns", process.namespace))
         if value is not None
     }
     context = run.engine.context
@@ -47,10 +47,10 @@ def extended(program: Program, action: NodeModel, run: Resolution) -> Program:
         context.extend_locals({"ros_specific_arguments": arguments})
         found += ["".join(sub.perform(context) for sub in normalized(word)) for word in extra]
     return replace(
-        program,
-        ros_arguments=(*(program.ros_arguments or ()), *found) if found else program.ros_arguments,
-        name=_renamed(program.name, "name", arguments),
-        namespace=_renamed(program.namespace, "ns", arguments),
+        process,
+        ros_arguments=(*(process.ros_arguments or ()), *found) if found else process.ros_arguments,
+        name=_renamed(process.name, "name", arguments),
+        namespace=_renamed(process.namespace, "ns", arguments),
     )
 
 
@@ -68,21 +68,21 @@ def _extensions(at: Span, run: Resolution) -> Iterator[Any]:
         yield extension
 
 
-def _node(program: Program) -> Node:
+def _node(process: ResolvedProcess) -> Node:
     """Return a node of Python for one that is written in another language."""
     node = Node(
-        executable=program.executable,
-        package=program.package,
-        name=None if program.name is None else program.name.text,
-        namespace=None if program.namespace is None else program.namespace.text,
-        exec_name=program.label,
-        arguments=list(program.arguments),
-        ros_arguments=None if program.ros_arguments is None else list(program.ros_arguments),
+        executable=process.executable,
+        package=process.package,
+        name=None if process.name is None else process.name.text,
+        namespace=None if process.namespace is None else process.namespace.text,
+        exec_name=process.label,
+        arguments=list(process.arguments),
+        ros_arguments=None if process.ros_arguments is None else list(process.ros_arguments),
     )
     node._resolved_as(
-        None if program.name is None else program.name.text,
-        None if program.namespace is None else program.namespace.text,
-        [(rule.source.text, rule.target.text) for rule in program.remaps[program.remaps_among_words :]],
+        None if process.name is None else process.name.text,
+        None if process.namespace is None else process.namespace.text,
+        [(rule.source.text, rule.target.text) for rule in process.remaps[process.remaps_among_words :]],
     )
     return node
 
