@@ -39,7 +39,7 @@ _LOOKING: Final = (
     "witness/harmless.py",
 )
 # Files that are alone of their length so far, by their lines; None where there were several.
-_alone: dict[int, tuple[bytes, CodeType] | None] = {}
+_alone: dict[int, Compiled | None] = {}
 _MOST_ALONE: Final = 64
 _WORTH: Final = 1 << 14  # bytes of source: to compile less takes as long as to write a file
 
@@ -114,32 +114,36 @@ def _unpacked(store: Store, key: str) -> dict[str, _Kept]:
 
 @lru_cache(maxsize=256)
 def _compiled(path: str, source: bytes) -> tuple[Compiled, bool]:
-    """Return the code of a file, and whether to compile it again would tell nobody anything."""
-    told: dict[str, bool] = {}
-    code, lasting = _formed(path, source, told)
-    return Compiled(code, source, told), lasting
+    """Return the code of a file, and whether to compile it again would tell nobody anything.
 
-
-def _formed(path: str, source: bytes, told: dict[str, bool]) -> tuple[CodeType, bool]:
-    """Return the code of a file: from that of files that are written alike, which have as many lines.
-
-    What looks tell of those is `told` of it too.
+    It is made from that of a file that is written alike where there is one, which has as many lines.
     """
     lines = source.count(b"\n")
     if lines not in _alone:
         code, lasting = _from_compiler(path, source)
+        compiled = Compiled(code, source, {})
         if len(_alone) >= _MOST_ALONE:
             del _alone[next(iter(_alone))]
         if lasting:
-            _alone[lines] = source, code
-        return code, lasting
+            _alone[lines] = compiled
+        return compiled, lasting
     # Here, because only the second one needs it, and what it imports.
     from orchestra.resolve.python.forms import FORMS  # noqa: PLC0415
+    from orchestra.resolve.python.numbered import TOLD  # noqa: PLC0415
 
     first, _alone[lines] = _alone[lines], None
     if first is not None:
-        FORMS.add(*first)
-    return FORMS.code(path, source, lambda: _from_compiler(path, source), told)
+        FORMS.add(first)
+        TOLD.add(first)
+    alike = FORMS.compiled(path, source)
+    if alike is not None:
+        return alike, True
+    code, lasting = _from_compiler(path, source)
+    made = Compiled(code, source, {})
+    TOLD.add(made)
+    if lasting:
+        FORMS.add(made)
+    return made, lasting
 
 
 def _from_compiler(path: str, source: bytes) -> tuple[CodeType, bool]:

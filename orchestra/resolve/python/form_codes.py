@@ -1,4 +1,4 @@
-"""The code of a text in which marks stand for literals, as what makes the codes of texts with other literals."""
+"""The code of a text, as what makes the codes of texts with other literals: by another one that is alike."""
 
 from __future__ import annotations
 
@@ -9,14 +9,12 @@ from typing import TYPE_CHECKING, Any, Final
 from orchestra.resolve.python.form_slots import Name
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterator, Sequence
+    from collections.abc import Collection, Sequence
 
     from orchestra.resolve.python.line_tables import LineTable
 
-MARK: Final = "qzMarkOfAForm"
-_NUMBER: Final = 731_935_000_000
-_DIGITS: Final = "731935"
 _MORE_ARGUMENTS: Final = (0x04, 0x08)  # flags of codes that take any arguments, and any keywords
+_VALUE, _FIXED, _CODE, _SERIES = "value", "fixed", "code", "series"
 _ALIKE: Final = (
     *("co_name", "co_qualname", "co_firstlineno", "co_flags", "co_stacksize", "co_nlocals"),
     *("co_argcount", "co_posonlyargcount", "co_kwonlyargcount", "co_names", "co_cellvars"),
@@ -24,66 +22,60 @@ _ALIKE: Final = (
 )
 
 
-class Marks:
-    """What stands for literals, by its number, in a text in which it is not: it is as long as none of them."""
+class Classes:
+    """The values that stand in the slots of two texts, by their numbers: what differs in the codes of these."""
 
-    def __init__(self, values: Sequence[object]) -> None:
-        self.values: list[Any] = [_mark(value, number) for number, value in enumerate(values)]
-        self.seen: set[int] = set()
-        self._numbers = {
-            mark: number for number, mark in enumerate(self.values) if not isinstance(mark, Name)
-        }
-        self._names = {str(mark): number for number, mark in enumerate(self.values) if isinstance(mark, Name)}
-        self._own = values
+    def __init__(self, own: Sequence[Any], others: Sequence[Any]) -> None:
+        self.count = len(own)
+        self._numbers = {key: number for number, key in enumerate(own)}
+        self._others = others
+        self._seen: set[int] = set()
 
-    def variables(self, marked: CodeType, code: CodeType) -> list[tuple[int, int]]:
-        """Return which variables of a code are marks, and which ones.
+    def check(self) -> None:
+        """Raise `ValueError` where a value has become no constant and no variable."""
+        if len(self._seen) != self.count:
+            raise ValueError("a literal has become no constant")
 
-        Raises `ValueError` where others are not those of the code without marks, or a mark is one of two codes.
+    def variables(self, own: CodeType, other: CodeType) -> list[tuple[int, int]]:
+        """Return which variables of a code are values, and which ones.
+
+        Raises `ValueError` where others differ, or a value is a variable of two codes.
         """
-        found = [
-            (index, self._names[name]) for index, name in enumerate(marked.co_varnames) if name in self._names
-        ]
-        names = list(marked.co_varnames)
-        for index, number in found:
-            names[index] = str(self._own[number])
-        if tuple(names) != code.co_varnames or not self.seen.isdisjoint(number for _, number in found):
-            raise ValueError("a name has become another variable")
-        self.seen.update(number for _, number in found)
+        found = []
+        for index, names in enumerate(zip(own.co_varnames, other.co_varnames, strict=True)):
+            number = self._number((Name, names[0]), (Name, names[1]))
+            if number is not None:
+                found.append((index, number))
+            elif names[0] != names[1]:
+                raise ValueError("a name has become another variable")
+        numbers = {number for _, number in found}
+        if not self._seen.isdisjoint(numbers):
+            raise ValueError("a name is a variable of two codes")
+        self._seen |= numbers
         return found
 
-    def number(self, constant: object) -> int | None:
-        """Return the number of a mark, None for another constant. Raises `ValueError` for what was made of one."""
-        kind = type(constant)
-        if kind in (str, int, float):
-            number = self._numbers.get(constant)
-            if number is not None:
-                self.seen.add(number)
-                return number
-            if kind is str and MARK not in constant:  # type: ignore[operator] # it is a text
-                return None
-        if may_be_marked(repr(constant)):
-            raise ValueError(constant)
-        return None
+    def number(self, own: object, other: object) -> int | None:
+        """Return the number of a constant that is a value, None for one that both codes have.
+
+        Raises `ValueError` for what differs otherwise.
+        """
+        number = self._number(_key(own), _key(other))
+        if number is None:
+            if type(own) is not type(other) or repr(own) != repr(other):
+                raise ValueError(own)
+            return None
+        self._seen.add(number)
+        return number
+
+    def _number(self, own: Any, other: Any) -> int | None:
+        number = self._numbers.get(own)
+        if number is not None and self._others[number] != other:
+            raise ValueError(own)
+        return number
 
 
-def _mark(value: object, number: int) -> Any:
-    if isinstance(value, Name):
-        end = f"{_DIGITS}{number:06}"
-        before = value.rstrip("0123456789")
-        return Name(before + (end if len(before + end) != len(value) else f"{end}0"))
-    if isinstance(value, str):
-        mark = f"{MARK}{number}"
-        return mark if len(mark) != len(value) else f"{mark}_"
-    marked = _NUMBER + number
-    if isinstance(value, float):
-        return marked + 0.5 if len(f"{marked}.5") != len(repr(value)) else marked + 0.25
-    return marked if len(str(marked)) != len(str(value)) else 10 * marked
-
-
-def may_be_marked(text: str) -> bool:
-    """Return whether a text has in it what marks are told by."""
-    return MARK in text or _DIGITS in text
+def _key(constant: Any) -> Any:
+    return constant if type(constant) is str else (type(constant), constant)
 
 
 class Columns:
@@ -92,15 +84,12 @@ class Columns:
     def __init__(self, parts: Sequence[str], places: Collection[int]) -> None:
         """Take the places of literals in a text that was split."""
         self._before: dict[int, list[tuple[int, int]]] = {}
-        self._widths: list[int] = []
         self._begin: list[bool] = []
-        self.to_marks: list[int] = []
         line, column = 1, 0
         for index, part in enumerate(parts):
             if index & 1 and index // 2 in places:
                 self._begin.append(line not in self._before)
-                self._widths.append(len(part))
-                self._before.setdefault(line, []).append((column, len(self._widths)))
+                self._before.setdefault(line, []).append((column, len(self._begin)))
             lines = part.count("\n")
             line += lines
             column = len(part) - part.rfind("\n") - 1 if lines else column + len(part)
@@ -114,68 +103,71 @@ class Columns:
             found = number
         return found
 
-    def shifts(self, literals: Sequence[str]) -> list[int] | None:
-        """Return by the numbers of literals how far what follows moves with others in their place; None where not."""
-        widths = list(map(len, literals))
-        if widths == self._widths:
+    def shifts(self, widths: Sequence[int], own: Sequence[int]) -> list[int] | None:
+        """Return by the numbers of literals how far what follows moves with other widths; None where not."""
+        if widths == own:
             return None
         found, before = [0], 0
-        for moved, begins in zip(map(sub, widths, self._widths), self._begin, strict=True):
+        for moved, begins in zip(map(sub, widths, own), self._begin, strict=True):
             before = moved if begins else before + moved
             found.append(before)
         return found
 
 
 class CodeForm:
-    """A code whose constants are marks, or hold some: others are put in their place.
+    """A code with some of its constants and variables numbered: others are put in their place.
 
-    What constants are made of is numbered: the values of marks, then what is fixed, then codes, then what holds some of
-    those.
+    What constants are made of is numbered: the values that differ, then what is fixed, then codes, then what holds
+    some of those.
     """
 
-    def __init__(self, code: CodeType, marked: CodeType, marks: Marks, columns: Columns) -> None:
-        """Take a code apart, by that of its text with marks. Raises `ValueError` where a mark is part of a constant."""
-        if any(getattr(code, name) != getattr(marked, name) for name in _ALIKE):
-            raise ValueError("a mark has become more than a constant")
+    def __init__(self, code: CodeType, other: CodeType, classes: Classes, columns: Columns) -> None:
+        """Take a code apart, by another one. Raises `ValueError` where they differ in more than the values of slots."""
+        if any(getattr(code, name) != getattr(other, name) for name in _ALIKE):
+            raise ValueError("a literal has become more than a constant")
         self._code = code
-        self._marked = marked
         self._columns = columns
         self._table: LineTable | None = None
-        self._variables = marks.variables(marked, code)
-        constants = marked.co_consts
-        self._fixed = [item for constant in constants for item in _fixed(constant, marks)]
-        pairs = zip(code.co_consts, constants, strict=True)
-        self._codes = [
-            CodeForm(own, item, marks, columns) for own, item in pairs if isinstance(item, CodeType)
-        ]
-        self._series: list[list[int]] = []
-        first = len(marks.values)
-        codes = first + len(self._fixed)
-        self._behind = codes + len(self._codes)
-        numbers = iter(range(first, codes)), iter(range(codes, self._behind))
-        self._order = [self._number(item, marks, *numbers) for item in constants]
+        self._variables = classes.variables(code, other)
+        self._fixed: list[Any] = []
+        self._codes: list[CodeForm] = []
+        self._series: list[list[Any]] = []
+        places = [self._place(*pair, classes) for pair in zip(code.co_consts, other.co_consts, strict=True)]
+        fixed = classes.count
+        codes = fixed + len(self._fixed)
+        self._begins = {_VALUE: 0, _FIXED: fixed, _CODE: codes, _SERIES: codes + len(self._codes)}
+        self._series = [list(map(self._number, held)) for held in self._series]
+        self._order = list(map(self._number, places))
 
-    def _number(self, constant: object, marks: Marks, fixed: Iterator[int], codes: Iterator[int]) -> int:
-        if isinstance(constant, CodeType):
-            return next(codes)
-        if not isinstance(constant, tuple):  # the order of a set depends on what is in it
-            number = marks.number(constant)
-            return next(fixed) if number is None else number
-        held = [self._number(item, marks, fixed, codes) for item in constant]
-        self._series.append(held)
-        return self._behind + len(self._series) - 1
+    def _place(self, own: Any, other: Any, classes: Classes) -> tuple[str, int]:
+        """Return among what a constant is numbered, and its number there."""
+        if isinstance(own, CodeType):
+            self._codes.append(CodeForm(own, other, classes, self._columns))
+            return _CODE, len(self._codes) - 1
+        if isinstance(own, frozenset):
+            raise ValueError("the order of a set depends on what is in it")  # noqa: TRY004 - no mistake of a caller
+        if isinstance(own, tuple):
+            held = [self._place(*pair, classes) for pair in zip(own, other, strict=True)]
+            if any(among != _FIXED for among, _ in held):
+                self._series.append(held)
+                return _SERIES, len(self._series) - 1
+        number = None if isinstance(own, tuple) else classes.number(own, other)
+        if number is not None:
+            return _VALUE, number
+        self._fixed.append(own)
+        return _FIXED, len(self._fixed) - 1
+
+    def _number(self, place: tuple[str, int]) -> int:
+        return self._begins[place[0]] + place[1]
 
     @property
     def fixed(self) -> set[Any]:
-        """The texts and numbers among the constants that are no marks, a number with its type."""
-        own = {item if type(item) is str else (type(item), item) for item in self._fixed}
+        """The texts and numbers among the constants that are no values, a number with its type."""
+        own = set(map(_key, self._fixed))
         return own.union(*(form.fixed for form in self._codes))
 
     def made(self, path: str, values: list[Any], shifts: list[int] | None) -> CodeType:
-        """Return the code for other values, at a path; `shifts` are those of columns, by their numbers.
-
-        Raises `ValueError` where the compiler's way to write positions is not known.
-        """
+        """Return the code for other values, at a path; `shifts` are those of columns, by their numbers."""
         known = values + self._fixed
         known += [form.made(path, values, shifts) for form in self._codes]
         for held in self._series:
@@ -198,20 +190,9 @@ class CodeForm:
             # Here, because literals are as long as those before in many trees.
             from orchestra.resolve.python.line_tables import LineTable  # noqa: PLC0415
 
-            code, columns = self._code, self._columns
-            table = LineTable(code.co_linetable, code.co_firstlineno, columns.number)
-            if table.moved(columns.to_marks) != self._marked.co_linetable:
-                raise ValueError("positions are written in another way")
-            self._table = table
+            code = self._code
+            self._table = LineTable(code.co_linetable, code.co_firstlineno, self._columns.number)
         return self._table.moved(shifts)
-
-
-def _fixed(constant: object, marks: Marks) -> Iterator[Any]:
-    if isinstance(constant, tuple):
-        for item in constant:
-            yield from _fixed(item, marks)
-    elif not isinstance(constant, CodeType) and marks.number(constant) is None:
-        yield constant
 
 
 def variables(code: CodeType) -> set[str]:

@@ -13,7 +13,7 @@ from keyword import iskeyword
 from typing import TYPE_CHECKING, Any, Final
 
 if TYPE_CHECKING:
-    from collections.abc import Collection, Iterable, Iterator, Sequence
+    from collections.abc import Collection, Iterator, Sequence
 
 # A comment, a text, a number, or that at the end of a name. Texts of one line without backslashes come first.
 _LEXEME: Final = re.compile(
@@ -31,7 +31,7 @@ _TOKEN: Final = re.compile(
 _NAME: Final = re.compile(r"[A-Za-z_]\w*\Z", re.ASCII)
 _WORD: Final = re.compile(r"[A-Za-z_]\w*", re.ASCII)
 _TEXT: Final = re.compile(r"""'[^'\\\n]*'|"[^"\\\n]*\"""")
-_QUOTES: Final = "'\""
+QUOTES: Final = "'\""
 _BEFORE: Final = frozenset("([{,=:")
 _BEHIND: Final = frozenset(")]},:")
 _OPENING: Final = frozenset("([{")
@@ -58,7 +58,7 @@ def is_plain(parts: Sequence[str]) -> bool:
     before = ""
     for index in range(0, len(parts), 2):
         literal = parts[index + 1][0] if index + 1 < len(parts) else "\n"
-        if literal in _QUOTES and _ENDS_WITH_WORD.search(parts[index]):
+        if literal in QUOTES and _ENDS_WITH_WORD.search(parts[index]):
             return False  # f'{name}', b'bytes'
         signs = _TOKEN.findall(parts[index])
         if literal.isdigit() and signs and signs[-1] == "-" and (signs[-2:-1] or [before])[0] in _BEFORE:
@@ -81,9 +81,9 @@ def key_of(literal: str) -> Any:
 
     None where it is not plain: the same value may be written in several ways.
     """
-    if literal[0] in _QUOTES:
+    if literal[0] in QUOTES:
         return literal[1:-1] if _TEXT.fullmatch(literal) else None
-    return _number(literal) if literal[0].isdigit() else (Name, literal)
+    return number_of(literal) if literal[0].isdigit() else (Name, literal)
 
 
 class Name(str):
@@ -92,27 +92,13 @@ class Name(str):
     __slots__ = ()
 
 
-def _number(literal: str) -> Any:
+def number_of(literal: str) -> Any:
+    """Return the value of a number with its type; None where it is written in another way than it is shown."""
     try:
         number = float(literal) if "." in literal else int(literal)
     except ValueError:
         return None
     return (type(number), number) if repr(number) == literal else None
-
-
-def classes(literals: Iterable[str], *, are_plain: bool) -> tuple[list[int], list[Any]] | None:
-    """Return for each literal the number of its value among those that differ, and the values, as `key_of` has them.
-
-    None where one is not plain; `are_plain` says that all texts among them are.
-    """
-    known: dict[str, int] = dict.fromkeys(literals, 0)
-    numbers: dict[Any, int] = {}
-    for literal in known:
-        key = literal[1:-1] if are_plain and literal[0] in _QUOTES else key_of(literal)
-        if key is None:
-            return None
-        known[literal] = numbers.setdefault(key, len(numbers))
-    return [known[literal] for literal in literals], list(numbers)
 
 
 def slots(parts: Sequence[str], variables: Collection[str]) -> tuple[dict[int, str], set[str]]:
@@ -194,13 +180,13 @@ def _decides_nothing(literal: str, before: str, behind: str, around: Sequence[tu
     if sign == "{" and ":" not in (before, behind):
         return False  # of a set, whose order depends on what is in it
     named = _is_named(outside)
-    if sign == "[" and (named or outside in _CLOSING or outside[-1] in _QUOTES):
-        return named and literal[0] in _QUOTES  # a subscript, else of what the compiler may look into
+    if sign == "[" and (named or outside in _CLOSING or outside[-1] in QUOTES):
+        return named and literal[0] in QUOTES  # a subscript, else of what the compiler may look into
     return named or not (before == "(" and behind == ")")  # else in brackets alone
 
 
 def _is_named(outside: str) -> bool:
     """Return whether a bracket behind a token calls or asks what has a name."""
     return (
-        (outside[-1].isalnum() or outside[-1] == "_") and outside[0] not in _QUOTES and not iskeyword(outside)
+        (outside[-1].isalnum() or outside[-1] == "_") and outside[0] not in QUOTES and not iskeyword(outside)
     )

@@ -16,6 +16,7 @@ from orchestra.errors import Problems, Severity
 from orchestra.pipeline import collect, inputs_from
 from orchestra.plan.codec import dumps
 from orchestra.resolve.python import codes as module
+from orchestra.resolve.python import forms, numbered
 from orchestra.resolve.python.codes import Codes
 from orchestra.witness.digest import digest_of
 
@@ -278,6 +279,7 @@ def test_what_looks_have_told_is_kept_with_the_code(tree: Tree, monkeypatch: pyt
     assert tree.plan() == first
     assert not looked
     monkeypatch.setattr(module, "_LOOKING", ("compat/place.py",))
+    monkeypatch.setattr(numbered, "TOLD", numbered.Told())
     assert tree.plan() == first
     assert set(looked) >= {*_SLIPS, "harmless"}
 
@@ -301,7 +303,8 @@ def test_files_that_are_alike_are_planned_as_if_each_were_compiled(
     assert formed.count('"severity": "warning"') == _FILES
     assert len(asked) < _FILES
     module._compiled.cache_clear()
-    monkeypatch.setattr(module, "_formed", lambda path, source, _told: from_compiler(path, source))
+    monkeypatch.setattr(forms.FORMS, "compiled", lambda _path, _source: None)
+    monkeypatch.setattr(numbered, "TOLD", numbered.Told())
     assert tree.plan(keeping=False) == formed
 
 

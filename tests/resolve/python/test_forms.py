@@ -10,8 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from orchestra.compat.looks import LOOKS
-from orchestra.resolve.python import forms as module
+from orchestra.compat.looks import LOOKS, Compiled
 from orchestra.resolve.python.form_codes import is_same
 from orchestra.resolve.python.form_slots import is_plain, split
 from orchestra.resolve.python.forms import Forms
@@ -20,7 +19,6 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
     from types import CodeType
 
-    from _pytest.monkeypatch import MonkeyPatch
 
 _LAUNCH_FILE = """\
 # Robot @1@
@@ -64,22 +62,20 @@ class Files:
 
     def code(self, text: str) -> CodeType:
         """Return the code of a file, which is as the compiler's."""
-
-        def compiled() -> tuple[CodeType, bool]:
+        source = text.encode()
+        own = compile(text, "a.launch.py", "exec", dont_inherit=True)
+        made = self.forms.compiled("a.launch.py", source)
+        if made is None:
             self.compiled += 1
-            return compile(text, "a.launch.py", "exec", dont_inherit=True), True
-
-        told: dict[str, bool] = {}
-        code, lasting = self.forms.code("a.launch.py", text.encode(), compiled, told)
-        assert lasting
-        assert is_same(code, compile(text, "a.launch.py", "exec", dont_inherit=True)), text
-        assert told == {look: LOOKS[look](code, text.encode()) for look in told}
-        return code
+            self.forms.add(Compiled(own, source, _told(own, source)))
+            return own
+        assert is_same(made.code, own), text
+        assert made.told == {look: told for look, told in _told(own, source).items() if look in made.told}
+        return made.code
 
 
-@pytest.fixture(autouse=True)
-def _learned_at_once(monkeypatch: MonkeyPatch) -> None:
-    monkeypatch.setattr(module, "_SIGHTS", 0)
+def _told(code: CodeType, source: bytes) -> dict[str, bool]:
+    return {name: look(code, source) for name, look in LOOKS.items()}
 
 
 def _filled(text: str, literals: list[str]) -> str:
@@ -104,7 +100,7 @@ def test_files_that_are_alike_are_compiled_no_more() -> None:
         known.code(
             _filled(_LAUNCH_FILE, [f"'{number}'", "8", "'b'", "'c'", f"{number}.5", "'d'", f'"{number}e"'])
         )
-    assert known.compiled <= 3
+    assert known.compiled <= 4
 
 
 _LITERAL = "call({})\n".format(", ".join(f"'{letter}'" for letter in "abcdefghijkl"))
@@ -243,18 +239,33 @@ def test_other_texts_than_ascii_and_other_lines_are_left_to_the_compiler() -> No
     assert known.compiled == len(texts)
 
 
-def test_what_the_compiler_tells_of_is_no_form() -> None:
-    forms, compiled = Forms(), 0
-    for number in range(3):
-        text = f"{_LITERAL}x = [{number}0, '{number}']\n"
+def test_a_file_that_differs_elsewhere_too_makes_the_form_wider() -> None:
+    known, text = Files(), f"{_LITERAL}x = ['@1@', '@2@', '@3@', @4@]\n"
+    for words in (["o", "p", "q", "1"], ["o", "p2", "q", "1"], ["o", "p", "q3", "1"], ["o", "p", "q", "22"]):
+        known.code(_filled(text, words))
+    assert known.compiled == 4
+    known.code(_filled(text, ["o", "p5", "q55", "555"]))
+    assert known.compiled == 4
+    known.code(_filled(text, ["o5", "p", "q", "1"]))
+    assert known.compiled == 5
 
-        def told(text: str = text) -> tuple[CodeType, bool]:
-            nonlocal compiled
-            compiled += 1
-            return compile(text, "a", "exec"), False
 
-        assert forms.code("a", text.encode(), told, {})[1] is False
-    assert compiled == 3
+def test_positions_move_only_where_the_compiler_has_shown_how() -> None:
+    known, text = Files(), f"{_LITERAL}x = ['@1@', y]\n"
+    for word in ("p1", "p2", "p3"):
+        known.code(_filled(text, [word]))
+    assert known.compiled == 2
+    for word in ("p22", "p333", "p4444"):
+        known.code(_filled(text, [word]))
+    assert known.compiled == 3
+
+
+def test_what_looks_tell_is_so_of_files_that_are_alike_but_for_numbers() -> None:
+    known = Files()
+    text = f"{_LITERAL}def f():\n    n_@1@ = Node(name='@2@')\n    return [@3@]\n"
+    for words in (["1", "n_1", "2.5"], ["7", "n_7", "8.25"], ["9", "n_9", "3.75"], ["9", "n_8", "3.75"]):
+        known.code(_filled(text, words))
+    assert known.compiled == 2
 
 
 _CALLS = "".join(f"    call(key_{letter}='@{letter}')\n" for letter in "abcdefghijkl")
